@@ -1,0 +1,201 @@
+"""Opening mesh files: a path becomes a scene that is centred, framed and lit, or one clear sentence.
+
+The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB and glTF. All of their triangles are
+there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). What a file names but
+does not have, such as a texture, is a warning; anything else that is wrong with it is an error.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import sqrt, tan
+from pathlib import Path
+
+import numpy as np
+
+from app.mesh_formats import READERS, LoadedMeshes, MeshFileError, Report
+from app.mesh_process import OpeningCancelledError, read_in_process
+from core.arrays import Floats
+from core.scene import Camera, DirectionalLight, Mesh, Scene
+
+__all__ = [
+    "EXTENSIONS",
+    "LoadedMeshes",
+    "MeshFileError",
+    "OpenedFile",
+    "OpeningCancelledError",
+    "frame_meshes",
+    "load_meshes",
+    "open_mesh",
+    "read_file",
+]
+
+EXTENSIONS = tuple(READERS)
+"""Endings of the files that open, in lower case with their dot."""
+
+VIEWED_FROM = (0.35, 0.4, 1.0)
+"""Direction from the model to the camera: from the front, a little from the right and from above."""
+
+MARGIN = 1.08
+"""How much farther away the camera stands than where the model touches the border of the picture."""
+
+LARGEST = float(np.finfo(np.float32).max)
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedFile:
+    """A scene from a mesh file, and what of the file could not be had."""
+
+    scene: Scene
+    warnings: tuple[str, ...]
+    """One sentence each; empty: everything that the file names is there."""
+
+
+def open_mesh(
+    path: str | Path,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+    size: tuple[int, int] = (512, 512),
+) -> OpenedFile:
+    """Open a mesh file as a scene.
+
+    Parameters
+    ----------
+    path : str or Path
+    progress : callable, optional
+        Called in this thread with how far the work is, from 0 to 1 or ``None``, and what is being done.
+    is_cancelled : callable, optional
+        Asked in this thread many times a second. Where it is given the file is read in a process of its own,
+        so that the work ends at once.
+    size : (width, height)
+        Raster of the scene in pixels.
+
+    Raises
+    ------
+    MeshFileError
+        For every file that cannot be opened; the message is one sentence.
+    OpeningCancelledError
+        If ``is_cancelled()``.
+    """
+    loaded = load_meshes(path, progress, is_cancelled)
+    return OpenedFile(frame_meshes(loaded.meshes, size), loaded.warnings)
+
+
+def load_meshes(
+    path: str | Path,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+) -> LoadedMeshes:
+    """Return the meshes of a file; parameters and errors as ``open_mesh``."""
+    report = progress or ignore_progress
+    report(0.0, "opening")
+    if is_cancelled is None:
+        loaded = read_file(Path(path), report)
+    else:
+        loaded = read_in_process(Path(path), report, is_cancelled)
+        if is_cancelled():
+            raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
+    report(1.0, "done")
+    return loaded
+
+
+def ignore_progress(fraction: float | None, doing: str) -> None:
+    """Take a report of progress that nobody wants."""
+
+
+def read_file(path: Path, report: Report) -> LoadedMeshes:
+    """Read ``path`` with the reader of its extension and check that there is something to draw."""
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        known = ", ".join(EXTENSIONS)
+        raise MeshFileError(
+            f"{path.name} has the extension {path.suffix or '(none)'}; files that open are {known}"
+        )
+    try:
+        if path.is_dir():
+            raise MeshFileError(f"{path.name} is a folder, not a file")
+        if path.exists() and not path.is_file():
+            raise MeshFileError(f"{path.name} is not a file")
+        if path.stat().st_size == 0:
+            raise MeshFileError(f"{path.name} is empty")
+        loaded = reader(path, report)
+        check_meshes(path, loaded.meshes)
+    except MeshFileError:
+        raise
+    except FileNotFoundError as problem:
+        raise MeshFileError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
+    except OSError as problem:
+        raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
+    except MemoryError as problem:
+        raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
+    except (ValueError, OverflowError) as problem:
+        # The checks of the core on the arrays of a mesh.
+        raise MeshFileError(f"{path.name} cannot be used: {problem}") from problem
+    return loaded
+
+
+def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
+    """Raise MeshFileError if no triangle has an area, or a place is beyond what 32-bit floats hold."""
+    has_area = False
+    for mesh in meshes:
+        if np.abs(mesh.positions).max() > LARGEST:
+            raise MeshFileError(f"{path.name} has positions beyond {LARGEST:.3g}, which cannot be drawn")
+        corners = mesh.positions[mesh.triangles]
+        sides = corners[:, 1:] - corners[:, :1]
+        longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
+        sides = sides / np.where(longest > 0, longest, 1)
+        has_area |= bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())
+    if not has_area:
+        raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
+
+
+def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -> Scene:
+    """Return a scene in which a perspective camera sees all of ``meshes``, which stay where they are.
+
+    The camera looks from the front and slightly above at the centre of the bounding box. Near and far leave
+    room to orbit around the model. A strong light comes from above left, a weak one from the right.
+
+    Parameters
+    ----------
+    meshes : tuple of Mesh
+    size : (width, height)
+        Raster in pixels.
+    """
+    points = np.concatenate([world_positions(mesh) for mesh in meshes])
+    low, high = points.min(axis=0), points.max(axis=0)
+    target = low / 2 + high / 2
+    scale = float(np.abs(high - low).max()) or 1.0
+    around = (points - target) / scale
+    radius = sqrt(float((around * around).sum(axis=1).max())) or 1.0
+
+    # The axes of the camera, then the distance at which the outermost point is on the border.
+    toward = np.array(VIEWED_FROM) / np.linalg.norm(VIEWED_FROM)
+    right = np.cross([0.0, 1.0, 0.0], toward)
+    right /= np.linalg.norm(right)
+    up = np.cross(toward, right)
+    field_of_view = Camera(eye=toward, target=np.zeros(3)).field_of_view
+    steep = tan(field_of_view / 2)
+    x, y, z = around @ right, around @ up, around @ toward
+    aspect = size[0] / size[1]
+    distance = MARGIN * float((np.maximum(np.abs(x) / (steep * aspect), np.abs(y) / steep) + z).max())
+    distance = max(distance, 1.1 * radius)
+    camera = Camera(
+        eye=target + toward * (distance * scale),
+        target=target,
+        field_of_view=field_of_view,
+        near=max(0.9 * (distance - radius), 0.02 * distance) * scale,
+        far=(distance + 1.5 * radius) * scale,
+    )
+    lights = (
+        DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),
+        DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.2)),
+    )
+    return Scene(meshes=meshes, camera=camera, lights=lights, size=size)
+
+
+def world_positions(mesh: Mesh) -> Floats:
+    """Return (N, 3) float64 positions of the vertices that triangles of ``mesh`` use, in world space."""
+    used = np.zeros(len(mesh.positions), np.bool_)
+    used[mesh.triangles.ravel()] = True
+    return mesh.positions[used] @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]

@@ -1,0 +1,74 @@
+"""The boundary to trimesh: one call, its errors translated, what it could not find kept."""
+
+import logging
+import warnings
+from pathlib import Path
+from typing import Any
+
+from app.mesh_formats.mtl import beside
+from app.mesh_formats.reading import MeshFileError
+
+
+class MissingFiles:
+    """A resolver for trimesh that finds files beside the mesh file and remembers those it did not find."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.missing: list[str] = []
+
+    def get(self, name: str) -> bytes:
+        """Return the content of the file ``name`` beside the mesh file."""
+        try:
+            return beside(self.path, name).read_bytes()
+        except OSError:
+            self.missing.append(name)
+            raise
+
+    __getitem__ = get
+
+
+def load_with_trimesh(path: Path, kind: str) -> tuple[Any, MissingFiles]:
+    """Load ``path`` as ``kind`` (``stl``, ``glb``, ``gltf``) without any clean-up of its triangles.
+
+    Returns
+    -------
+    scene : trimesh.Scene
+    files : MissingFiles
+
+    Raises
+    ------
+    MeshFileError
+        Whatever trimesh raises; its loaders raise many kinds of exceptions on broken files.
+    OSError
+        If ``path`` cannot be read.
+    """
+    # trimesh takes a quarter of a second to import, which only those wait for who open such a file.
+    import trimesh
+
+    files = MissingFiles(path)
+    resolver: Any = files
+    logging.getLogger("trimesh").setLevel(logging.ERROR)
+    with path.open("rb") as file, warnings.catch_warnings():
+        # numpy.fromstring only warns where a text stops being numbers: half a mesh would pass as the whole.
+        warnings.filterwarnings("error", message="string or file could not be read to its end")
+        try:
+            scene = trimesh.load_scene(file, file_type=kind, resolver=resolver, process=False)
+        except Exception as problem:
+            reason = f"the file {files.missing[0]} is missing" if files.missing else describe(problem)
+            raise MeshFileError(f"{path.name} cannot be read as {kind.upper()}: {reason}") from problem
+    return scene, files
+
+
+def describe(problem: Exception) -> str:
+    """Return what an exception says, on one line; where it says little, what it means."""
+    text = " ".join(str(problem).split())[:200]
+    if isinstance(problem, KeyError):
+        return f"{text} is missing"
+    if isinstance(problem, AssertionError):
+        return text or "its parts do not fit together"
+    if isinstance(problem, MemoryError):
+        return "there is not enough memory"
+    if isinstance(problem, ModuleNotFoundError):
+        # trimesh looks for a package that guesses encodings where a text is none.
+        return "it holds something other than text and numbers"
+    return text or type(problem).__name__

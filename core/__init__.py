@@ -1,0 +1,49 @@
+"""The core of Rasterscope: the rasterization pipeline in pure NumPy, every stage a function with a record.
+
+Notation and conventions, for the whole core (tested in tests/core/test_conventions.py)
+---------------------------------------------------------------------------------------
+* N vertices, T triangles, P primitives (triangles and the pieces that clipping makes of them), F fragments, H x W raster.
+* Vectors are columns, ``p' = D P C^-1 M p``. Right-handed; the camera looks along -z; w > 0 is in front of the eye;
+  NDC is [-1, 1]^3, window depth [0, 1]; angles are radians.
+* The window is y-up: array row 0 is the bottom row; pixel (column i, row j) has its centre at (i + 0.5, j + 0.5).
+* The suffix of a position is its space: object, world, camera, clip, ndc, window; ``homogeneous`` is D clip = (x, y, w).
+* Coverage is decided per edge on corners snapped to 1/256 pixel; a centre on an edge belongs to the triangle that
+  contains the point moved an infinitesimal step right, then up. Attributes and depth come from unsnapped corners.
+* Counter-clockwise is the front. The nearer fragment wins; a tie keeps what is there.
+* Colours are linear in the core, sRGB only for display and in files; alpha is straight in inputs.
+"""
+
+from core.frame import STAGES, Frame
+from core.pipeline import draw_triangles, render
+from core.raster import fill_rule, fills, lines, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
+from core.scene import (
+    Camera,
+    ClipScene,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    Texture,
+)
+from core.settings import Settings
+from core.trace import Trace, trace
+from core.visibility import painters  # noqa: F401
+
+__all__ = [
+    "STAGES",
+    "Camera",
+    "ClipScene",
+    "DirectionalLight",
+    "Frame",
+    "Material",
+    "Mesh",
+    "PointLight",
+    "Scene",
+    "Settings",
+    "Texture",
+    "Trace",
+    "draw_triangles",
+    "render",
+    "trace",
+]

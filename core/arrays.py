@@ -1,0 +1,77 @@
+"""Read-only arrays and the checks that every public function makes on its input."""
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Return a view of ``array`` that cannot be written through."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def checked(
+    name: str,
+    values: ArrayLike,
+    shape: Sequence[int | str],
+    dtype: type[np.generic] = np.float64,
+    *,
+    finite: bool = True,
+) -> NDArray[Any]:
+    """Return ``values`` as a read-only copy of ``dtype``, or say what was wanted and what came.
+
+    Parameters
+    ----------
+    name : str
+        What the values are called in a message.
+    values : array_like
+    shape : sequence of int or str
+        A number must match, a letter (``"T"``) stands for any length.
+    dtype : numpy scalar type
+        Kind of the result; a fraction is refused where integers are wanted.
+    finite : bool
+        Refuse NaN and infinity.
+
+    Raises
+    ------
+    ValueError
+        For the first of: wrong number of axes, wrong shape, wrong type, a value that is not finite.
+    """
+    array = np.asarray(values)
+    wanted = "(" + ", ".join(str(length) for length in shape) + ("," if len(shape) == 1 else "") + ")"
+    if array.ndim != len(shape):
+        raise ValueError(f"{name} must be {wanted}, got {array.shape}")
+    if any(isinstance(n, int) and n != m for n, m in zip(shape, array.shape, strict=True)):
+        raise ValueError(f"{name} must be {wanted}, got {array.shape}")
+    if array.dtype.kind not in "fiub":
+        raise ValueError(f"{name} must be numbers, got {array.dtype}")
+    if array.dtype.kind == "f":
+        bad = ~np.isfinite(array)
+        if finite and bad.any():
+            where = tuple(int(index[0]) for index in np.nonzero(bad))
+            raise ValueError(f"{name} must be finite, got {array[where]} at {where}")
+        if np.issubdtype(dtype, np.integer) and (array != np.floor(array)).any():
+            raise ValueError(f"{name} must be whole numbers, got {array.dtype}")
+    copy = np.array(array, dtype=dtype, order="C")
+    copy.flags.writeable = False
+    return copy
+
+
+def checked_size(name: str, size: Sequence[int], limit: int) -> tuple[int, int]:
+    """Return ``size`` as (width, height), each from 1 to ``limit`` pixels, or raise ValueError."""
+    if len(size) != 2 or any(int(n) != n for n in size):
+        raise ValueError(f"{name} must be two whole numbers (width, height), got {tuple(size)}")
+    width, height = int(size[0]), int(size[1])
+    if not (1 <= width <= limit and 1 <= height <= limit):
+        raise ValueError(f"{name} must be 1 to {limit} pixels each way, got {width}x{height}")
+    return width, height

@@ -1,0 +1,309 @@
+"""The lighting rule (Blinn-Phong), the same wherever it is evaluated.
+
+With unit vectors N (normal), L (to the light), V (to the eye) and H = (L + V) / |L + V|::
+
+    diffuse_light  = ambient + sum over lights of diffuse * max(N.L, 0) * colour
+    specular_light =           sum over lights of specular * max(N.H, 0)^shininess * colour    (where N.L > 0)
+
+The ambient light is white. Everything is linear and not cut off at 1; the display does that. Without
+lights only the ambient term is left: who wants a headlight passes one.
+
+References
+----------
+J. Blinn, Models of light reflection for computer synthesized pictures, 1977.
+B. T. Phong, Illumination for computer generated pictures, 1975.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, read_only
+from core.scene import DirectionalLight, Light, Material
+
+_BLOCK = 16384
+"""Points that are lit at once, so that their numbers stay in the processor's cache."""
+
+Planes = tuple[Floats, Floats, Floats]
+"""x, y and z of F vectors, each (F,), or (1,) where all are the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reflectance:
+    """Materials of F points, a number each; stands wherever a `Material` does."""
+
+    ambient: Floats
+    """(F,) float64."""
+    diffuse: Floats
+    """(F,) float64."""
+    specular: Floats
+    """(F,) float64."""
+    shininess: Floats
+    """(F,) float64."""
+
+    def take(self, index: Integers | slice) -> "Reflectance":
+        """Return the points of ``index``."""
+        return Reflectance(
+            self.ambient[index], self.diffuse[index], self.specular[index], self.shininess[index]
+        )
+
+
+Surface = Material | Reflectance
+
+
+def reflectance(materials: Sequence[Material], owner: Integers) -> Reflectance:
+    """Return the material of every point, ``materials[owner]``, as arrays (F,)."""
+    rows = np.array([(each.ambient, each.diffuse, each.specular, each.shininess) for each in materials])
+    return Reflectance(*rows.T[:, owner])
+
+
+@dataclass(frozen=True, eq=False)
+class Lighting:
+    """Every term of the lighting of F points by L lights, in the order of the lights."""
+
+    normal: Floats
+    """(F, 3) float64 unit N as used, or 0 where there was none."""
+    turned: Flags
+    """(F,) bool, N was turned to the eye."""
+    to_eye: Floats
+    """(F, 3) float64 unit V."""
+    to_light: Floats
+    """(L, F, 3) float64 unit L."""
+    half: Floats
+    """(L, F, 3) float64 unit H."""
+    n_dot_l: Floats
+    """(L, F) float64, with its sign."""
+    n_dot_h: Floats
+    """(L, F) float64, with its sign."""
+    power: Floats
+    """(L, F) float64 max(N.H, 0)^shininess, 0 where N.L <= 0."""
+    diffuse_light: Floats
+    """(L + 1, F, 3) float64 sum so far: row 0 is the ambient term, row k counts the first k lights."""
+    specular_light: Floats
+    """(L + 1, F, 3) float64 sum so far."""
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def light_surface(
+    position: Floats,
+    normal: Floats,
+    eye: Floats,
+    lights: Sequence[Light],
+    material: Surface,
+    two_sided: bool = True,
+) -> tuple[Floats, Floats]:
+    """Light F points by the Blinn-Phong rule.
+
+    Parameters
+    ----------
+    position, normal : (F, 3) float64 arrays
+        World space; normals need not be unit, a zero normal gets the ambient term only.
+    eye : (3,) or (F, 3) float64 array
+        Where the points are seen from, in world space; an orthographic camera sees each from another place.
+    lights : sequence of DirectionalLight or PointLight
+    material : Material or Reflectance
+        One for all points, or one each.
+    two_sided : bool
+        Turn a normal that faces away from the eye.
+
+    Returns
+    -------
+    diffuse_light, specular_light : (F, 3) float64 arrays
+        Linear RGB; ``diffuse_light`` includes the ambient term and multiplies the albedo.
+    """
+    diffuse_light, specular_light = np.empty((2, len(position), 3))
+    for start in range(0, len(position), _BLOCK):
+        part = slice(start, start + _BLOCK)
+        here = material.take(part) if isinstance(material, Reflectance) else material
+        seen_from = eye if eye.ndim == 1 else eye[part]
+        points = _points(position[part], normal[part], seen_from, two_sided)
+        diffuse_sum, specular_sum = diffuse_light[part], specular_light[part]
+        _start_sums(diffuse_sum, specular_sum, here)
+        for light in lights:
+            _add_light(diffuse_sum, specular_sum, _terms(points, light, here), light, here)
+    return diffuse_light, specular_light
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def trace_lighting(
+    position: Floats,
+    normal: Floats,
+    eye: Floats,
+    lights: Sequence[Light],
+    material: Surface,
+    two_sided: bool = True,
+) -> Lighting:
+    """Do what `light_surface` does, and keep every term."""
+    count = len(position)
+    points = _points(position, normal, eye, two_sided)
+    diffuse_light, specular_light = np.empty((2, len(lights) + 1, count, 3))
+    to_light, half = np.empty((2, len(lights), count, 3))
+    n_dot_l, n_dot_h, power = np.empty((3, len(lights), count))
+    _start_sums(diffuse_light[0], specular_light[0], material)
+    for number, light in enumerate(lights):
+        terms = _terms(points, light, material)
+        _store(to_light[number], terms.to_light)
+        _store(half[number], terms.half)
+        n_dot_l[number], n_dot_h[number], power[number] = terms.n_dot_l, terms.n_dot_h, terms.power
+        diffuse_light[number + 1], specular_light[number + 1] = diffuse_light[number], specular_light[number]
+        _add_light(diffuse_light[number + 1], specular_light[number + 1], terms, light, material)
+    unit_normal, to_eye = np.empty((2, count, 3))
+    _store(unit_normal, points.normal)
+    _store(to_eye, points.to_eye)
+    return Lighting(
+        normal=read_only(unit_normal),
+        turned=read_only(points.turned),
+        to_eye=read_only(to_eye),
+        to_light=read_only(to_light),
+        half=read_only(half),
+        n_dot_l=read_only(n_dot_l),
+        n_dot_h=read_only(n_dot_h),
+        power=read_only(power),
+        diffuse_light=read_only(diffuse_light),
+        specular_light=read_only(specular_light),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """F points to be lit; the normals and directions are unit."""
+
+    position: Planes
+    normal: Planes
+    to_eye: Planes
+    turned: Flags
+
+
+@dataclass(frozen=True, eq=False)
+class _Terms:
+    """What one light does to F points."""
+
+    to_light: Planes
+    half: Planes
+    n_dot_l: Floats
+    n_dot_h: Floats
+    power: Floats
+
+
+def _points(position: Floats, normal: Floats, eye: Floats, two_sided: bool) -> _Points:
+    """Make the normals and the directions to the eye unit, and turn normals if wanted."""
+    where = planes(position)
+    seen_from = planes(eye.reshape(-1, 3))
+    to_eye = _unit((seen_from[0] - where[0], seen_from[1] - where[1], seen_from[2] - where[2]))
+    unit_normal = _unit(planes(normal))
+    turned = (dot(unit_normal, to_eye) < 0) & two_sided
+    for component in unit_normal:
+        np.negative(component, out=component, where=turned)
+    return _Points(where, unit_normal, to_eye, turned)
+
+
+def _terms(points: _Points, light: Light, material: Surface) -> _Terms:
+    """Evaluate the cosines of one light and the power of the highlight."""
+    to_light = _unit(_towards(light, points.position))
+    (lx, ly, lz), (vx, vy, vz) = to_light, points.to_eye
+    half = _unit((lx + vx, ly + vy, lz + vz))
+    n_dot_l, n_dot_h = dot(points.normal, to_light), dot(points.normal, half)
+    # float_power rounds alike for one value and for many; power has short cuts for some exponents.
+    power = np.float_power(np.maximum(n_dot_h, 0.0) * (n_dot_l > 0), material.shininess)
+    return _Terms(to_light, half, n_dot_l, n_dot_h, power)
+
+
+def _start_sums(diffuse_sum: Floats, specular_sum: Floats, material: Surface) -> None:
+    """Set the (F, 3) sums to the ambient term and to 0."""
+    diffuse_sum.T[:] = material.ambient
+    specular_sum[:] = 0.0
+
+
+def _add_light(
+    diffuse_sum: Floats, specular_sum: Floats, terms: _Terms, light: Light, material: Surface
+) -> None:
+    """Add one light to the (F, 3) sums."""
+    diffuse = material.diffuse * np.maximum(terms.n_dot_l, 0.0)
+    specular = material.specular * terms.power
+    for channel in range(3):
+        diffuse_sum[:, channel] += diffuse * light.color[channel]
+        specular_sum[:, channel] += specular * light.color[channel]
+
+
+def _towards(light: Light, position: Planes) -> Planes:
+    """Return the vectors from ``position`` to ``light``; one for all where it is directional."""
+    if isinstance(light, DirectionalLight):
+        x, y, z = -light.direction[:, None]
+        return x, y, z
+    x, y, z = position
+    return light.position[0] - x, light.position[1] - y, light.position[2] - z
+
+
+def planes(vectors: Floats) -> Planes:
+    """Return the components of ``vectors`` (F, 3), each contiguous."""
+    x, y, z = np.array(vectors.T, dtype=np.float64, order="C")
+    return x, y, z
+
+
+def _store(vectors: Floats, components: Planes) -> None:
+    for axis, component in enumerate(components):
+        vectors[:, axis] = component
+
+
+def dot(a: Planes, b: Planes) -> Floats:
+    """Return (F,) dot products, summed in the order x, y, z."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _unit(vectors: Planes) -> Planes:
+    """Return vectors of length 1; a zero vector stays zero."""
+    length = np.sqrt(dot(vectors, vectors))
+    length[length == 0] = 1.0
+    x, y, z = vectors
+    return x / length, y / length, z / length
+
+
+Vector = tuple[float, float, float]
+
+
+def blinn_phong(
+    position: Vector,
+    normal: Vector,
+    eye: Vector,
+    lights: Sequence[Light],
+    material: Material,
+    two_sided: bool,
+) -> tuple[list[float], list[float]]:
+    """Return diffuse and specular light of one point (listing of the rule)."""
+    n = _scalar_unit(normal)  #: normal
+    v = _scalar_unit(_scalar_difference(eye, position))  #: to-eye
+    if two_sided and _scalar_dot(n, v) < 0:
+        n = (-n[0], -n[1], -n[2])  #: turn
+    diffuse_light, specular_light = [material.ambient] * 3, [0.0] * 3  #: ambient
+    for light in lights:
+        to_light = _scalar_unit(_scalar_to_light(light, position))  #: to-light
+        h = _scalar_unit((to_light[0] + v[0], to_light[1] + v[1], to_light[2] + v[2]))  #: half
+        n_dot_l, n_dot_h = _scalar_dot(n, to_light), _scalar_dot(n, h)  #: cosines
+        power = max(n_dot_h, 0.0) ** material.shininess if n_dot_l > 0 else 0.0  #: power
+        for channel, color in enumerate(light.color.tolist()):
+            diffuse_light[channel] += material.diffuse * max(n_dot_l, 0.0) * color  #: diffuse
+            specular_light[channel] += material.specular * power * color  #: specular
+    return diffuse_light, specular_light
+
+
+def _scalar_dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _scalar_difference(a: Vector, b: Vector) -> Vector:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def _scalar_unit(vector: Vector) -> Vector:
+    length = sqrt(_scalar_dot(vector, vector)) or 1.0
+    return vector[0] / length, vector[1] / length, vector[2] / length
+
+
+def _scalar_to_light(light: Light, position: Vector) -> Vector:
+    if isinstance(light, DirectionalLight):
+        x, y, z = (-light.direction).tolist()
+        return x, y, z
+    x, y, z = light.position.tolist()
+    return _scalar_difference((x, y, z), position)

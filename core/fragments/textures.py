@@ -1,0 +1,304 @@
+"""Texture look-up: which texels a fragment reads, with which weights, and the colour they give.
+
+A texture of ``width`` columns is ``width`` texel units wide: texel i covers [i, i + 1) and its centre is at
+i + 1/2, where ``u = (i + 1/2) / width``. Row 0 is at v = 0, the bottom.
+
+References
+----------
+M. Zwicker, Computergrafik, lecture "Texture mapping", 2016.
+M. Segal, K. Akeley, The OpenGL Graphics System 4.6, 2022, section 8.14 (wrap modes, nearest, linear).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import floor
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, read_only
+from core.methods import method, table
+from core.scene import Texture
+
+COORDINATE_LIMIT = 2.0**32
+"""Coordinates beyond this are moved here: a whole number of repetitions, and indices fit int64."""
+
+_BLOCK = 16384
+"""Fragments of a picture that are looked up at once, so that their numbers stay in the processor's cache."""
+
+Wrap = Callable[[Integers, int], Integers]
+
+
+@method(
+    "wrap", "repeat", "Repeat", source="OpenGL 4.6, GL_REPEAT", exact_for="textures whose sides fit together"
+)
+def repeat(index: Integers, size: int) -> Integers:
+    """Start again at the other side: ``index`` modulo ``size``, never negative."""
+    return index % size
+
+
+@method(
+    "wrap",
+    "clamp",
+    "Clamp to edge",
+    source="OpenGL 4.6, GL_CLAMP_TO_EDGE",
+    exact_for="coordinates from 0 to 1",
+    breaks_where="the border texel is smeared over everything outside",
+)
+def clamp(index: Integers, size: int) -> Integers:
+    """Go on with the border texel."""
+    return np.clip(index, 0, size - 1)
+
+
+@method(
+    "wrap",
+    "mirror",
+    "Mirrored repeat",
+    source="OpenGL 4.6, GL_MIRRORED_REPEAT",
+    exact_for="all textures: no seam",
+)
+def mirror(index: Integers, size: int) -> Integers:
+    """Run to and fro: every second repetition is reflected."""
+    there = index % (2 * size)
+    back = 2 * size - 1 - there
+    return np.minimum(there, back)
+
+
+def wrapped_index(index: int, size: int, wrap: str) -> int:
+    """Return the texel that ``index`` means (listing of the three wraps)."""
+    if wrap == "repeat":
+        return index % size  #: repeat
+    if wrap == "clamp":
+        return min(max(index, 0), size - 1)  #: clamp
+    there = index % (2 * size)  #: period
+    return there if there < size else 2 * size - 1 - there  #: mirror
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """The texels that F fragments read: R = 2 columns and rows for bilinear, 1 for nearest."""
+
+    columns: tuple[Integers, ...]
+    """R arrays (F,) int64 after wrapping: left, right."""
+    rows: tuple[Integers, ...]
+    """R arrays (F,) int64 after wrapping: bottom, top."""
+    weights: Floats
+    """(2, F) float64: w_u of the right column, w_v of the top row; 0 for nearest."""
+
+
+@method(
+    "texture_filter",
+    "bilinear",
+    "Bilinear",
+    source="Zwicker 2016, Bilinear interpolation",
+    exact_for="textures that are linear between texel centres",
+    breaks_where="a pixel covers many texels: aliasing; much magnified: creases at texel centres",
+)
+def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
+    """Read the four texels whose centres surround each position, weighted by nearness.
+
+    Parameters
+    ----------
+    position : (2, F) float64 array
+        x and y in texel units, finite.
+    size : tuple of int
+        Width and height of the texture.
+    wrap : callable
+        A function of the family ``wrap``.
+    """
+    from_centre = position - 0.5
+    lower = np.floor(from_centre)
+    weights = from_centre - lower
+    column, row = lower.astype(np.int64)
+    columns = (_wrapped(column, size[0], wrap), _wrapped(column + 1, size[0], wrap))
+    rows = (_wrapped(row, size[1], wrap), _wrapped(row + 1, size[1], wrap))
+    return Footprint(columns, rows, weights)
+
+
+@method(
+    "texture_filter",
+    "nearest",
+    "Nearest texel",
+    source="Zwicker 2016, Nearest-neighbor interpolation",
+    exact_for="textures that are constant over each texel",
+    breaks_where="a pixel covers many texels: aliasing; magnified: blocks",
+)
+def nearest(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
+    """Read the texel that contains each position, on a border the right or upper one; see `bilinear`."""
+    column, row = np.floor(position).astype(np.int64)
+    columns, rows = (_wrapped(column, size[0], wrap),), (_wrapped(row, size[1], wrap),)
+    return Footprint(columns, rows, np.zeros_like(position))
+
+
+def _wrapped(index: Integers, size: int, wrap: Wrap) -> Integers:
+    """Wrap ``index``; indices that are all inside need no work, whatever the wrap."""
+    if index.size and index.min() >= 0 and index.max() < size:
+        return index
+    return wrap(index, size)
+
+
+@dataclass(frozen=True, eq=False)
+class TextureSamples:
+    """What F fragments read from a texture; K = 4 texels each for bilinear, 1 for nearest."""
+
+    color: Floats
+    """(F, 4) float64, linear, straight alpha."""
+    position: Floats
+    """(F, 2) float64 in texel units, before wrapping; 0 where a coordinate is NaN."""
+    undefined: Flags
+    """(F, 2) bool, where a coordinate is NaN and was read as 0."""
+    texels: Integers
+    """(F, K, 2) int64 column and row after wrapping: bottom left, bottom right, top left, top right."""
+    texel_colors: Floats
+    """(F, K, 4) float64 colours of ``texels``."""
+    weights: Floats
+    """(F, 2) float64: w_u of the right column, w_v of the top row; 0 for nearest."""
+
+    @property
+    def shares(self) -> Floats:
+        """(F, K) float64 share of each texel in the colour; they add up to 1."""
+        w_u, w_v = self.weights.T
+        products = ((1 - w_u) * (1 - w_v), w_u * (1 - w_v), (1 - w_u) * w_v, w_u * w_v)
+        return np.stack(products[: self.texels.shape[1]], axis=1)
+
+
+def sample_texture(
+    texture: Texture, uv: Floats, texture_filter: str = "bilinear", wrap: str = "repeat"
+) -> TextureSamples:
+    """Look ``uv`` up in ``texture`` and keep everything that took part.
+
+    For the fragments of a whole picture `texture_colors` gives the same colours sooner.
+
+    Parameters
+    ----------
+    texture : Texture
+        (h, w, C) float32, row 0 at v = 0. One channel reads as grey; without alpha, alpha is 1.
+    uv : (F, 2) float64 array
+        Texture coordinates: (0, 0) is the bottom left corner, (1, 1) the top right one.
+    texture_filter, wrap : str
+        Names of methods of these families.
+
+    Raises
+    ------
+    ValueError
+        If ``uv`` is not (F, 2), or a name is not in the table.
+
+    Notes
+    -----
+    As in OpenGL the texel *indices* are wrapped, not the coordinates: with ``repeat`` the bilinear filter
+    mixes the last with the first texel at the seam, and nearest at u = 1 reads the first texel. NaN reads
+    as 0, a coordinate beyond ``COORDINATE_LIMIT`` as the limit.
+    """
+    position, undefined = _position(_checked_uv(uv), texture)
+    footprint = _footprint(position, texture, texture_filter, wrap)
+    color = np.empty((len(uv), 4))
+    _mix(texture, footprint, color)
+    channels = texture.pixels.shape[2]
+    texels = np.stack([np.stack(pair, axis=1) for pair in _pairs(footprint)], axis=1)
+    texel_colors = np.empty((*texels.shape[:2], 4))
+    texel_colors[..., :channels] = texture.pixels[texels[..., 1], texels[..., 0]]
+    _fill_missing_channels(texel_colors, channels)
+    return TextureSamples(
+        read_only(color),
+        read_only(position.T),
+        read_only(undefined.T),
+        read_only(texels),
+        read_only(texel_colors),
+        read_only(footprint.weights.T),
+    )
+
+
+def texture_colors(
+    texture: Texture, uv: Floats, texture_filter: str = "bilinear", wrap: str = "repeat"
+) -> Floats:
+    """Return the (F, 4) float64 colours of `sample_texture`, bit for bit, without the record."""
+    uv = _checked_uv(uv)
+    color = np.empty((len(uv), 4))
+    for start in range(0, len(uv), _BLOCK):
+        part = slice(start, start + _BLOCK)
+        position, _ = _position(uv[part], texture)
+        _mix(texture, _footprint(position, texture, texture_filter, wrap), color[part])
+    return color
+
+
+def _checked_uv(uv: Floats) -> Floats:
+    uv = np.asarray(uv, dtype=np.float64)
+    if uv.ndim != 2 or uv.shape[1] != 2:
+        raise ValueError(f"uv must be (F, 2), got {uv.shape}")
+    return uv
+
+
+def _position(uv: Floats, texture: Texture) -> tuple[Floats, Flags]:
+    """Return the (2, F) finite texel units of ``uv``, and where it was NaN."""
+    height, width, _ = texture.pixels.shape
+    coordinates = uv.T.copy()
+    undefined = np.isnan(coordinates)
+    coordinates[undefined] = 0.0
+    np.clip(coordinates, -COORDINATE_LIMIT, COORDINATE_LIMIT, out=coordinates)
+    coordinates *= np.array([[width], [height]])
+    return coordinates, undefined
+
+
+def _footprint(position: Floats, texture: Texture, texture_filter: str, wrap: str) -> Footprint:
+    height, width, _ = texture.pixels.shape
+    footprint: Footprint = table.get("texture_filter", texture_filter).function(
+        position, (width, height), table.get("wrap", wrap).function
+    )
+    return footprint
+
+
+def _mix(texture: Texture, footprint: Footprint, color: Floats) -> None:
+    """Write the weighted mean of the texels of ``footprint`` to ``color`` (F, 4)."""
+    height, width, channels = texture.pixels.shape
+    texels = texture.pixels.reshape(height * width, channels)
+    read = [texels.take(row * width + column, axis=0) for column, row in _pairs(footprint)]
+    right, top = footprint.weights
+    left, bottom = 1 - right, 1 - top
+    for channel in range(channels):
+        values = [texel[:, channel].astype(np.float64) for texel in read]
+        if len(values) == 1:
+            color[:, channel] = values[0]
+        else:
+            bottom_color = values[0] * left + values[1] * right
+            top_color = values[2] * left + values[3] * right
+            color[:, channel] = bottom_color * bottom + top_color * top
+    _fill_missing_channels(color, channels)
+
+
+def _pairs(footprint: Footprint) -> list[tuple[Integers, Integers]]:
+    """Return column and row of the texels: bottom left, bottom right, top left, top right."""
+    return [(column, row) for row in footprint.rows for column in footprint.columns]
+
+
+def _fill_missing_channels(color: Floats, channels: int) -> None:
+    """Complete ``color`` (..., 4) of which the first 1, 3 or 4 channels are set: grey, then alpha 1."""
+    if channels == 1:
+        color[..., 1] = color[..., 2] = color[..., 0]
+    if channels < 4:
+        color[..., 3] = 1.0
+
+
+def nearest_color(
+    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the texel of ``pixels[row][column]`` at (u, v) (listing of nearest)."""
+    x, y = u * len(pixels[0]), v * len(pixels)  #: position
+    column = wrapped_index(floor(x), len(pixels[0]), wrap)  #: column
+    row = wrapped_index(floor(y), len(pixels), wrap)  #: row
+    return tuple(pixels[row][column])  #: color
+
+
+def bilinear_color(
+    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the mean of the four texels of ``pixels[row][column]`` around (u, v) (listing of bilinear)."""
+    width, height = len(pixels[0]), len(pixels)
+    x, y = u * width - 0.5, v * height - 0.5  #: position
+    w_u, w_v = x - floor(x), y - floor(y)  #: weights
+    left, right = wrapped_index(floor(x), width, wrap), wrapped_index(floor(x) + 1, width, wrap)  #: columns
+    bottom, top = wrapped_index(floor(y), height, wrap), wrapped_index(floor(y) + 1, height, wrap)  #: rows
+    color = []
+    for channel in range(len(pixels[0][0])):
+        c_b = pixels[bottom][left][channel] * (1 - w_u) + pixels[bottom][right][channel] * w_u  #: bottom
+        c_t = pixels[top][left][channel] * (1 - w_u) + pixels[top][right][channel] * w_u  #: top
+        color.append(c_b * (1 - w_v) + c_t * w_v)  #: color
+    return tuple(color)

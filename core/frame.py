@@ -1,0 +1,49 @@
+"""The stages by name, and what drawing a scene returns."""
+
+from dataclasses import dataclass, field
+
+from core.arrays import Integers, Singles
+
+STAGES = (
+    "transform",
+    "cull",
+    "clip",
+    "edges",
+    "bin",
+    "raster",
+    "interpolate",
+    "shade",
+    "depth",
+    "blend",
+    "resolve",
+)
+"""Names of the pipeline's stages in order."""
+
+
+@dataclass
+class StageCount:
+    """What one stage took in, gave out, and how long it took."""
+
+    incoming: int = 0
+    outgoing: int = 0
+    seconds: float = 0.0
+    note: str = ""
+    """Key of why the stage was inserted or skipped, else empty."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """All buffers of a picture; row 0 is the bottom row."""
+
+    color: Singles
+    """(H, W, 4) float32, linear, straight alpha."""
+    depth: Singles
+    """(H, W) float32, as the depth method stores it."""
+    primitive: Integers
+    """(H, W) int32, number of the triangle seen, -1 for none."""
+    attributes: Singles
+    """(H, W, K) float32, interpolated values of the triangle seen, 0 where there is none."""
+    cover_count: Integers
+    """(H, W) int32, covered fragments at every pixel, whether seen or not."""
+    statistics: dict[str, StageCount] = field(default_factory=dict)
+    """Counts per stage: triangles up to ``edges``, pixels from ``bin`` on."""

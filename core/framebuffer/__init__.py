@@ -1,0 +1,1 @@
+"""Framebuffer: fragments meet the pixels that are there, and the frame becomes display bytes."""

@@ -1,0 +1,82 @@
+"""Blending: what a fragment that passed the depth test does to the colour that is there.
+
+The rules are OpenGL's: opaque is drawing without blending, over is
+``glBlendFuncSeparate(SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ONE, ONE_MINUS_SRC_ALPHA)``.
+
+So a *fragment* has straight alpha: its colour is not multiplied by its alpha. The *buffer* that "over"
+leaves is premultiplied: on a transparent black background a half-transparent white fragment gives
+(0.5, 0.5, 0.5, 0.5). The background is taken as it is, that is as premultiplied; if it is opaque, the frame
+stays opaque and the two meanings are one. "opaque" stores the four numbers of the fragment, alpha among
+them, and weighs none by it.
+
+References
+----------
+T. Porter, T. Duff, Compositing digital images, 1984.
+F. Pellacini, Computer Graphics, lecture "Graphics pipeline", "framebuffer processing".
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.arrays import Floats, Singles
+from core.methods import method
+
+
+@method(
+    "blend",
+    "opaque",
+    "Opaque",
+    source="OpenGL 4.6 without GL_BLEND",
+    exact_for="opaque surfaces",
+    breaks_where="alpha below 1: it is stored, and hides what is behind as if it were 1",
+)
+def opaque(source: Floats, destination: Singles) -> Singles:
+    """Return ``source`` as float32; what was there is gone. Arguments as in `over`."""
+    del destination
+    return source.astype(np.float32)
+
+
+@method(
+    "blend",
+    "over",
+    "Over",
+    source="Porter and Duff 1984; Pellacini, framebuffer blending",
+    exact_for="surfaces drawn from back to front",
+    breaks_where="surfaces drawn in another order, or that cross each other",
+)
+def over(source: Floats, destination: Singles) -> Singles:
+    """Lay fragments over the colours of their pixels.
+
+    Parameters
+    ----------
+    source : (F, 4) float64 array
+        Linear RGB and straight alpha of the fragments; not more than one fragment of a pixel.
+    destination : (F, 4) float32 array
+        What their pixels hold: premultiplied RGB and alpha.
+
+    Returns
+    -------
+    (F, 4) float32 array
+        ``source * a + destination * (1 - a)`` for RGB and ``a + destination * (1 - a)`` for alpha, computed
+        in float64 and rounded once.
+
+    Notes
+    -----
+    Alpha 1 gives the source and alpha 0 leaves the destination as it is, exactly, for finite colours.
+    """
+    result = np.empty(destination.shape, np.float32)
+    alpha = source[:, 3]
+    rest = 1 - alpha
+    for channel in range(3):
+        result[:, channel] = source[:, channel] * alpha + destination[:, channel] * rest
+    result[:, 3] = alpha + destination[:, 3] * rest
+    return result
+
+
+def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel after one fragment (listing of `over`)."""
+    *color, alpha = source
+    result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]  #: color
+    result.append(alpha + destination[3] * (1 - alpha))  #: alpha
+    return [np.float32(value) for value in result]  #: store

@@ -1,0 +1,1 @@
+"""Vertex processing and clipping: matrices, vertex stage, culling, polygon clipping."""

@@ -1,0 +1,131 @@
+"""The five matrices of the vertex transform ``p' = D P C^-1 M p``, for column vectors.
+
+References
+----------
+M. Zwicker, *Computergrafik*, lecture "The complete vertex transform", Bern 2016.
+"""
+
+import numpy as np
+
+from core.arrays import Floats
+from core.scene import Camera
+
+
+def transform(matrix: Floats, points: Floats) -> Floats:
+    """Return ``matrix @ p`` for every point, each sum written out from left to right.
+
+    Parameters
+    ----------
+    matrix : (4, 4) float64
+    points : (..., 4) float64
+
+    Returns
+    -------
+    (..., 4) float64
+
+    Notes
+    -----
+    A matrix product would let the library choose the order of the sums, and a vertex could come out
+    different in the last bit in a batch of another size.
+    """
+    x, y, z, w = (points[..., k] for k in range(4))
+    result = np.empty(points.shape)
+    for k in range(4):
+        result[..., k] = matrix[k, 0] * x + matrix[k, 1] * y + matrix[k, 2] * z + matrix[k, 3] * w
+    return result
+
+
+def transform_component(row: Floats, point: Floats) -> float:
+    """Listing of one component of a transformed point."""
+    x, y, z, w = point
+    first = row[0] * x  #: first
+    second = first + row[1] * y  #: second
+    third = second + row[2] * z  #: third
+    return float(third + row[3] * w)  #: fourth
+
+
+def translation(x: float, y: float, z: float) -> Floats:
+    """Return the (4, 4) matrix that moves by (x, y, z)."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = x, y, z
+    return matrix
+
+
+def scaling(x: float, y: float, z: float) -> Floats:
+    """Return the (4, 4) matrix that scales by x, y and z."""
+    return np.diag([x, y, z, 1.0])
+
+
+def rotation(axis: Floats, angle: float) -> Floats:
+    """Return the (4, 4) rotation about ``axis`` (3,) by ``angle`` radians, counter-clockwise (Rodrigues)."""
+    x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)
+    return matrix
+
+
+def camera_axes(camera: Camera) -> Floats:
+    """Return (3, 3): the camera's right, up and backward unit vectors in world space, one a row."""
+    backward = camera.eye - camera.target
+    backward = backward / np.linalg.norm(backward)
+    right = np.cross(camera.up, backward)
+    right = right / np.linalg.norm(right)
+    return np.array([right, np.cross(backward, right), backward])
+
+
+def world_to_camera(camera: Camera) -> Floats:
+    """Return C^-1, (4, 4): the camera's matrix is a rotation and a translation, so its inverse is exact."""
+    axes = camera_axes(camera)
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = -(axes @ camera.eye)
+    return matrix
+
+
+def projection(camera: Camera, aspect: float) -> Floats:
+    """Return P, (4, 4): camera space to clip space, w > 0 in front of the eye, NDC in [-1, 1]^3.
+
+    Parameters
+    ----------
+    camera : Camera
+    aspect : float
+        Width over height of the raster.
+
+    Notes
+    -----
+    LMU's tutorial prints a projection whose w is *negative* in front of the eye; Zwicker's rule "all w < 0:
+    behind" and this program want it positive.
+    """
+    near, far = camera.near, camera.far
+    if camera.projection == "orthographic":
+        half = camera.view_height / 2
+        return np.array(
+            [
+                [1 / (half * aspect), 0, 0, 0],
+                [0, 1 / half, 0, 0],
+                [0, 0, -2 / (far - near), -(far + near) / (far - near)],
+                [0, 0, 0, 1],
+            ]
+        )
+    scale = 1 / np.tan(camera.field_of_view / 2)
+    return np.array(
+        [
+            [scale / aspect, 0, 0, 0],
+            [0, scale, 0, 0],
+            [0, 0, -(far + near) / (far - near), -2 * far * near / (far - near)],
+            [0, 0, -1, 0],
+        ]
+    )
+
+
+def viewport(width: int, height: int) -> Floats:
+    """Return D, (4, 4): NDC to window, x in [0, width], y in [0, height] upwards, depth in [0, 1]."""
+    return np.array(
+        [
+            [width / 2, 0, 0, width / 2],
+            [0, height / 2, 0, height / 2],
+            [0, 0, 0.5, 0.5],
+            [0, 0, 0, 1],
+        ]
+    )

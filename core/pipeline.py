@@ -1,0 +1,403 @@
+"""The pipeline: a scene becomes a picture, stage by stage.
+
+The same functions serve the picture (in batches, nothing kept) and the trace (a few triangles, everything kept).
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.arrays import Flags, Floats, Integers, Singles
+from core.fragments.interpolation import Planes, interpolate, plane_value, set_up_planes, value_plane
+from core.frame import STAGES, Frame, StageCount
+from core.framebuffer.depth import DepthFormat, clamp_depth, layers, run_depth_tests
+from core.framebuffer.nearest import NearestFragments
+from core.geometry.culling import CullVerdicts, cull, plane_distances
+from core.geometry.sutherland_hodgman import DEPTH_PLANES, Clipped, clip_primitives
+from core.geometry.vertex_stage import VertexStage, transform_vertices
+from core.methods import table
+from core.primitives import DrawingOrder, Primitives
+from core.raster.binning import bound
+from core.raster.coverage import Fragments, cover
+from core.raster.edge_functions import EdgeFunctions, orient, set_up_edges
+from core.raster.schedule import Boxes, Raster, Runs, make_raster
+from core.raster.snapping import place_corners
+from core.scene import AnyScene, ClipScene, Scene, Texture
+from core.settings import Settings
+from core.surface import light_vertices, shade_fragments
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """Everything that is known of the triangles before the first pixel is looked at."""
+
+    vertices: VertexStage
+    assembled: Primitives
+    """All triangles of the scene."""
+    culled: CullVerdicts
+    kept: Primitives
+    """Those that were not culled, in drawing order."""
+    clipped: Clipped | None
+    """``None``: nothing was clipped against."""
+    clipping_inserted: str
+    """Why clipping runs although the settings have none: the method that needs it, else empty."""
+    primitives: Primitives
+    """What is drawn, in drawing order: kept triangles and pieces."""
+    edges: EdgeFunctions
+    planes: Planes
+    depth_plane: tuple[Floats, Floats, Floats]
+    """(P,) each: window depth as a linear function of the pixel."""
+    inverse_w_plane: tuple[Floats, Floats, Floats]
+    is_in_range: Flags
+    """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
+    uses_depth_test: bool
+
+
+@contextmanager
+def timed(count: StageCount) -> Iterator[StageCount]:
+    """Add the time of the block to ``count``."""
+    start = perf_counter()
+    yield count
+    count.seconds += perf_counter() - start
+
+
+def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
+    """Draw a scene.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    settings : Settings, optional
+
+    Returns
+    -------
+    Frame
+
+    Raises
+    ------
+    ValueError
+        If a method needs what the scene does not have (``inverse-w`` with an orthographic camera).
+
+    Examples
+    --------
+    >>> clip = [[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]]
+    >>> print(render(ClipScene(clip, size=(4, 3))).primitive[::-1])
+    [[-1 -1 -1 -1]
+     [ 0  0 -1 -1]
+     [ 0  0  0 -1]]
+    """
+    settings = settings or Settings()
+    return draw(scene, settings, make_raster(scene.size, settings.pixel_center))
+
+
+def draw_triangles(
+    clip: ArrayLike,
+    width: int,
+    height: int,
+    attributes: ArrayLike | None = None,
+    texture: Texture | None = None,
+    settings: Settings | None = None,
+) -> Frame:
+    """Draw triangles given in clip space.
+
+    Parameters
+    ----------
+    clip : (T, 3, 4) array_like
+        x, y, z, w of every corner, any signs of w.
+    width, height : int
+        Size of the raster in pixels.
+    attributes : (T, 3, K) array_like, optional
+        Values to interpolate; the first four are the colour (missing ones are 0, 0, 0, 1), or the first two the
+        texture coordinates where a texture is given.
+    texture : Texture, optional
+    settings : Settings, optional
+    """
+    values = None if attributes is None else np.asarray(attributes)
+    return render(ClipScene(np.asarray(clip), values, (width, height), texture), settings)
+
+
+def check_needs(scene: AnyScene, settings: Settings) -> None:
+    """Refuse, with a sentence, a method that the scene cannot serve."""
+    if "perspective" in table.get("depth", settings.depth).needs:
+        if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
+            raise ValueError(
+                "depth inverse-w needs a perspective camera: 1/w is constant for an orthographic one"
+            )
+
+
+def process_geometry(
+    scene: AnyScene, settings: Settings, counts: dict[str, StageCount], chosen: Integers | None = None
+) -> Geometry:
+    """Run the stages from the vertices to the edge functions.
+
+    Parameters
+    ----------
+    chosen : (C,) int64, optional
+        Only these triangles, in drawing order.
+    """
+    check_needs(scene, settings)
+    with timed(counts["transform"]):
+        vertices = transform_vertices(scene)
+        assembled = assemble(scene, vertices, settings, chosen)
+        counts["transform"].incoming = counts["transform"].outgoing = len(assembled)
+
+    with timed(counts["cull"]):
+        corners = place_corners(assembled.clip, scene.size, settings.coverage)
+        culled = cull(assembled.clip, orient(corners), settings.cull)
+        primitives = assembled.select(culled.kept)
+        drawing: DrawingOrder = table.get("visibility", settings.visibility).function(primitives.clip)
+        kept = primitives = primitives.take(drawing.order)
+        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(primitives)
+
+    with timed(counts["clip"]):
+        planes, inserted = clip_planes(primitives, settings)
+        clipped = None
+        counts["clip"].incoming = len(primitives)
+        if planes:
+            clipped = clip_primitives(primitives, plane_distances(primitives.clip), planes)
+            primitives = clipped.primitives
+        counts["clip"].outgoing = len(primitives)
+        counts["clip"].note = inserted if inserted else ("" if planes else "not-chosen")
+
+    with timed(counts["edges"]):
+        corners = place_corners(primitives.clip, scene.size, settings.coverage)
+        edges = set_up_edges(corners, settings.fill_rule)
+        interpolation = set_up_planes(corners.homogeneous)
+        z, w = primitives.clip[..., 2], primitives.clip[..., 3]
+        counts["edges"].incoming = counts["edges"].outgoing = len(primitives)
+        return Geometry(
+            vertices=vertices,
+            assembled=assembled,
+            culled=culled,
+            kept=kept,
+            clipped=clipped,
+            clipping_inserted=inserted,
+            primitives=primitives,
+            edges=edges,
+            planes=interpolation,
+            depth_plane=value_plane(interpolation, (z + w) / 2),
+            inverse_w_plane=value_plane(interpolation, np.ones_like(w)),
+            is_in_range=((w > 0) & (z >= -w) & (z <= w)).all(axis=1),
+            uses_depth_test=drawing.uses_depth_test,
+        )
+
+
+def drawing_order(scene: AnyScene, settings: Settings) -> Integers:
+    """Return the triangles (T,) of the scene from the first drawn to the last."""
+    vertices = transform_vertices(scene)
+    drawing: DrawingOrder = table.get("visibility", settings.visibility).function(
+        vertices.clip[vertices.corners]
+    )
+    return drawing.order
+
+
+def assemble(
+    scene: AnyScene, vertices: VertexStage, settings: Settings, chosen: Integers | None = None
+) -> Primitives:
+    """Gather the corners of every triangle with what is to be interpolated over it."""
+    triangle = np.arange(len(vertices.corners)) if chosen is None else np.asarray(chosen, np.int64)
+    corners = vertices.corners[triangle]
+    if isinstance(scene, ClipScene):
+        assert scene.attributes is not None
+        varyings = scene.attributes[triangle]
+        layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, varyings.shape[2]))}
+    else:
+        varyings, layout = light_vertices(scene, vertices, settings, triangle)
+    if settings.interpolation == "flat":
+        provoking = table.get("provoking", settings.provoking).function()
+        varyings = np.repeat(varyings[:, provoking : provoking + 1], 3, axis=1)
+    return Primitives(vertices.clip[corners], varyings, triangle, vertices.mesh[triangle], layout)
+
+
+def clip_planes(primitives: Primitives, settings: Settings) -> tuple[tuple[int, ...], str]:
+    """Return the planes to clip against, and the method that asked for them where the settings did not."""
+    planes: tuple[int, ...] = table.get("clipping", settings.clipping).function()
+    if planes or (primitives.clip[..., 3] > 0).all():
+        return planes, ""
+    for family in ("fill", "interpolation"):
+        chosen = table.get(family, getattr(settings, family))
+        if {"projected", "positive-w"} & set(chosen.needs):
+            return DEPTH_PLANES, chosen.name
+    return planes, ""
+
+
+def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[Boxes, Runs]:
+    """Bin triangles and list the runs of pixels that the fill looks at."""
+    boxes = bound(edges, raster)
+    fill = table.get("fill", settings.fill).function
+    return boxes, fill(edges, boxes, raster, settings.block_size)
+
+
+def fragment_depth(
+    geometry: Geometry, fragments: Fragments, raster: Raster, depth_format: DepthFormat
+) -> tuple[Floats, Flags, Singles]:
+    """Return the window depth of fragments, whether it is in range, and what would be stored.
+
+    Returns
+    -------
+    depth : (F,) float64, clamped where the triangle is in range as a whole
+    keeps : (F,) bool
+    stored : (F,) float32
+    """
+    x, y = fragments.column + raster.center, fragments.row + raster.center
+    primitive = fragments.primitive
+    depth = plane_value(geometry.depth_plane, primitive, x, y)
+    depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
+    return depth, keeps, depth_format.store(plane_value(geometry.inverse_w_plane, primitive, x, y))
+
+
+def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
+    """Draw the ``chosen`` triangles (all of them by default); the buffers are those of the raster's region."""
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(scene, settings, counts, chosen)
+    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+    pixel_count = raster.shape[0] * raster.shape[1]
+    cover_count = np.zeros(pixel_count, np.int32)
+    nearest = NearestFragments(pixel_count, len(geometry.primitives), depth_format, geometry.uses_depth_test)
+    kept: list[tuple[Fragments, Singles]] = []
+
+    # Coverage and depth of every fragment, in batches.
+    for fragments in _covered(geometry, settings, raster, counts):
+        with timed(counts["depth"]):
+            _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
+            if not keeps.all():
+                fragments, stored = fragments.select(keeps), stored[keeps]
+            pixel = raster.index(fragments.column, fragments.row)
+            np.add.at(cover_count, pixel, 1)
+            nearest.add(pixel, fragments.primitive, stored)
+            counts["depth"].incoming += len(pixel)
+            if settings.blend != "opaque":
+                kept.append((fragments, stored))
+
+    # What is seen; attributes and colour once per visible pixel.
+    with timed(counts["depth"]):
+        pixel, primitive, depth = nearest.resolve()
+        counts["depth"].outgoing = len(pixel)
+    seen = Fragments(primitive, *raster.position(pixel))
+    values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
+    color = np.empty((len(depth), 4), np.float32)
+    color[:] = scene.background
+    if settings.blend == "opaque":
+        color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
+        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
+    else:
+        _blend(color, scene, geometry, settings, raster, kept, counts)
+
+    # Buffers of the frame.
+    with timed(counts["resolve"]):
+        identity = np.full(len(depth), -1, np.int32)
+        identity[pixel] = geometry.primitives.triangle[primitive]
+        attributes = np.zeros((len(depth), values.shape[1]), np.float32)
+        attributes[pixel] = values
+        counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
+    return Frame(
+        color=color.reshape(*raster.shape, 4),
+        depth=depth.reshape(raster.shape),
+        primitive=identity.reshape(raster.shape),
+        attributes=attributes.reshape(*raster.shape, values.shape[1]),
+        cover_count=cover_count.reshape(raster.shape),
+        statistics=counts,
+    )
+
+
+def _covered(
+    geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+) -> Iterator[Fragments]:
+    """Yield the covered pixels of all primitives, a few million looked-at pixels at a time."""
+    count = counts["bin"]
+    count.incoming = len(geometry.edges)
+    first_column, first_row, end_column, end_row = raster.bounds
+    with timed(count):
+        boxes = bound(geometry.edges, raster)
+        area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
+        if settings.fill == "brute-force":
+            area[:] = (end_row - first_row) * (end_column - first_column)
+        ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
+    for first, end in zip([0, *ends][:-1], ends, strict=True):
+        with timed(count):
+            edges = geometry.edges.part(int(first), int(end))
+            _, runs = schedule(edges, settings, raster)
+            count.outgoing += int(runs.lengths.sum())
+        batches = cover(edges, runs, raster)
+        while True:
+            with timed(counts["raster"]):
+                batch = next(batches, None)
+            if batch is None:
+                break
+            fragments, tested = batch
+            counts["raster"].incoming += tested
+            counts["raster"].outgoing += len(fragments)
+            yield replace(fragments, primitive=fragments.primitive + int(first))
+
+
+def _interpolate(
+    geometry: Geometry, settings: Settings, raster: Raster, fragments: Fragments, count: StageCount
+) -> Floats:
+    """Return the interpolated values (F, K) float64 of fragments."""
+    with timed(count):
+        count.incoming = count.outgoing = len(fragments)
+        x, y = fragments.column + raster.center, fragments.row + raster.center
+        mode, provoking = settings.interpolation, settings.provoking
+        varyings = geometry.primitives.varyings
+        return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, provoking)[1]
+
+
+def _shade(
+    scene: AnyScene,
+    geometry: Geometry,
+    settings: Settings,
+    fragments: Fragments,
+    values: Floats,
+    count: StageCount,
+) -> Floats:
+    """Return the colours (F, 4) float64 of fragments."""
+    with timed(count):
+        count.incoming = count.outgoing = len(fragments)
+        mesh = geometry.primitives.mesh[fragments.primitive]
+        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values).color
+
+
+def _blend(
+    color: Singles,
+    scene: AnyScene,
+    geometry: Geometry,
+    settings: Settings,
+    raster: Raster,
+    kept: list[tuple[Fragments, Singles]],
+    counts: dict[str, StageCount],
+) -> None:
+    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
+    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+    fragments = Fragments(
+        *(_join([getattr(f, name) for f, _ in kept]) for name in ("primitive", "column", "row"))
+    )
+    stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, np.float32)
+    order = np.argsort(fragments.primitive, kind="stable")
+    fragments = Fragments(fragments.primitive[order], fragments.column[order], fragments.row[order])
+    pixel = raster.index(fragments.column, fragments.row)
+    with timed(counts["depth"]):
+        cleared = np.full(len(color), depth_format.cleared, np.float32)
+        tests = run_depth_tests(stored[order], pixel, cleared, depth_format, geometry.uses_depth_test)
+        fragments, pixel = fragments.select(tests.passes), pixel[tests.passes]
+    values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
+    source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
+    with timed(counts["blend"]):
+        rule = table.get("blend", settings.blend).function
+        for layer in layers(pixel):
+            at = pixel[layer]
+            color[at] = rule(source[layer], color[at])
+        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
+
+
+def _join(parts: list[Integers]) -> Integers:
+    return np.concatenate(parts) if parts else np.empty(0, np.int64)
+
+
+CHUNK = 1 << 22
+"""Pixels of bounding boxes that are scheduled in one go."""

@@ -1,0 +1,1 @@
+"""From triangles to the pixels that they cover: snapping, edge functions, binning, fills and lines."""

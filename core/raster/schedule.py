@@ -1,0 +1,185 @@
+"""Which pixels a fill looks at, and in what order: runs of pixels in rows, and the blocks they came from.
+
+A fill is a schedule; whether a pixel is covered is the same rule for all of them (``edge_functions``). The picture
+evaluates the runs in batches, the trace lists them one pixel at a time.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers
+from core.methods import method, table
+
+
+@dataclass(frozen=True)
+class Raster:
+    """The pixels that are drawn: the whole image, or a region of it."""
+
+    width: int
+    height: int
+    center: float = 0.5
+    """Offset of a pixel's centre from its column and row number."""
+    region: tuple[int, int, int, int] | None = None
+    """(first column, first row, columns, rows); ``None``: the whole image."""
+
+    @property
+    def bounds(self) -> tuple[int, int, int, int]:
+        """First column, first row, end column, end row (ends excluded), within the image."""
+        if self.region is None:
+            return 0, 0, self.width, self.height
+        column, row, columns, rows = self.region
+        return (
+            min(max(column, 0), self.width),
+            min(max(row, 0), self.height),
+            min(max(column + columns, 0), self.width),
+            min(max(row + rows, 0), self.height),
+        )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the buffers."""
+        first_column, first_row, end_column, end_row = self.bounds
+        return end_row - first_row, end_column - first_column
+
+    def index(self, column: Integers, row: Integers) -> Integers:
+        """Return the place of pixels (F,) in flattened buffers."""
+        first_column, first_row, end_column, _ = self.bounds
+        return (row - first_row) * (end_column - first_column) + (column - first_column)
+
+    def position(self, index: Integers) -> tuple[Integers, Integers]:
+        """Return column and row (F,) of places in flattened buffers."""
+        first_column, first_row, end_column, _ = self.bounds
+        row, column = np.divmod(index, end_column - first_column)
+        return column + first_column, row + first_row
+
+
+@method(
+    "pixel_center",
+    "half",
+    "At (i + 1/2, j + 1/2)",
+    source="Zwicker 2016, Where is the center of a pixel?",
+    exact_for="OpenGL",
+)
+def half() -> float:
+    """Return the offset of a pixel's centre."""
+    return 0.5
+
+
+@method(
+    "pixel_center",
+    "integer",
+    "At (i, j)",
+    source="Pellacini, rasterization: pixel centered at integer coordinates",
+    exact_for="its own convention",
+    breaks_where="moves the picture by half a pixel against OpenGL",
+)
+def integer() -> float:
+    """Return the offset of a pixel's centre."""
+    return 0.0
+
+
+def make_raster(
+    size: tuple[int, int], pixel_center: str, region: tuple[int, int, int, int] | None = None
+) -> Raster:
+    """Return the raster of a picture of ``size`` (width, height)."""
+    return Raster(size[0], size[1], table.get("pixel_center", pixel_center).function(), region)
+
+
+class Boxes(NamedTuple):
+    """Pixels that P triangles may touch, by the lecture's three cases. All (P,) int64."""
+
+    case: Integers
+    """``PROJECTED``, ``BEHIND`` or ``MIXED``."""
+    column: Integers
+    row: Integers
+    column_end: Integers
+    row_end: Integers
+
+
+PROJECTED, BEHIND, MIXED = 0, 1, 2
+OUTSIDE, INSIDE, SPLIT, LEAF = 0, 1, 2, 3
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """Nodes of the block test in pre-order, triangle by triangle."""
+
+    triangle: Integers
+    """(N,) int64, index of the primitive."""
+    column: Integers
+    row: Integers
+    size: Integers
+    """(N,) int64, pixels on a side (a node reaches over the raster's border; its pixels there do not exist)."""
+    parent: Integers
+    """(N,) int64, node index, -1 for a node of the top level."""
+    subtree_end: Integers
+    """(N,) int64, the node after the last one inside this node."""
+    low: Floats
+    """(N, 3) float64, least value of each edge function at the node's pixels."""
+    high: Floats
+    """(N, 3) float64, greatest value."""
+    verdict: Integers
+    """(N,) int64, ``OUTSIDE``, ``INSIDE``, ``SPLIT`` or ``LEAF`` (its pixels are tested)."""
+    rejected_by: Integers
+    """(N,) int64, the first edge whose greatest value is outside, else -1."""
+
+
+@dataclass(frozen=True, eq=False)
+class Runs:
+    """R stretches of pixels, each in one row of one triangle, in drawing order."""
+
+    triangle: Integers
+    """(R,) int64, index of the primitive."""
+    row: Integers
+    """(R,) int64."""
+    start: Integers
+    """(R,) int64, first column."""
+    stop: Integers
+    """(R,) int64, column after the last."""
+    accepted: Flags
+    """(R,) bool, covered without a test of every pixel."""
+    group: Integers
+    """(R,) int64, not decreasing: runs of one group are one block or one row of a triangle."""
+    blocks: Blocks | None = None
+    crossings: Floats | None = None
+    """(R, 3) float64, columns where the row crosses each edge (scanline fills)."""
+
+    def __len__(self) -> int:
+        return len(self.triangle)
+
+    @property
+    def lengths(self) -> Integers:
+        """(R,) int64, pixels in every run."""
+        return self.stop - self.start
+
+    def part(self, first: int, end: int) -> "Runs":
+        """Return runs ``first`` to ``end``, without their blocks."""
+        at = slice(first, end)
+        return Runs(
+            self.triangle[at], self.row[at], self.start[at], self.stop[at], self.accepted[at], self.group[at]
+        )
+
+
+def expand(count: Integers) -> tuple[Integers, Integers]:
+    """Return for ``count[k]`` copies of each k: which k (Q,), and its place among the copies (Q,)."""
+    which = np.repeat(np.arange(len(count)), count)
+    place = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    return which, place
+
+
+def rows_of(boxes: Boxes, chosen: Integers) -> Runs:
+    """Return one run a row of the boxes of the ``chosen`` (C,) triangles."""
+    height = np.maximum(boxes.row_end - boxes.row, 0)[chosen]
+    height[(boxes.column_end <= boxes.column)[chosen]] = 0
+    which, place = expand(height)
+    triangle = chosen[which]
+    return Runs(
+        triangle=triangle,
+        row=boxes.row[triangle] + place,
+        start=boxes.column[triangle],
+        stop=boxes.column_end[triangle],
+        accepted=np.zeros(len(triangle), bool),
+        group=np.arange(len(triangle)),
+    )

@@ -1,0 +1,87 @@
+"""Window positions of the corners as the coverage decision sees them: snapped to 1/256 pixel, or as they are.
+
+Notes
+-----
+GPUs decide coverage on a lattice of 1/256 pixel, and so do we: every product and sum of an edge function then
+fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is drawn once.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Floats
+from core.methods import method, table
+
+SUBPIXELS = 256
+"""Steps of the snapping lattice in one pixel."""
+SNAP_LIMIT = 2.0**16
+"""Corners farther from the window's origin than this, in pixels, are not snapped."""
+
+
+@dataclass(frozen=True, eq=False)
+class CornerPositions:
+    """Corners of P triangles in the homogeneous window ``D clip``."""
+
+    homogeneous: Floats
+    """(P, 3, 3) float64 x, y, w as the vertex stage made them: attributes and depth come from these."""
+    window: Floats
+    """(P, 3, 2) float64 pixels, before snapping; NaN where w <= 0."""
+    decided: Floats
+    """(P, 3, 2) pixels that coverage is decided on (snapped); NaN where a corner cannot be projected."""
+    is_projected: Flags
+    """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
+
+
+def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
+    """Put corners on the lattice of a coverage method.
+
+    Parameters
+    ----------
+    clip : (P, 3, 4) float64
+    size : (width, height)
+    coverage : str
+        A method of the family ``coverage``.
+    """
+    x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
+    half_width, half_height = size[0] / 2, size[1] / 2
+    homogeneous = np.stack([(x + w) * half_width, (y + w) * half_height, w], axis=-1)
+    in_front = w > 0
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        window = np.stack([(x / w + 1) * half_width, (y / w + 1) * half_height], axis=-1)
+    window[~in_front] = np.nan
+    decided, is_projected = table.get("coverage", coverage).function(window)
+    return CornerPositions(homogeneous, window, decided, is_projected)
+
+
+@method(
+    "coverage",
+    "snapped",
+    "Snapped to 1/256 pixel",
+    source="OpenGL 4.6, 14.6.1 and GPU practice; F. Giesen, Triangle rasterization in practice, 2013",
+    exact_for="corners within 65,536 pixels; every shared edge",
+)
+def snap(window: Floats) -> tuple[Floats, Flags]:
+    """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool."""
+    is_projected = (np.abs(window) <= SNAP_LIMIT).all(axis=-1)
+    snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
+    return np.where(is_projected[..., None], snapped, np.nan), is_projected
+
+
+@method(
+    "coverage",
+    "float64",
+    "Not snapped, float64",
+    source="M. Olano, T. Greer, Triangle scan conversion using 2D homogeneous coordinates, 1997",
+    exact_for="no promise: each edge is rounded by itself",
+    breaks_where="a pixel centre within rounding of an edge",
+)
+def keep(window: Floats) -> tuple[Floats, Flags]:
+    """Leave every corner where it is: coverage uses the homogeneous positions. (P, 3, 2) to the same."""
+    return np.full(window.shape, np.nan), np.zeros(window.shape[:-1], bool)
+
+
+def snap_one(value: float) -> float:
+    """Listing of one snapped coordinate."""
+    subpixels = np.rint(value * SUBPIXELS)  #: snap
+    return float(subpixels / SUBPIXELS)  #: back

@@ -1,0 +1,253 @@
+"""What is to be drawn: meshes, camera, lights, textures; or triangles given in clip space."""
+
+from dataclasses import dataclass, field
+from math import isfinite, pi
+
+import numpy as np
+
+from core.arrays import Floats, Integers, Singles, checked, checked_size
+
+SIZE_LIMIT = 16384
+"""Largest raster, in pixels each way: edge functions stay exact integers in float64 (see core.raster.edge_functions)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Texture:
+    """An image glued onto triangles; linear colour, (0, 0) is its bottom left corner."""
+
+    pixels: Singles
+    """(h, w, C) float32 with C = 1, 3 or 4; row 0 at v = 0; linear light."""
+    name: str = "texture"
+
+    def __post_init__(self) -> None:
+        pixels = checked("texture pixels", self.pixels, ("h", "w", "C"), np.float32)
+        if pixels.shape[2] not in (1, 3, 4) or pixels.size == 0:
+            raise ValueError(f"texture pixels must be (h, w, 1, 3 or 4) and not empty, got {pixels.shape}")
+        object.__setattr__(self, "pixels", pixels)
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """Reflectances of the Blinn-Phong model; the diffuse colour is the vertex colour or the texture."""
+
+    ambient: float = 0.12
+    diffuse: float = 0.88
+    specular: float = 0.25
+    shininess: float = 32.0
+
+    def __post_init__(self) -> None:
+        for name in ("ambient", "diffuse", "specular"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise ValueError(f"material {name} must be from 0 to 1, got {getattr(self, name)}")
+        if not 0 < self.shininess <= 10000:
+            raise ValueError(f"material shininess must be above 0 and at most 10000, got {self.shininess}")
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles that share vertices, in object space.
+
+    Attributes of a vertex that are missing (``None``) get a default from the pipeline: white colour, (0, 0)
+    texture coordinates, and normals averaged over the faces around the vertex, weighted by area.
+    """
+
+    positions: Floats
+    """(N, 3) float64, object space."""
+    triangles: Integers
+    """(T, 3) int64 vertex indices, counter-clockwise seen from the front."""
+    normals: Floats | None = None
+    """(N, 3) float64, object space, need not be unit."""
+    uvs: Floats | None = None
+    """(N, 2) float64."""
+    colors: Floats | None = None
+    """(N, 4) float64, linear, straight alpha."""
+    texture: Texture | None = None
+    faces: Integers | None = None
+    """(T,) int64, the polygon of the file that each triangle came from; ``None``: its own number."""
+    transform: Floats = field(default_factory=lambda: np.eye(4))
+    """(4, 4) float64, M: object to world."""
+    material: Material = field(default_factory=Material)
+    name: str = "mesh"
+
+    def __post_init__(self) -> None:
+        positions = checked("positions", self.positions, ("N", 3))
+        triangles = checked("triangles", self.triangles, ("T", 3), np.int64)
+        count = len(positions)
+        if len(triangles) == 0:
+            raise ValueError(f"{self.name} has no triangles")
+        if triangles.min() < 0 or triangles.max() >= count:
+            bad = int(np.argmax((triangles < 0).any(axis=1) | (triangles >= count).any(axis=1)))
+            raise ValueError(
+                f"triangle {bad} of {self.name} names vertex {triangles[bad].tolist()}, there are {count}"
+            )
+        object.__setattr__(self, "positions", positions)
+        object.__setattr__(self, "triangles", triangles)
+        object.__setattr__(self, "transform", checked("transform", self.transform, (4, 4)))
+        for name, width in (("normals", 3), ("uvs", 2), ("colors", 4)):
+            if getattr(self, name) is not None:
+                values = checked(name, getattr(self, name), ("N", width))
+                if len(values) != count:
+                    raise ValueError(f"{name} must be ({count}, {width}), got {values.shape}")
+                object.__setattr__(self, name, values)
+        if self.faces is not None:
+            faces = checked("faces", self.faces, ("T",), np.int64)
+            if len(faces) != len(triangles):
+                raise ValueError(f"faces must be ({len(triangles)},), got {faces.shape}")
+            object.__setattr__(self, "faces", faces)
+
+
+def triangulate(polygons: list[list[int]]) -> tuple[Integers, Integers]:
+    """Fan polygons into triangles: (T, 3) vertex indices and the (T,) polygon each came from.
+
+    Raises
+    ------
+    ValueError
+        If a polygon has fewer than three corners.
+    """
+    triangles, faces = [], []
+    for face, polygon in enumerate(polygons):
+        if len(polygon) < 3:
+            raise ValueError(f"polygon {face} must have at least 3 corners, got {len(polygon)}")
+        for second, third in zip(polygon[1:], polygon[2:], strict=False):
+            triangles.append((polygon[0], second, third))
+            faces.append(face)
+    return np.array(triangles, np.int64).reshape(-1, 3), np.array(faces, np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """Where the picture is taken from; looks along -z of its own space."""
+
+    eye: Floats
+    """(3,) float64, world space."""
+    target: Floats
+    """(3,) float64, world space."""
+    up: Floats = field(default_factory=lambda: np.array([0.0, 1.0, 0.0]))
+    projection: str = "perspective"
+    """``"perspective"`` or ``"orthographic"``."""
+    field_of_view: float = pi / 4
+    """Vertical opening angle in radians (perspective)."""
+    view_height: float = 2.0
+    """Height of the view volume in world units (orthographic)."""
+    near: float = 0.1
+    """Distance of the near plane; positive for perspective."""
+    far: float = 100.0
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            object.__setattr__(self, name, checked(f"camera {name}", getattr(self, name), (3,)))
+        for name in ("field_of_view", "view_height", "near", "far"):
+            if not isfinite(getattr(self, name)):
+                raise ValueError(f"camera {name} must be finite, got {getattr(self, name)}")
+        if self.projection not in ("perspective", "orthographic"):
+            raise ValueError(f"camera projection must be perspective or orthographic, got {self.projection}")
+        if self.projection == "perspective":
+            if not 0 < self.field_of_view < pi:
+                degrees = self.field_of_view * 180 / pi
+                raise ValueError(f"field of view must be between 0 and 180 degrees, got {degrees:g}")
+            if self.near <= 0:
+                raise ValueError(f"near must be positive for a perspective camera, got {self.near:g}")
+        elif self.view_height <= 0:
+            raise ValueError(f"view height must be positive, got {self.view_height:g}")
+        if self.near >= self.far:
+            raise ValueError(f"near must be less than far, got near {self.near:g}, far {self.far:g}")
+        forward = self.target - self.eye
+        if not forward.any():
+            raise ValueError("camera eye and target must differ")
+        if np.linalg.norm(np.cross(forward, self.up)) <= 1e-12 * np.linalg.norm(forward) * np.linalg.norm(
+            self.up
+        ):
+            raise ValueError("camera up must not be parallel to the viewing direction")
+
+
+@dataclass(frozen=True, eq=False)
+class DirectionalLight:
+    """Light from infinitely far away."""
+
+    direction: Floats
+    """(3,) float64, world space, the way the light travels."""
+    color: Floats = field(default_factory=lambda: np.ones(3))
+    """(3,) float64, linear."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", checked("light direction", self.direction, (3,)))
+        object.__setattr__(self, "color", checked("light color", self.color, (3,)))
+        if not self.direction.any():
+            raise ValueError("light direction must not be (0, 0, 0)")
+
+
+@dataclass(frozen=True, eq=False)
+class PointLight:
+    """Light from one point, without attenuation."""
+
+    position: Floats
+    """(3,) float64, world space."""
+    color: Floats = field(default_factory=lambda: np.ones(3))
+    """(3,) float64, linear."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "position", checked("light position", self.position, (3,)))
+        object.__setattr__(self, "color", checked("light color", self.color, (3,)))
+
+
+Light = DirectionalLight | PointLight
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Everything that a picture needs, in world and object space."""
+
+    meshes: tuple[Mesh, ...]
+    camera: Camera
+    lights: tuple[Light, ...] = ()
+    size: tuple[int, int] = (512, 512)
+    """(width, height) of the raster in pixels."""
+    background: Floats = field(default_factory=lambda: np.zeros(4))
+    """(4,) float64 linear colour that the frame is cleared to."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "meshes", tuple(self.meshes))
+        object.__setattr__(self, "lights", tuple(self.lights))
+        if not self.meshes:
+            raise ValueError("a scene needs at least one mesh")
+        object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
+        object.__setattr__(self, "background", checked("background", self.background, (4,)))
+
+
+@dataclass(frozen=True, eq=False)
+class ClipScene:
+    """Triangles given in clip space: typed 2D triangles, recorded cases. Drawn and stepped like any scene."""
+
+    clip: Floats
+    """(T, 3, 4) float64 clip-space x, y, z, w of every corner."""
+    attributes: Floats | None = None
+    """(T, 3, K) float64 to interpolate; the first four are the colour, or the first two the texture coordinates."""
+    size: tuple[int, int] = (512, 512)
+    texture: Texture | None = None
+    background: Floats = field(default_factory=lambda: np.zeros(4))
+    shared: Integers | None = None
+    """(T, 3) int64 names of corners: corners of one name move together in the window. ``None``: all separate."""
+
+    def __post_init__(self) -> None:
+        clip = checked("clip", self.clip, ("T", 3, 4))
+        object.__setattr__(self, "clip", clip)
+        if self.attributes is None:
+            color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), 3, 4))
+            object.__setattr__(self, "attributes", checked("attributes", color, ("T", 3, "K")))
+        else:
+            attributes = checked("attributes", self.attributes, ("T", 3, "K"))
+            if len(attributes) != len(clip):
+                raise ValueError(f"attributes must be ({len(clip)}, 3, K), got {attributes.shape}")
+            if self.texture is not None and attributes.shape[2] < 2:
+                raise ValueError(f"a texture needs attributes (T, 3, 2 or more), got {attributes.shape}")
+            object.__setattr__(self, "attributes", attributes)
+        if self.shared is not None:
+            shared = checked("shared", self.shared, ("T", 3), np.int64)
+            if len(shared) != len(clip):
+                raise ValueError(f"shared must be ({len(clip)}, 3), got {shared.shape}")
+            object.__setattr__(self, "shared", shared)
+        object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
+        object.__setattr__(self, "background", checked("background", self.background, (4,)))
+
+
+AnyScene = Scene | ClipScene

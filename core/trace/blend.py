@@ -1,0 +1,99 @@
+"""Trace of blending, and of the way from linear colour to display bytes."""
+
+import numpy as np
+
+from core.framebuffer.blending import over_pixel
+from core.framebuffer.depth import layers
+from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
+from core.listing import listing
+from core.methods import table
+from core.steps import Operation, Steps, ends_of
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack, StageTrace
+
+
+def trace_blend(source: TraceSource) -> StageTrace:
+    """Return one row for every fragment that passed the depth test."""
+    passes = source.depth_tests.passes
+    fragments = source.fragments.select(passes)
+    place, triangle = source.place[passes], source.triangle_of_fragment[passes]
+    colors = source.surface.color[passes]
+    mode = source.settings.blend
+    rule = table.get("blend", mode).function
+
+    # The colours before and after, one layer after another.
+    buffer = source.start.color.reshape(-1, 4).copy()
+    before, after = np.empty((2, len(colors), 4), np.float32)
+    for layer in layers(place):
+        before[layer] = buffer[place[layer]]
+        after[layer] = buffer[place[layer]] = rule(colors[layer], before[layer])
+    kind = np.zeros(len(fragments), np.int64)
+    operations = {
+        "opaque": (Operation("write", "store", ("source", "before", "after")),),
+        "over": (
+            Operation("source", "color", ("source", "before")),
+            Operation("color", "color", ("after",)),
+            Operation("write", "store", ("after",)),
+        ),
+    }
+    return StageTrace(
+        stage="blend",
+        method=f"blend={mode}",
+        steps=Steps(
+            (mode,), kind, operations, ends_of(triangle), ends_of(fragments.primitive, fragments.row)
+        ),
+        columns={
+            "column": fragments.column,
+            "row": fragments.row,
+            "source": colors,
+            "before": before,
+            "after": after,
+            "primitive": fragments.primitive,
+        },
+        triangle=triangle,
+        pixel=np.stack([fragments.column, fragments.row], axis=1),
+        listings={"over": listing(over_pixel)},
+        marks={"covered": np.ones(len(fragments), bool), "nan": np.isnan(after).any(axis=1)},
+        buffers=(BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color"),),
+    )
+
+
+def trace_resolve(source: TraceSource) -> StageTrace:
+    """Return one row for every pixel of the raster: linear colour to sRGB bytes."""
+    blend = trace_blend(source)
+    linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)
+    count = len(linear)
+    column, row = source.raster.position(np.arange(count))
+    clipped = np.clip(np.nan_to_num(linear[:, :3].astype(float)), 0.0, 1.0)
+    pixels = np.column_stack([encode_srgb(linear[:, :3]), encode_linear(linear[:, 3])])
+    unknown = np.zeros((*source.raster.shape, 4), np.uint8)
+    return StageTrace(
+        stage="resolve",
+        method="",
+        steps=Steps(
+            ("encode",),
+            np.zeros(count, np.int64),
+            {
+                "encode": (
+                    Operation("clip", "clip", ("linear", "clipped")),
+                    Operation("encode", "power-part", ("encoded",)),
+                    Operation("round", "round", ("bytes",)),
+                )
+            },
+            np.array([count]),
+            ends_of(row),
+        ),
+        columns={
+            "column": column,
+            "row": row,
+            "linear": linear,
+            "clipped": clipped,
+            "encoded": srgb(clipped),
+            "bytes": pixels,
+        },
+        triangle=np.full(count, -1),
+        pixel=np.stack([column, row], axis=1),
+        listings={"encode": listing(srgb_byte)},
+        marks={"nan": np.isnan(linear).any(axis=1)},
+        buffers=(BufferTrack("display", unknown, np.arange(count), np.arange(count), pixels, "bytes"),),
+    )

@@ -1,0 +1,72 @@
+"""Trace of polygon clipping: every edge of every polygon against every plane."""
+
+import numpy as np
+
+from core.geometry.culling import PLANES
+from core.geometry.sutherland_hodgman import CASES, clip_edge
+from core.listing import listing
+from core.steps import Operation, Steps, ends_of
+from core.trace.source import TraceSource
+from core.trace.stage_trace import StageTrace, no_pixels
+
+KINDS = (*CASES, "untouched")
+
+
+def trace_clip(source: TraceSource) -> StageTrace:
+    """Return one row for every edge and plane; a triangle that no plane crosses has one row that says so."""
+    geometry = source.geometry
+    clipped = geometry.clipped
+    kept = geometry.kept
+    crossed = clipped.clipped if clipped is not None else np.empty(0, np.int64)
+    untouched = np.setdiff1d(np.arange(len(kept)), crossed)
+    rows = clipped.rows if clipped is not None else None
+    polygon = np.concatenate([crossed[rows.polygon] if rows is not None else crossed, untouched])
+    order = np.argsort(polygon, kind="stable")
+    width = 4 + kept.varyings.shape[2]
+
+    def column(of_rows: np.ndarray | None, missing: np.ndarray) -> np.ndarray:
+        joined = missing if of_rows is None else np.concatenate([of_rows, missing])
+        return np.asarray(joined[order])
+
+    def numbers(name: str, *shape: int) -> np.ndarray:
+        return column(
+            None if rows is None else getattr(rows, name), np.full((len(untouched), *shape), np.nan)
+        )
+
+    kind = column(None if rows is None else rows.case, np.full(len(untouched), len(CASES)))
+    plane = column(None if rows is None else rows.plane, np.full(len(untouched), -1))
+    columns = {
+        "plane": np.array([*PLANES, "none"])[plane],
+        "edge": column(None if rows is None else rows.edge, np.zeros(len(untouched), np.int64)),
+        "start": numbers("start", width)[:, :4],
+        "end": numbers("end", width)[:, :4],
+        "start_distance": numbers("start_distance"),
+        "end_distance": numbers("end_distance"),
+        "t": numbers("t"),
+        "corner": numbers("corner", width)[:, :4],
+    }
+    distances = Operation("distances", "in-in", ("plane", "start", "end", "start_distance", "end_distance"))
+    steps = Steps(
+        kinds=KINDS,
+        kind=kind,
+        operations={
+            "in-in": (distances, Operation("keep", "in-in")),
+            "out-out": (distances, Operation("drop", "out-out")),
+            "in-out": (distances, Operation("t", "t-out", ("t",)), Operation("corner", "leave", ("corner",))),
+            "out-in": (distances, Operation("t", "t-in", ("t",)), Operation("corner", "enter", ("corner",))),
+            "untouched": (Operation("keep", "in-in"),),
+        },
+        triangle_ends=ends_of(polygon[order]),
+        group_ends=ends_of(polygon[order], plane),
+    )
+    return StageTrace(
+        stage="clip",
+        method=f"clipping={source.settings.clipping}",
+        steps=steps,
+        columns=columns,
+        triangle=kept.triangle[polygon[order]],
+        pixel=no_pixels(len(order)),
+        listings=dict.fromkeys(CASES, listing(clip_edge)),
+        marks={"rejected": kind == 0},
+        extra={"clipped": clipped, "inserted_for": geometry.clipping_inserted},
+    )

@@ -1,0 +1,86 @@
+"""Trace of the edge set-up: corners snapped, the area's sign, and the three edge functions."""
+
+import numpy as np
+
+from core.listing import listing
+from core.raster.edge_functions import edge_coefficients
+from core.raster.snapping import snap_one
+from core.steps import Operation, Steps, ends_of
+from core.trace.source import TraceSource
+from core.trace.stage_trace import StageTrace, no_pixels
+
+KINDS = ("snapped", "homogeneous", "orientation", "edge")
+
+
+def trace_edges(source: TraceSource) -> StageTrace:
+    """Return seven rows for every primitive: three corners, orientation, three edges."""
+    geometry = source.geometry
+    edges, corners = geometry.edges, geometry.edges.corners
+    count = len(edges)
+    primitive = np.repeat(np.arange(count), 7)
+    place = np.tile(np.arange(7), count)
+    index = np.array([0, 1, 2, 0, 0, 1, 2])[place]
+    kind = np.where(
+        place < 3, np.where(corners.is_projected[primitive, index], 0, 1), np.where(place == 3, 2, 3)
+    )
+    following, last = (index + 1) % 3, (index + 2) % 3
+    both = corners.is_projected[primitive, following] & corners.is_projected[primitive, last]
+    columns = {
+        "corner": index,
+        "edge": index,
+        "homogeneous": corners.homogeneous[primitive, index],
+        "window": corners.window[primitive, index],
+        "snapped": corners.decided[primitive, index],
+        "doubled_area": edges.doubled_area[primitive],
+        "is_projected": both,
+        "a": edges.a[primitive, index],
+        "b": edges.b[primitive, index],
+        "c": edges.c[primitive, index],
+        "owns_tie": edges.owns_tie[primitive, index],
+        "start": _end(source, primitive, following, both),
+        "finish": _end(source, primitive, last, both),
+    }
+    steps = Steps(
+        kinds=KINDS,
+        kind=kind,
+        operations={
+            "snapped": (Operation("window", "snap", ("window",)), Operation("snap", "back", ("snapped",))),
+            "homogeneous": (Operation("keep", "snap", ("homogeneous",)),),
+            "orientation": (Operation("area", "a", ("doubled_area",)),),
+            "edge": (
+                Operation("a", "a", ("a",)),
+                Operation("b", "b", ("b",)),
+                Operation("c", "c", ("c",)),
+                Operation("tie", "c", ("owns_tie",)),
+            ),
+        },
+        triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
+        group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
+    )
+    snapping, coefficients = listing(snap_one), listing(edge_coefficients)
+    return StageTrace(
+        stage="edges",
+        method=f"coverage={source.settings.coverage}",
+        steps=steps,
+        columns=columns,
+        triangle=geometry.primitives.triangle[primitive],
+        pixel=no_pixels(len(primitive)),
+        listings={
+            "snapped": snapping,
+            "homogeneous": snapping,
+            "orientation": coefficients,
+            "edge": coefficients,
+        },
+        marks={"rejected": (place == 3) & (edges.doubled_area[primitive] == 0)},
+        extra={"edges": edges, "planes": geometry.planes},
+    )
+
+
+def _end(source: TraceSource, primitive: np.ndarray, corner: np.ndarray, both: np.ndarray) -> np.ndarray:
+    """Return (R, 3) the end of an edge as its function sees it: (snapped, 1), or homogeneous."""
+    corners = source.geometry.edges.corners
+    projected = corners.is_projected[primitive, corner]
+    w = corners.homogeneous[primitive, corner, 2]
+    snapped = np.column_stack([corners.decided[primitive, corner], np.ones(len(primitive))])
+    scaled = np.where(projected[:, None], snapped * w[:, None], corners.homogeneous[primitive, corner])
+    return np.where(both[:, None], snapped, scaled)

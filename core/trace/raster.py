@@ -1,0 +1,149 @@
+"""Trace of coverage: every pixel that the fill looks at, and the spans of the scanline fills."""
+
+import numpy as np
+
+from core.arrays import Integers
+from core.fragments.interpolation import numerators
+from core.listing import Listing, listing
+from core.raster.edge_functions import covers
+from core.raster.scanline import span
+from core.raster.scanline_lecture import draw_triangle
+from core.steps import Operation, Steps, ends_of
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack, StageTrace
+
+KINDS = ("test", "accept", "span", "line")
+OPERATIONS = {
+    "test": (
+        Operation("edge-0", "value", ("value_0",)),
+        Operation("edge-1", "value", ("value_1",)),
+        Operation("edge-2", "value", ("value_2",)),
+        Operation("decide", "covered", ("covered", "tie")),
+    ),
+    "accept": (Operation("accept", "covered", ("covered",)),),
+    "span": (
+        Operation("edge-0", "left-value", ("crossing_0",)),
+        Operation("edge-1", "left-value", ("crossing_1",)),
+        Operation("edge-2", "left-value", ("crossing_2",)),
+        Operation("span", "span", ("start", "stop")),
+    ),
+    "line": (
+        Operation("ends", "draw", ("crossing_0", "crossing_1")),
+        Operation("round", "draw", ("start", "stop")),
+    ),
+}
+
+
+def trace_raster(source: TraceSource) -> StageTrace:
+    """Return one row for every pixel looked at; scanline fills have a row before the pixels of every span."""
+    geometry, runs, tests, raster = source.geometry, source.runs, source.tests, source.raster
+    edges = geometry.edges
+
+    # Spans stand before their pixels.
+    has_spans = runs.crossings is not None
+    headers = np.arange(len(runs)) if has_spans else np.empty(0, np.int64)
+    run = np.concatenate([headers, tests.run])
+    test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
+    order = np.argsort(run, kind="stable")
+    run, test = run[order], test[order]
+    is_pixel = test >= 0
+
+    def of_pixel(values: np.ndarray, missing: float | bool) -> np.ndarray:
+        found = np.full((len(run), *values.shape[1:]), missing, values.dtype)
+        found[is_pixel] = values[test[is_pixel]]
+        return found
+
+    primitive = runs.triangle[run]
+    column, row = of_pixel(tests.column, -1), runs.row[run]
+    x, y = column + raster.center, row + raster.center
+    values = of_pixel(tests.values, np.nan)
+    covered, tie = of_pixel(tests.covered, False), of_pixel(tests.tie, False)
+    accepted = of_pixel(tests.accepted, False)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        weights = np.stack(numerators(geometry.planes, primitive, x, y), axis=1)
+        weights = weights / (weights[:, :1] + weights[:, 1:2] + weights[:, 2:])
+        distance = values / np.hypot(edges.a[primitive], edges.b[primitive])
+    weights[~is_pixel] = np.nan
+    crossings = runs.crossings[run] if runs.crossings is not None else np.full((len(run), 3), np.nan)
+    columns = {
+        "column": column,
+        "row": row,
+        "x": np.where(is_pixel, x, np.nan),
+        "y": y,
+        "a": edges.a[primitive],
+        "b": edges.b[primitive],
+        "c": edges.c[primitive],
+        "owns_tie": edges.owns_tie[primitive],
+        "values": values,
+        "distance": distance,
+        "weights": weights,
+        "covered": covered,
+        "tie": tie,
+        "start": runs.start[run],
+        "stop": runs.stop[run],
+        "primitive": primitive,
+    }
+    for k in range(3):
+        columns[f"value_{k}"], columns[f"crossing_{k}"] = values[:, k], crossings[:, k]
+    is_lecture = source.settings.fill == "scanline-lecture"
+    kind = np.where(is_pixel, np.where(accepted, 1, 0), 3 if is_lecture else 2)
+    triangle = geometry.primitives.triangle[primitive]
+    steps = Steps(
+        kinds=KINDS,
+        kind=kind,
+        operations=OPERATIONS,
+        triangle_ends=ends_of(triangle),
+        group_ends=ends_of(primitive, runs.group[run] if not has_spans else run),
+    )
+    is_tie = tie.any(axis=1) & ~(values < 0).any(axis=1)
+    return StageTrace(
+        stage="raster",
+        method=f"fill={source.settings.fill}",
+        steps=steps,
+        columns=columns,
+        triangle=triangle,
+        pixel=np.stack([column, np.where(is_pixel, row, -1)], axis=1),
+        listings=_listings(),
+        marks={
+            "covered": covered,
+            "rejected": is_pixel & ~covered,
+            "tie": is_pixel & is_tie,
+            "nan": is_pixel & np.isnan(values).any(axis=1),
+        },
+        buffers=_buffers(source, np.flatnonzero(is_pixel), columns),
+        extra={"runs": runs, "boxes": source.boxes, "blocks": runs.blocks, "edges": edges},
+        constants={"center": raster.center},
+    )
+
+
+def _listings() -> dict[str, Listing]:
+    inside = listing(covers)
+    return {"test": inside, "accept": inside, "span": listing(span), "line": listing(draw_triangle)}
+
+
+def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]) -> tuple[BufferTrack, ...]:
+    """Return coverage, the three edge functions, the three weights, and how often each pixel was covered."""
+    shape = source.raster.shape
+    place = source.raster.index(columns["column"][rows], columns["row"][rows])
+    unknown = np.full(shape, np.nan)
+    covered = columns["covered"][rows]
+    tracks = [BufferTrack("coverage", unknown, rows, place, covered.astype(float), "flags")]
+    for name, column in (("edge", "values"), ("weight", "weights")):
+        tracks += [
+            BufferTrack(f"{name} {k}", unknown, rows, place, columns[column][rows, k], "signed")
+            for k in range(3)
+        ]
+    hit_rows, hit_place = rows[covered], place[covered]
+    count = source.start.cover_count.ravel()[hit_place] + 1 + occurrence(hit_place)
+    tracks.append(BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count"))
+    return tuple(tracks)
+
+
+def occurrence(place: Integers) -> Integers:
+    """Return how many earlier elements (k,) name the same place."""
+    order = np.argsort(place, kind="stable")
+    ordered = place[order]
+    first = np.maximum.accumulate(np.where(np.diff(ordered, prepend=-1) != 0, np.arange(len(place)), 0))
+    result = np.empty(len(place), np.int64)
+    result[order] = np.arange(len(place)) - first
+    return result

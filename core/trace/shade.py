@@ -1,0 +1,176 @@
+"""Trace of texturing and shading: texels, their mix, every light, and the colour of every fragment."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
+from core.fragments.shading import shaded_color
+from core.fragments.textures import TextureSamples, bilinear_color, nearest_color, sample_texture
+from core.listing import Listing, listing
+from core.scene import ClipScene, Scene, Texture
+from core.steps import Operation, Steps, ends_of
+from core.surface import material_of, viewpoint
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack, StageTrace
+
+TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {"nearest": nearest_color, "bilinear": bilinear_color}
+
+
+def trace_shade(source: TraceSource) -> StageTrace:
+    """Return one row for every fragment: its texels where the mesh has a texture, its light where it is lit."""
+    fragments, surface = source.fragments, source.surface
+    count = len(fragments)
+    mesh = source.geometry.primitives.mesh[fragments.primitive]
+    columns: dict[str, np.ndarray] = {
+        "column": fragments.column,
+        "row": fragments.row,
+        "albedo": surface.albedo,
+        "color": surface.color,
+        "primitive": fragments.primitive,
+    }
+    textured = np.zeros(count, bool)
+    for index, texture in enumerate(_textures(source)):
+        if texture is not None:
+            chosen = np.flatnonzero(mesh == index)
+            textured[chosen] = True
+            _add_samples(columns, chosen, _samples(source, texture, chosen))
+    is_lit = surface.diffuse_light is not None
+    if surface.diffuse_light is not None and surface.specular_light is not None:
+        columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
+    lighting = _lighting(source, mesh)
+    if lighting is not None:
+        columns |= {
+            "normal": lighting.normal,
+            "to_eye": lighting.to_eye,
+            "n_dot_l": lighting.n_dot_l.T,
+            "n_dot_h": lighting.n_dot_h.T,
+            "power": lighting.power.T,
+        }
+    kinds = ("plain", "textured", "lit", "textured-lit")
+    kind = textured + 2 * np.full(count, is_lit)
+    triangle = source.triangle_of_fragment
+    steps = Steps(
+        kinds=kinds,
+        kind=kind,
+        operations=_operations(source, lighting),
+        triangle_ends=ends_of(triangle),
+        group_ends=ends_of(fragments.primitive, fragments.row),
+    )
+    return StageTrace(
+        stage="shade",
+        method=f"shading={source.settings.shading}"
+        if is_lit
+        else f"texture_filter={source.settings.texture_filter}",
+        steps=steps,
+        columns=columns,
+        triangle=triangle,
+        pixel=np.stack([fragments.column, fragments.row], axis=1),
+        listings=_listings(source, lighting),
+        marks={"covered": np.ones(count, bool), "nan": np.isnan(surface.color).any(axis=1)},
+        buffers=_buffers(source, columns, textured),
+        extra={"textures": _textures(source), "mesh": mesh},
+    )
+
+
+def _textures(source: TraceSource) -> list[Texture | None]:
+    """Return the texture of every mesh."""
+    if isinstance(source.scene, ClipScene):
+        return [source.scene.texture]
+    return [mesh.texture for mesh in source.scene.meshes]
+
+
+def _samples(source: TraceSource, texture: Texture, chosen: Integers) -> TextureSamples:
+    uv = source.interpolated[1][chosen, source.geometry.primitives.layout["uv"]]
+    return sample_texture(texture, uv, source.settings.texture_filter, source.settings.wrap)
+
+
+def _add_samples(columns: dict[str, np.ndarray], chosen: Integers, samples: TextureSamples) -> None:
+    """Put what fragments ``chosen`` read into columns of all fragments."""
+    count = len(columns["column"])
+    of_samples = {
+        "texel_position": samples.position,
+        "texels": samples.texels,
+        "texel_colors": samples.texel_colors,
+        "mix": samples.weights,
+        "shares": samples.shares,
+        "texture_color": samples.color,
+    }
+    for name, values in of_samples.items():
+        missing: Any = -1 if values.dtype.kind == "i" else np.nan
+        columns.setdefault(name, np.full((count, *values.shape[1:]), missing, values.dtype))
+        columns[name][chosen] = values
+
+
+def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
+    """Return every term of the light, where it is evaluated per fragment."""
+    layout = source.geometry.primitives.layout
+    if "normal" not in layout:
+        return None
+    assert isinstance(source.scene, Scene)
+    values = source.interpolated[1]
+    position: Floats = values[:, layout["position"]]
+    eye = viewpoint(source.scene.camera, position)
+    material = material_of(source.scene, mesh)
+    return trace_lighting(position, values[:, layout["normal"]], eye, source.scene.lights, material, False)
+
+
+def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tuple[Operation, ...]]:
+    """Return what a row of each kind does."""
+    plain = (Operation("color", "color", ("albedo", "color")),)
+    nearest = source.settings.texture_filter == "nearest"
+    texture = (
+        Operation("position", "position", ("texel_position",)),
+        Operation("texels", "column" if nearest else "columns", ("texels", "texel_colors")),
+        Operation("filter", "color", ("mix", "shares", "texture_color")),
+        Operation("albedo", "color", ("albedo",)),
+    )
+    light: tuple[Operation, ...] = (Operation("interpolated", "color", ("diffuse_light", "specular_light")),)
+    if lighting is not None:
+        light = (
+            Operation("normal", "normal", ("normal", "to_eye")),
+            Operation("cosines", "cosines", ("n_dot_l", "n_dot_h")),
+            Operation("sums", "specular", ("power", "diffuse_light", "specular_light")),
+        )
+    product = (Operation("product", "color", ("color",)),)
+    return {
+        "plain": plain,
+        "textured": (*texture, Operation("color", "color", ("color",))),
+        "lit": (Operation("albedo", "color", ("albedo",)), *light, *product),
+        "textured-lit": (*texture, *light, *product),
+    }
+
+
+def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listing]:
+    """Return the texture's listing, the light's and the product's, by kind of row and operation."""
+    texture, product = listing(TEXTURE_LISTINGS[source.settings.texture_filter]), listing(shaded_color)
+    light = listing(blinn_phong) if lighting is not None else product
+    of_operation = {"normal": light, "cosines": light, "sums": light, "interpolated": light, "product": product}
+    found = {"plain": product, "textured": texture, "lit": product, "textured-lit": texture}
+    for kind in ("lit", "textured-lit"):
+        found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}
+    return found
+
+
+def _buffers(
+    source: TraceSource, columns: dict[str, np.ndarray], textured: np.ndarray
+) -> tuple[BufferTrack, ...]:
+    rows, place = np.arange(len(source.fragments)), source.place
+
+    def track(name: str, values: np.ndarray, kind: str = "color") -> BufferTrack:
+        color = values
+        if kind == "color" and values.shape[1] == 3:
+            color = np.column_stack([values, np.ones(len(values))])
+        initial = np.full((*source.raster.shape, *color.shape[1:]), np.nan)
+        return BufferTrack(name, initial, rows, place, color, kind)
+
+    tracks = [track("fragment color", columns["color"]), track("albedo", columns["albedo"])]
+    if textured.any():
+        tracks.append(track("texel column", columns["texel_position"][:, 0], "scalar"))
+        tracks.append(track("texel row", columns["texel_position"][:, 1], "scalar"))
+    if "diffuse_light" in columns:
+        tracks.append(track("diffuse light", columns["diffuse_light"]))
+        tracks.append(track("specular light", columns["specular_light"]))
+    return tuple(tracks)

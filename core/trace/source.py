@@ -1,0 +1,148 @@
+"""What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, Singles
+from core.fragments.interpolation import interpolate, plane_value
+from core.frame import STAGES, Frame, StageCount
+from core.framebuffer.depth import DepthFormat, DepthTests, run_depth_tests
+from core.methods import table
+from core.pipeline import Geometry, drawing_order, draw, fragment_depth, process_geometry, schedule
+from core.raster.coverage import Fragments, PixelTests, examine_pixels
+from core.raster.schedule import Boxes, Raster, Runs, make_raster
+from core.scene import AnyScene
+from core.settings import Settings
+from core.surface import Surface, shade_fragments
+
+
+@dataclass(frozen=True, eq=False)
+class TraceSource:
+    """Lazily computed results of the pipeline for the traced triangles; all arrays in drawing order."""
+
+    scene: AnyScene
+    settings: Settings
+    triangle: int | None = None
+    """The triangle that is traced; ``None``: all of them."""
+    region: tuple[int, int, int, int] | None = None
+    """(first column, first row, columns, rows) of the buffers; ``None``: the whole image."""
+    before: str = "earlier"
+    """Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``."""
+
+    @cached_property
+    def raster(self) -> Raster:
+        """The pixels of the buffers."""
+        return make_raster(self.scene.size, self.settings.pixel_center, self.region)
+
+    @cached_property
+    def order(self) -> Integers:
+        """(T,) int64, all triangles of the scene in drawing order."""
+        return drawing_order(self.scene, self.settings)
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The traced triangles up to their edge functions."""
+        chosen = None if self.triangle is None else np.array([self.triangle])
+        return process_geometry(self.scene, self.settings, {s: StageCount() for s in STAGES}, chosen)
+
+    @cached_property
+    def start(self) -> Frame:
+        """The buffers before the first row."""
+        earlier = np.empty(0, np.int64)
+        if self.triangle is not None and self.before == "earlier":
+            earlier = np.sort(self.order[: int(np.flatnonzero(self.order == self.triangle)[0])])
+        return draw(self.scene, self.settings, self.raster, earlier)
+
+    @cached_property
+    def _schedule(self) -> tuple[Boxes, Runs]:
+        return schedule(self.geometry.edges, self.settings, self.raster)
+
+    @property
+    def boxes(self) -> Boxes:
+        """What the triangles may touch."""
+        return self._schedule[0]
+
+    @property
+    def runs(self) -> Runs:
+        """What the fill looks at."""
+        return self._schedule[1]
+
+    @cached_property
+    def tests(self) -> PixelTests:
+        """Every pixel that is looked at."""
+        return examine_pixels(self.geometry.edges, self.runs, self.raster)
+
+    @cached_property
+    def fragments(self) -> Fragments:
+        """(F) covered pixels, whether in depth range or not."""
+        tests = self.tests
+        return Fragments(tests.primitive, tests.column, tests.row).select(tests.covered)
+
+    @property
+    def place(self) -> Integers:
+        """(F,) int64, where each fragment stands in flattened buffers."""
+        return self.raster.index(self.fragments.column, self.fragments.row)
+
+    @property
+    def centers(self) -> tuple[Floats, Floats]:
+        """X and y (F,) of the fragments' pixel centres."""
+        return self.fragments.column + self.raster.center, self.fragments.row + self.raster.center
+
+    @property
+    def triangle_of_fragment(self) -> Integers:
+        """(F,) int64, number of the triangle in the scene."""
+        return self.geometry.primitives.triangle[self.fragments.primitive]
+
+    @cached_property
+    def interpolated(self) -> tuple[Floats, Floats]:
+        """Weights (F, 3) and values (F, K) of the fragments."""
+        x, y = self.centers
+        mode, provoking = self.settings.interpolation, self.settings.provoking
+        varyings = self.geometry.primitives.varyings
+        return interpolate(self.geometry.planes, varyings, self.fragments.primitive, x, y, mode, provoking)
+
+    @cached_property
+    def inverse_w(self) -> Floats:
+        """(F,) float64, 1/w at the fragments."""
+        return plane_value(self.geometry.inverse_w_plane, self.fragments.primitive, *self.centers)
+
+    @cached_property
+    def surface(self) -> Surface:
+        """The fragments' colours."""
+        mesh = self.geometry.primitives.mesh[self.fragments.primitive]
+        layout = self.geometry.primitives.layout
+        return shade_fragments(self.scene, self.settings, layout, mesh, self.interpolated[1])
+
+    @cached_property
+    def depth_format(self) -> DepthFormat:
+        """How depth is stored."""
+        made: DepthFormat = table.get("depth", self.settings.depth).function()
+        return made
+
+    @cached_property
+    def depths(self) -> tuple[Floats, Flags, Singles]:
+        """Window depth (F,), whether it is in range (F,), stored value (F,)."""
+        return fragment_depth(self.geometry, self.fragments, self.raster, self.depth_format)
+
+    @cached_property
+    def depth_tests(self) -> DepthTests:
+        """Depth test of every fragment; one out of range leaves the buffer alone and fails."""
+        _, keeps, stored = self.depths
+        index = np.flatnonzero(keeps)
+        tests = run_depth_tests(
+            stored[index],
+            self.place[index],
+            self.start.depth.ravel(),
+            self.depth_format,
+            self.geometry.uses_depth_test,
+        )
+        before = np.full(len(stored), np.nan, np.float32)
+        passes = np.zeros(len(stored), bool)
+        before[index], passes[index] = tests.before, tests.passes
+        return DepthTests(before, passes)
+
+    def with_settings(self, settings: Settings) -> "TraceSource":
+        """Return the source of the same input under other settings."""
+        return replace(self, settings=settings)

@@ -1,0 +1,135 @@
+"""What every stage's trace is: rows of numbers, marks, and buffers as they fill."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Flags, Integers, read_only
+from core.listing import Listing
+from core.steps import Operation, Steps
+
+Value = float | int | bool | str | NDArray[Any]
+MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")
+"""Kinds of marks on the timeline."""
+
+
+@dataclass(frozen=True, eq=False)
+class BufferTrack:
+    """A buffer and who writes what into it."""
+
+    name: str
+    initial: NDArray[Any]
+    """(h, w) or (h, w, C), the buffer before the first row; NaN (or -1 in identities) where nothing is known yet."""
+    rows: Integers
+    """(k,) int64, rising: the rows that write."""
+    places: Integers
+    """(k,) int64, index into the flattened buffer that each writes."""
+    values: NDArray[Any]
+    """(k,) or (k, C), what each writes."""
+    kind: str = "scalar"
+    """``scalar``, ``signed``, ``color``, ``ids``, ``flags`` or ``count``: how it is to be looked at."""
+
+    def at(self, rows_done: int) -> NDArray[Any]:
+        """Return the buffer after ``rows_done`` rows; of several writes to a place the last one stays."""
+        done = int(np.searchsorted(self.rows, rows_done, "left"))
+        buffer = self.initial.copy()
+        flat = buffer.reshape(-1, *buffer.shape[2:])
+        flat[self.places[:done]] = self.values[:done]
+        return read_only(buffer)
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """What one step did. Core gives keys and numbers; sentences and formulas are made from them."""
+
+    key: str
+    """``stage.kind.operation``: names the sentence and the formula."""
+    values: Mapping[str, Value]
+    """All variables of the row, those of later operations too."""
+    known: tuple[str, ...]
+    """Variables that have a value by now."""
+    changed: tuple[str, ...]
+    """Variables that this operation has set."""
+    listing: Listing | None
+    """The algorithm that the operation is part of."""
+    line: int
+    """Its line, from 1; 0: none."""
+
+
+@dataclass(frozen=True, eq=False)
+class StageTrace:
+    """The work of one stage as R rows in drawing order."""
+
+    stage: str
+    method: str
+    """Name of the method that ran, as ``fill=hierarchy``; empty where the stage has no choice."""
+    steps: Steps
+    columns: Mapping[str, NDArray[Any]]
+    """Every number that took part in a decision: name to (R, ...) array."""
+    triangle: Integers
+    """(R,) int64, number of the triangle in drawing order, -1: none."""
+    pixel: Integers
+    """(R, 2) int64 column and row, -1: the row of the trace is about no pixel."""
+    listings: Mapping[str, Listing]
+    """Kind of row, or ``kind.operation``, to its listing."""
+    marks: Mapping[str, Flags] = field(default_factory=dict)
+    """Kind of mark (``MARKS``) to (R,) bool."""
+    buffers: tuple[BufferTrack, ...] = ()
+    extra: Mapping[str, Any] = field(default_factory=dict)
+    """Records of the stage that its own view draws (blocks, clipped polygons, spaces of the vertices)."""
+    constants: Mapping[str, Value] = field(default_factory=dict)
+    """Variables that are the same in all rows."""
+
+    def kind_of(self, row: int) -> str:
+        """Return the kind of a row."""
+        return self.steps.kinds[int(self.steps.kind[row])]
+
+    def variables(self, row: int) -> dict[str, Value]:
+        """Return all variables of a row."""
+        found: dict[str, Value] = dict(self.constants)
+        for name, column in self.columns.items():
+            value = column[row]
+            found[name] = value if isinstance(value, np.ndarray) else value.item()
+        return found
+
+    def explain(self, position: int) -> Explanation | None:
+        """Explain the operation that was done last; ``None`` at the initial state."""
+        row, operation = self.steps.row_at(position)
+        if row < 0:
+            return None
+        kind = self.kind_of(row)
+        operations: tuple[Operation, ...] = self.steps.operations[kind]
+        done = operations[operation]
+        listing = self.listings.get(f"{kind}.{done.name}", self.listings.get(kind))
+        return Explanation(
+            key=f"{self.stage}.{kind}.{done.name}",
+            values=self.variables(row),
+            known=(*self.constants, *(name for o in operations[: operation + 1] for name in o.sets)),
+            changed=done.sets,
+            listing=listing,
+            line=listing.lines.get(done.label, 0) if listing else 0,
+        )
+
+    def state(self, position: int) -> dict[str, NDArray[Any]]:
+        """Return all buffers as they are at a position; a row counts when its last operation is done."""
+        rows_done = self.steps.rows_done(position)
+        return {track.name: track.at(rows_done) for track in self.buffers}
+
+    def rows_at_pixel(self, column: int, row: int) -> Integers:
+        """Return the rows that are about one pixel."""
+        return np.flatnonzero((self.pixel[:, 0] == column) & (self.pixel[:, 1] == row))
+
+    def summary(self, first: int, end: int) -> dict[str, int]:
+        """Count the rows from ``first`` to ``end`` (excluded) and their marks."""
+        counts = {"rows": end - first}
+        for name, flags in self.marks.items():
+            counts[name] = int(np.count_nonzero(flags[first:end]))
+        return counts
+
+
+def no_pixels(count: int) -> Integers:
+    """Return (count, 2) pixels of rows that are about none."""
+    return np.full((count, 2), -1, np.int64)

@@ -1,0 +1,87 @@
+"""Trace of the vertex stage: every vertex from space to space, one component after the other."""
+
+import numpy as np
+
+from core.geometry.matrices import transform_component
+from core.listing import listing
+from core.steps import Operation, Steps, ends_of
+from core.trace.source import TraceSource
+from core.trace.stage_trace import StageTrace, no_pixels
+
+AXES = ("x", "y", "z", "w")
+MATRIX_SPACES = (("model", "object", "world"), ("view", "world", "camera"), ("projection", "camera", "clip"))
+
+
+def divide_and_map(clip: np.ndarray, width: int, height: int) -> tuple[float, float, float]:
+    """Listing of the way from clip space to the window."""
+    x, y, z, w = clip
+    ndc_x, ndc_y, ndc_z = x / w, y / w, z / w  #: divide
+    window_x = (ndc_x + 1) * (width / 2)  #: window-x
+    window_y = (ndc_y + 1) * (height / 2)  #: window-y
+    depth = (ndc_z + 1) * 0.5  #: depth
+    return window_x, window_y, depth
+
+
+def trace_transform(source: TraceSource) -> StageTrace:
+    """Return one row for every vertex and space; a scene given in clip space starts at the division."""
+    vertices = source.geometry.vertices
+    triangle = source.geometry.assembled.triangle
+    corners = vertices.corners[triangle].ravel()
+    owner = np.repeat(triangle, 3)
+    corner = np.tile([0, 1, 2], len(triangle))
+    kinds = (*(f"{a}-to-{b}" for _, a, b in MATRIX_SPACES), "divide", "viewport")
+    first = 0 if vertices.object is not None else 3
+    columns = {
+        "vertex": np.repeat(corners, 5 - first),
+        "corner": np.repeat(corner, 5 - first),
+        "before": np.full((len(corners) * (5 - first), 4), np.nan),
+        "after": np.full((len(corners) * (5 - first), 4), np.nan),
+        "matrix": np.full((len(corners) * (5 - first), 4, 4), np.nan),
+    }
+    ones = np.ones((len(corners), 1))
+    ndc = np.hstack([vertices.ndc[corners], ones])
+    window = np.hstack([vertices.window[corners], ones])
+    stages = [(vertices.clip[corners], ndc, None), (ndc, window, vertices.viewport)]
+    if vertices.object is not None:
+        assert vertices.world is not None and vertices.camera is not None and vertices.model is not None
+        model = vertices.model[vertices.mesh[owner]]
+        spaces = [vertices.object, vertices.world, vertices.camera, vertices.clip]
+        matrices = [model, vertices.view, vertices.projection]
+        ways = zip(spaces, spaces[1:], matrices, strict=False)
+        stages = [(before[corners], after[corners], matrix) for before, after, matrix in ways] + stages
+    for place, (before, after, matrix) in enumerate(stages):
+        at = slice(place, None, 5 - first)
+        columns["before"][at], columns["after"][at] = before, after
+        if matrix is not None:
+            columns["matrix"][at] = matrix
+    by_matrix = tuple(Operation(axis, "fourth", (f"after_{axis}",)) for axis in AXES)
+    by_division = tuple(Operation(axis, "divide", (f"after_{axis}",)) for axis in AXES[:3])
+    to_window = tuple(
+        Operation(axis, label, (f"after_{axis}",))
+        for axis, label in zip(AXES, ("window-x", "window-y", "depth"), strict=False)
+    )
+    for k, axis in enumerate(AXES):
+        columns[f"before_{axis}"], columns[f"after_{axis}"] = columns["before"][:, k], columns["after"][:, k]
+    operations = {kind: by_matrix for kind in kinds[:3]} | {"divide": by_division, "viewport": to_window}
+    rows = len(columns["vertex"])
+    steps = Steps(
+        kinds=kinds,
+        kind=np.tile(np.arange(first, 5), len(corners)),
+        operations=operations,
+        triangle_ends=ends_of(np.repeat(owner, 5 - first)),
+        group_ends=ends_of(np.repeat(np.arange(len(corners)), 5 - first)),
+    )
+    projection = listing(divide_and_map)
+    return StageTrace(
+        stage="transform",
+        method="",
+        steps=steps,
+        columns=columns,
+        triangle=np.repeat(owner, 5 - first),
+        pixel=no_pixels(rows),
+        listings={kind: listing(transform_component) for kind in kinds[:3]}
+        | {"divide": projection, "viewport": projection},
+        marks={"nan": ~np.isfinite(columns["after"]).all(axis=1)},
+        extra={"vertices": vertices},
+        constants={"width": source.scene.size[0], "height": source.scene.size[1]},
+    )

@@ -1,0 +1,1 @@
+"""Which triangle is seen: z-buffer, drawing order, painter's algorithm."""

@@ -1,0 +1,1 @@
+"""The course: text, scenes, exercises, checking and progress, without Qt."""

@@ -1,0 +1,226 @@
+"""The built-in scenes: small cases for one idea each, where every pixel can be read, and whole meshes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.arrays import Floats, checked
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
+from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, sphere, torus
+
+TEACHING_SIZE = (64, 48)
+"""Raster of the small cases in pixels: every pixel can be pointed at."""
+
+PICTURE_SIZE = (512, 512)
+"""Raster of the meshes."""
+
+RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
+
+
+@dataclass(frozen=True)
+class BuiltInScene:
+    """One row of the catalogue."""
+
+    name: str
+    """The spelling of files and command line, as ``shared-edge``."""
+    title: str
+    """What a person reads in a menu."""
+    description: str
+    """One sentence on what there is to see."""
+    make: Callable[[], AnyScene]
+
+
+def window_triangle(
+    x: ArrayLike, y: ArrayLike, depth: ArrayLike, w: ArrayLike, size: tuple[int, int]
+) -> Floats:
+    """Return the clip-space corners of a triangle given in the window.
+
+    Parameters
+    ----------
+    x, y : (3,) array_like
+        Pixels, y up.
+    depth : (3,) array_like
+        Window depth, from 0 (near) to 1 (far).
+    w : (3,) array_like
+        Clip-space w; not 0. Only its ratios matter, and only for what is interpolated.
+    size : (width, height)
+        Raster in pixels.
+
+    Returns
+    -------
+    (3, 4) float64
+        ``((2 x / width - 1) w, (2 y / height - 1) w, (2 depth - 1) w, w)``.
+
+    Raises
+    ------
+    ValueError
+        If an array is not three finite numbers, or a w is 0.
+
+    Notes
+    -----
+    The way there and back rounds; the result differs from x and y by far less than half of 1/256 pixel, so
+    corners on that lattice snap to the very same place.
+    """
+    columns = [
+        checked(name, values, (3,)) for name, values in (("x", x), ("y", y), ("depth", depth), ("w", w))
+    ]
+    across, up, far, weight = columns
+    if (weight == 0).any():
+        raise ValueError("w must not be 0: such a corner has no place in the window")
+    width, height = size
+    ndc = np.stack([2 * across / width - 1, 2 * up / height - 1, 2 * far - 1, np.ones(3)], axis=1)
+    return np.asarray(ndc * weight[:, None])
+
+
+def window_corners(clip: ArrayLike, size: tuple[int, int]) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return x, y (pixels), depth and w, each (3,) float64, of clip-space corners (3, 4).
+
+    The inverse of ``window_triangle``.
+
+    Raises
+    ------
+    ValueError
+        If ``clip`` is not (3, 4) finite numbers, or a w is 0.
+    """
+    corners = checked("clip", clip, (3, 4))
+    w = corners[:, 3]
+    if (w == 0).any():
+        raise ValueError("w must not be 0: such a corner has no place in the window")
+    x, y, z = (corners[:, k] / w for k in range(3))
+    return (x + 1) * (size[0] / 2), (y + 1) * (size[1] / 2), (z + 1) / 2, w.copy()
+
+
+def single_triangle() -> ClipScene:
+    """One triangle with red, green and blue corners, the first nearest and the last farthest."""
+    clip = window_triangle([8, 57, 22.5], [6, 15.5, 42], [0.2, 0.5, 0.8], [1, 1.5, 2.5], TEACHING_SIZE)
+    return ClipScene(clip[None], RED_GREEN_BLUE[None], TEACHING_SIZE)
+
+
+def shared_edge() -> ClipScene:
+    """Two triangles with an edge in common that runs through pixel centres."""
+    x, y = np.array([8.5, 52.5, 12.5, 58.5]), np.array([40.5, 8.5, 6.5, 42.5])
+    corners = np.array([[0, 2, 1], [0, 1, 3]])
+    clip = np.stack(
+        [window_triangle(x[row], y[row], np.full(3, 0.5), np.ones(3), TEACHING_SIZE) for row in corners]
+    )
+    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
+    return ClipScene(clip, colors, TEACHING_SIZE, shared=corners)
+
+
+def near_plane() -> Scene:
+    """One triangle that reaches from far in front of the camera to behind it."""
+    triangle = Mesh(
+        positions=np.array([[-1.6, 0.1, -5.0], [1.2, 0.3, -3.0], [0.5, -0.2, 1.5]]),
+        triangles=np.array([[0, 2, 1]]),
+        normals=np.tile([0.0, 1.0, 0.0], (3, 1)),
+        colors=RED_GREEN_BLUE,
+        name="near-plane crosser",
+    )
+    camera = Camera(eye=np.array([0.0, 1.0, 0.0]), target=np.array([0.0, 0.7, -3.0]), near=0.5, far=20.0)
+    return Scene((triangle,), camera, (sun(),), TEACHING_SIZE)
+
+
+def intersecting() -> ClipScene:
+    """Two triangles that pass through each other: no order of drawing them is right everywhere."""
+    size = TEACHING_SIZE
+    rising = window_triangle([4, 60, 10], [8, 20, 44], [0.1, 0.9, 0.3], [1, 1, 1], size)
+    falling = window_triangle([4, 60, 54], [24, 4, 45], [0.8, 0.2, 0.4], [1, 1, 1], size)
+    colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
+    return ClipScene(np.stack([rising, falling]), colors, size)
+
+
+def textured_floor() -> Scene:
+    """A floor to the horizon, where affine interpolation and a texture without mipmaps go wrong."""
+    camera = Camera(eye=np.array([0.0, 1.6, 4.0]), target=np.array([0.0, 0.4, -2.0]), near=0.2, far=60.0)
+    return Scene((floor(),), camera, (sun(),), PICTURE_SIZE)
+
+
+def sun() -> DirectionalLight:
+    """Return light from above left."""
+    return DirectionalLight(np.array([0.4, -0.8, -0.7]))
+
+
+def of_mesh(mesh: Callable[[], Mesh], distance: float, color: str = "") -> Callable[[], Scene]:
+    """Return a maker of the scene of one mesh in one colour, seen from the right and from above."""
+
+    def make() -> Scene:
+        direction = np.array([0.45, 0.5, 1.0])
+        camera = Camera(
+            eye=direction / np.linalg.norm(direction) * distance,
+            target=np.zeros(3),
+            near=distance / 10,
+            far=3 * distance,
+        )
+        shape = mesh()
+        if color:
+            shape = replace(shape, colors=np.tile(linear_color(color), (len(shape.positions), 1)))
+        weak = DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.25))
+        return Scene((shape,), camera, (sun(), weak), PICTURE_SIZE)
+
+    return make
+
+
+CATALOGUE = (
+    BuiltInScene(
+        "single-triangle",
+        "Single triangle",
+        "One triangle with red, green and blue corners at three depths.",
+        single_triangle,
+    ),
+    BuiltInScene(
+        "shared-edge",
+        "Two triangles sharing an edge",
+        "Their common edge runs through pixel centres, each of which belongs to one triangle only.",
+        shared_edge,
+    ),
+    BuiltInScene(
+        "near-plane",
+        "Near-plane crosser",
+        "One triangle that begins in front of the camera and ends behind it.",
+        near_plane,
+    ),
+    BuiltInScene(
+        "intersecting",
+        "Intersecting triangles",
+        "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
+        intersecting,
+    ),
+    BuiltInScene(
+        "textured-floor",
+        "Textured floor",
+        "Two large triangles with a repeated checkerboard show what perspective does to texture coordinates.",
+        textured_floor,
+    ),
+    BuiltInScene("cube", "Cube", "Six faces of one colour each, twelve triangles.", of_mesh(cube, 5.4)),
+    BuiltInScene(
+        "sphere", "Sphere", "A round surface of 2,208 flat triangles.", of_mesh(sphere, 3.4, "#56B4E9")
+    ),
+    BuiltInScene("torus", "Torus", "A ring that hides a part of itself.", of_mesh(torus, 3.6, "#E69F00")),
+    BuiltInScene(
+        "knot",
+        "Knot",
+        "A trefoil knot of 20,000 triangles, a small load test.",
+        of_mesh(knot, 5.2, "#009E73"),
+    ),
+)
+"""The scenes in the order of the menu."""
+
+
+def scene_names() -> tuple[str, ...]:
+    """Return the names of the built-in scenes, in the order of the menu."""
+    return tuple(scene.name for scene in CATALOGUE)
+
+
+def built_in_scene(name: str) -> BuiltInScene:
+    """Return the row of the catalogue for ``name``, or raise ValueError with the names that there are."""
+    for scene in CATALOGUE:
+        if scene.name == name:
+            return scene
+    raise ValueError(f"scene must be one of {', '.join(scene_names())}, got {name}")
+
+
+def make_scene(name: str) -> AnyScene:
+    """Return the built-in scene ``name``, or raise ValueError with the names that there are."""
+    return built_in_scene(name).make()

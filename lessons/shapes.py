@@ -1,0 +1,170 @@
+"""Meshes by formula: cube, sphere, torus, knot, floor; counter-clockwise outside, with normals and UVs."""
+
+from math import pi
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.framebuffer.display import linear_light
+from core.scene import Mesh, Texture
+
+FACE_COLORS = ("#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#F0E442")
+"""sRGB colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008)."""
+
+MARK = ("######", "#.....", "#####.", "#.....", "#.....", "#.....")
+"""The letter F, rows from the top: it looks different however a texture is turned or mirrored."""
+
+
+def linear_color(srgb: str) -> Floats:
+    """Return ``#rrggbb`` as (4,) float64 linear colour with alpha 1."""
+    return np.append(linear_light(np.array([int(srgb[k : k + 2], 16) for k in (1, 3, 5)]) / 255), 1.0)
+
+
+def grid_triangles(columns: int, rows: int) -> tuple[Integers, Integers]:
+    """Split a grid of ``columns`` x ``rows`` cells into triangles.
+
+    Vertex (i, j) has the number ``j (columns + 1) + i``; seen with i to the right and j up, all turn
+    counter-clockwise.
+
+    Returns
+    -------
+    triangles : (2 columns rows, 3) int64
+    faces : (2 columns rows,) int64
+        The cell of each triangle.
+    """
+    i, j = np.meshgrid(np.arange(columns), np.arange(rows))
+    first = (j * (columns + 1) + i).ravel()
+    second, third, fourth = first + 1, first + columns + 2, first + columns + 1
+    triangles = np.stack([first, second, third, first, third, fourth], axis=1).reshape(-1, 3)
+    return triangles, np.repeat(np.arange(columns * rows), 2)
+
+
+def grid_angles(columns: int, rows: int) -> tuple[Floats, Floats, Floats]:
+    """Return angle around, fraction along and UVs of the vertices of a grid whose columns close to a ring.
+
+    Returns
+    -------
+    around : ((columns + 1) (rows + 1),) float64
+        Radians; the last column has the very angle of the first, so that the seam has no gap.
+    along : same shape, float64
+        0 to 1.
+    uvs : ((columns + 1) (rows + 1), 2) float64
+    """
+    i, j = np.meshgrid(np.arange(columns + 1), np.arange(rows + 1))
+    around = np.asarray(2 * pi * (i.ravel() % columns) / columns, np.float64)
+    uvs: Floats = np.stack([i.ravel() / columns, j.ravel() / rows], axis=1)
+    return around, uvs[:, 1], uvs
+
+
+def cube(side: float = 2.0) -> Mesh:
+    """Return a cube around the origin: six faces of one colour each, which share no vertices."""
+    triangles: list[tuple[int, int, int]] = []
+    positions: list[Floats] = []
+    normals: list[Floats] = []
+    for axis in range(3):
+        for sign in (1.0, -1.0):
+            normal, across, up = np.roll(np.eye(3), axis, axis=1)
+            normal, across = normal * sign, across * sign
+            square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            first = len(positions)
+            positions += [(normal + a * across + b * up) * (side / 2) for a, b in square]
+            normals += [normal] * 4
+            triangles += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
+    return Mesh(
+        positions=np.array(positions),
+        triangles=np.array(triangles),
+        normals=np.array(normals),
+        uvs=np.tile([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], (6, 1)),
+        colors=np.repeat([linear_color(color) for color in FACE_COLORS], 4, axis=0),
+        faces=np.repeat(np.arange(6), 2),
+        name="cube",
+    )
+
+
+def sphere(radius: float = 1.0, columns: int = 48, rows: int = 24) -> Mesh:
+    """Return a sphere around the origin: a grid of longitude and latitude whose poles are fans."""
+    around, along, uvs = grid_angles(columns, rows)
+    height = -np.cos(pi * along)
+    ring = np.where((along == 0) | (along == 1), 0.0, np.sin(pi * along))
+    normals = np.stack([ring * np.sin(around), height, ring * np.cos(around)], axis=1)
+    triangles, faces = grid_triangles(columns, rows)
+    is_flat = (triangles // (columns + 1) == 0).sum(axis=1) == 2
+    is_flat |= (triangles // (columns + 1) == rows).sum(axis=1) == 2
+    return Mesh(
+        positions=radius * normals,
+        triangles=triangles[~is_flat],
+        normals=normals,
+        uvs=uvs,
+        faces=faces[~is_flat],
+        name="sphere",
+    )
+
+
+def torus(ring: float = 0.8, tube: float = 0.35, columns: int = 64, rows: int = 32) -> Mesh:
+    """Return a torus around the y axis: its tube of radius ``tube`` is ``ring`` from the origin."""
+    around, _, uvs = grid_angles(columns, rows)
+    section = np.repeat((2 * pi / rows) * (np.arange(rows + 1) % rows), columns + 1)
+    outward = np.stack([np.sin(around), np.zeros_like(around), np.cos(around)], axis=1)
+    normals = np.cos(section)[:, None] * outward + np.sin(section)[:, None] * np.array([0.0, 1.0, 0.0])
+    triangles, faces = grid_triangles(columns, rows)
+    return Mesh(ring * outward + tube * normals, triangles, normals, uvs, faces=faces, name="torus")
+
+
+def knot(tube: float = 0.28, columns: int = 500, rows: int = 20) -> Mesh:
+    """Return a tube around the trefoil, the torus knot (2, 3): ``2 columns rows`` triangles.
+
+    Notes
+    -----
+    The tube's circles lie in the plane of the curve's normal and binormal (the Frenet frame). The curve
+    bends everywhere, so the frame turns smoothly and comes back to where it began.
+    """
+    t, _, uvs = grid_angles(columns, rows)
+    section = np.repeat((2 * pi / rows) * (np.arange(rows + 1) % rows), columns + 1)
+
+    def derivative(order: int) -> Floats:
+        # The curve is a sum of sines, whose derivatives are sines a quarter turn on.
+        def sine(frequency: int, phase: float) -> Floats:
+            return float(frequency) ** order * np.sin(frequency * t + phase + order * pi / 2)
+
+        x, y, z = sine(1, 0) + 2 * sine(2, 0), sine(1, pi / 2) - 2 * sine(2, pi / 2), -sine(3, 0)
+        return np.stack([x, y, z], axis=1) / 2
+
+    tangent, bend = derivative(1), derivative(2)
+    binormal = np.cross(tangent, bend)
+    binormal /= np.linalg.norm(binormal, axis=1, keepdims=True)
+    inward = np.cross(binormal, tangent)
+    inward /= np.linalg.norm(inward, axis=1, keepdims=True)
+    normals = np.cos(section)[:, None] * inward - np.sin(section)[:, None] * binormal
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    triangles, faces = grid_triangles(columns, rows)
+    return Mesh(derivative(0) + tube * normals, triangles, normals, uvs, faces=faces, name="knot")
+
+
+def floor(half: float = 20.0, tiles: float = 20.0) -> Mesh:
+    """Return a square of two triangles in the plane y = 0 with a texture that repeats ``tiles`` times."""
+    corners = np.array([[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]])
+    return Mesh(
+        positions=half * corners,
+        triangles=np.array([[0, 1, 2], [0, 2, 3]]),
+        normals=np.tile([0.0, 1.0, 0.0], (4, 1)),
+        uvs=tiles * np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+        texture=checkerboard(),
+        faces=np.array([0, 0]),
+        name="floor",
+    )
+
+
+def checkerboard(square: int = 16) -> Texture:
+    """Return a texture of 2 x 2 squares of ``square`` texels, with the letter F in the one at (0, 0)."""
+    light, dark, ink = (linear_color(color)[:3] for color in ("#E8E8E8", "#404850", "#D55E00"))
+    row, column = np.divmod(np.arange((2 * square) ** 2), 2 * square)
+    is_light = (row // square + column // square) % 2 == 0
+    pixels = np.where(is_light[:, None], light, dark).reshape(2 * square, 2 * square, 3)
+
+    # The letter, each of its cells two by two texels, in the middle of the square; row 0 is its foot.
+    letter = (
+        np.array([[cell == "#" for cell in line] for line in MARK[::-1]]).repeat(2, axis=0).repeat(2, axis=1)
+    )
+    start = (square - len(letter)) // 2
+    pixels[start : start + len(letter), start : start + len(letter)][letter] = ink
+    return Texture(pixels.astype(np.float32), name="checkerboard with an F")

@@ -1,0 +1,94 @@
+"""Which pixels a triangle covers, in exact rational arithmetic, one pixel at a time, from the definition alone.
+
+Nothing of the program is used here: a window position is a fraction, snapping is Python's ``round`` (half to even),
+an edge function is a determinant of fractions, and the tie rule moves the point by writing down what the determinant
+gains by the move.
+"""
+
+from fractions import Fraction
+from math import lcm
+
+import numpy as np
+
+Point = tuple[Fraction, Fraction, Fraction]
+LIMIT = 2**16
+
+
+def exact(values) -> list[Fraction]:
+    return [Fraction(float(value)) for value in values]
+
+
+def snapped_window(corner, size: tuple[int, int]) -> tuple[Fraction, Fraction] | None:
+    """Return the corner's place on the lattice of 1/256 pixel, or ``None`` where it has none."""
+    x, y, _, w = exact(corner)
+    if w <= 0:
+        return None
+    window = [(p / w + 1) * n / 2 for p, n in zip((x, y), size, strict=True)]
+    if any(abs(p) > LIMIT for p in window):
+        return None
+    column, row = (Fraction(round(256 * p), 256) for p in window)
+    return column, row
+
+
+def homogeneous_window(corner, size: tuple[int, int], snaps: bool = True) -> Point:
+    """Return D clip = (x, y, w) as the edges see it: (snapped w, w) where the corner is on the lattice."""
+    x, y, _, w = exact(corner)
+    place = snapped_window(corner, size) if snaps else None
+    if place is not None:
+        return place[0] * w, place[1] * w, w
+    return (x + w) * size[0] / 2, (y + w) * size[1] / 2, w
+
+
+def determinant(first: Point, second: Point, third: Point) -> Fraction:
+    (x0, y0, w0), (x1, y1, w1), (x2, y2, w2) = first, second, third
+    return x0 * (y1 * w2 - w1 * y2) + y0 * (w1 * x2 - x1 * w2) + w0 * (x1 * y2 - y1 * x2)
+
+
+def facing(clip, size: tuple[int, int], snaps: bool = True) -> int:
+    """Return 1 for the front, -1 for the back, 0 for a triangle that is seen edge-on."""
+    value = determinant(*(homogeneous_window(corner, size, snaps) for corner in clip))
+    return (value > 0) - (value < 0)
+
+
+def line_through(first: Point, second: Point) -> tuple[int, int, int]:
+    """Return integers a, b, c of the same sign and proportion as the determinant of (first, second, pixel)."""
+    (x1, y1, w1), (x2, y2, w2) = first, second
+    a, b, c = y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
+    scale = lcm(a.denominator, b.denominator, c.denominator)
+    return int(a * scale), int(b * scale), int(c * scale)
+
+
+def edge_signs(clip, size: tuple[int, int], snaps: bool = True) -> list[tuple[int, int, int]]:
+    """Return inward lines (a, b, c) of the three edges; edge k lies opposite corner k."""
+    corners = [homogeneous_window(corner, size, snaps) for corner in clip]
+    turn = facing(clip, size, snaps)
+    return [tuple(turn * n for n in line_through(corners[k - 2], corners[k - 1])) for k in range(3)]
+
+
+def exact_coverage(
+    clip, size: tuple[int, int], rule: str = "shared-edge", doubled_center: int = 1, snaps: bool = True
+) -> np.ndarray:
+    """Return (H, W) bool, row 0 at the bottom: the pixels of one triangle (3, 4) in clip space."""
+    width, height = size
+    covered = np.zeros((height, width), bool)
+    if facing(clip, size, snaps) == 0 or all(Fraction(float(corner[3])) <= 0 for corner in clip):
+        return covered
+    lines = edge_signs(clip, size, snaps)
+    for row in range(height):
+        for column in range(width):
+            covered[row, column] = all(
+                side(line, 2 * column + doubled_center, 2 * row + doubled_center, rule) for line in lines
+            )
+    return covered
+
+
+def side(line: tuple[int, int, int], doubled_x: int, doubled_y: int, rule: str) -> bool:
+    """Decide for the point (x/2, y/2), moved by an infinitesimal step right and a far smaller step up."""
+    a, b, c = line
+    value = a * doubled_x + b * doubled_y + 2 * c
+    if value != 0:
+        return value > 0
+    if rule != "shared-edge":
+        return rule == "inclusive"
+    gain_right, gain_up = a, b
+    return gain_right > 0 or (gain_right == 0 and gain_up > 0)

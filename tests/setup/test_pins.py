@@ -1,0 +1,83 @@
+"""What is pinned, what is declared and what is imported are the same."""
+
+import ast
+import importlib.metadata
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import bootstrap
+
+ROOT = bootstrap.ROOT
+PACKAGES = ("app", "core", "lessons", "widgets")
+# Where the name that is imported is not the name of the distribution.
+DISTRIBUTIONS = {"PIL": "pillow", "PySide6": "pyside6-essentials"}
+
+
+def read_pins(name: str) -> dict[str, str]:
+    lines = (ROOT / name).read_text(encoding="utf-8").splitlines()
+    pins = [line for line in lines if line and not line.startswith("#")]
+    assert [line for line in pins if not re.fullmatch(r"[A-Za-z0-9._-]+==[0-9][0-9a-z.]*", line)] == []
+    return {canonicalize_name(name): version for name, version in (line.split("==") for line in pins)}
+
+
+def read_declared() -> tuple[list[Requirement], list[Requirement]]:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = [Requirement(text) for text in project["dependencies"]]
+    return declared, [Requirement(text) for text in project["optional-dependencies"]["gpu"]]
+
+
+def imported_distributions(package: str) -> dict[str, set[Path]]:
+    """Return the distributions that a package imports, and where."""
+    found: dict[str, set[Path]] = {}
+    for path in sorted((ROOT / package).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+                names = [node.module]
+            for top in {name.split(".")[0] for name in names} - sys.stdlib_module_names - set(PACKAGES):
+                found.setdefault(canonicalize_name(DISTRIBUTIONS.get(top, top)), set()).add(path)
+    return found
+
+
+@pytest.mark.parametrize("name", bootstrap.TEST_PINS)
+def test_pins_are_exact_and_installed(name: str) -> None:
+    for distribution, version in read_pins(name).items():
+        assert importlib.metadata.version(distribution) == version
+
+
+def test_pins_lie_in_the_declared_ranges() -> None:
+    declared, extra = read_declared()
+    run, gpu = read_pins("requirements.txt"), read_pins("requirements-gpu.txt")
+    for requirement, pins in [(each, run) for each in declared] + [(each, gpu) for each in extra]:
+        assert pins[canonicalize_name(requirement.name)] in requirement.specifier
+
+
+@pytest.mark.parametrize("names", [("requirements.txt",), ("requirements-gpu.txt",), bootstrap.TEST_PINS])
+def test_pins_are_complete(names: tuple[str, ...]) -> None:
+    """Whatever a pinned distribution needs on this system is pinned too."""
+    pins = {name for each in names for name in read_pins(each)}
+    missing = set()
+    for name in pins:
+        for text in importlib.metadata.requires(name) or []:
+            requirement = Requirement(text)
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                missing |= {canonicalize_name(requirement.name)} - pins
+    assert missing == set()
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_are_declared(package: str) -> None:
+    declared, extra = read_declared()
+    allowed = {canonicalize_name(each.name) for each in (*declared, *extra)}
+    imported = imported_distributions(package)
+    assert {name: places for name, places in imported.items() if name not in allowed} == {}
+
+
+def test_core_imports_numpy_only() -> None:
+    assert set(imported_distributions("core")) <= {"numpy"}

@@ -1,0 +1,209 @@
+"""What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks at some zoom and pan."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QRect, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from widgets.grid_buffer import GridBuffer
+from widgets.grid_canvas import GridCanvas
+from widgets.grid_geometry import GridGeometry, paint_focus
+from widgets.grid_marks import paint_hover, paint_pin, paint_step
+from widgets.grid_overlay import Overlay
+from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_size
+from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
+from widgets.theme import current_theme, theme_notifier
+
+
+class GridDisplay(QWidget):
+    """The showing half of a :class:`~widgets.pixel_grid.PixelGrid`. Slots paint only what changed and never emit."""
+
+    def __init__(self, parent: QWidget | None = None, compact: bool = False) -> None:
+        """Make an empty grid; a ``compact`` one is a thumbnail without rulers, handles and keyboard focus."""
+        super().__init__(parent)
+        self._compact = compact
+        self._canvas = GridCanvas(is_compact=compact)
+        self._geometry: GridGeometry | None = None
+        self._view = FIT
+        self._corner = 0.0
+        self._hover: tuple[int, int] | None = None
+        self._pin: tuple[int, int] | None = None
+        self._step: NDArray[np.integer] | None = None
+        self._shows_focus = True
+        """Whether the focus came by the keyboard: only then its ring helps."""
+        self._vertex: int | None = None
+        """The vertex under the pointer or being dragged."""
+        self.empty_text = "Nothing to show yet"
+        """What the grid says while it has no buffer."""
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus if compact else Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName("Pixel grid")
+        theme_notifier().theme_changed.connect(self._repaint_all)
+
+    def buffer(self) -> GridBuffer | None:
+        """Return the buffer that is shown."""
+        return self._canvas.buffer
+
+    def view(self) -> GridView:
+        """Return the zoom and pan."""
+        return self._view
+
+    def placement(self) -> GridPlacement:
+        """Return where the cells stand in the widget now."""
+        buffer = self._canvas.buffer
+        columns, rows = (buffer.columns, buffer.rows) if buffer else (1, 1)
+        return place(columns, rows, self._viewport(rows), self._view, self.devicePixelRatioF(), self._corner)
+
+    def show_buffer(self, buffer: GridBuffer | None) -> None:
+        """Show a buffer; only pixels that differ are painted again."""
+        before = self._canvas.buffer
+        changed = self._canvas.set_buffer(buffer)
+        if buffer is not None and (before is None or before.label != buffer.label):
+            self.setAccessibleName(f"Pixel grid: {buffer.label}")
+        if changed:
+            self.update()
+
+    def show_overlays(self, overlays: tuple[Overlay, ...] | list[Overlay]) -> None:
+        """Lay overlays over the cells, the first lowest."""
+        if self._canvas.set_overlays(tuple(overlays)):
+            self.update()
+
+    def show_geometry(self, geometry: GridGeometry | None) -> None:
+        """Show triangles in window coordinates."""
+        if geometry is not self._geometry:
+            self._geometry = geometry
+            self._canvas.set_geometry(geometry)
+            self.update()
+
+    def show_hover(self, pixel: tuple[int, int] | None) -> None:
+        """Mark (column, row) as the pixel under the pointer."""
+        if pixel != self._hover:
+            self._hover = pixel
+            self.update()
+
+    def show_pin(self, pixel: tuple[int, int] | None) -> None:
+        """Mark (column, row) as the pinned pixel."""
+        if pixel != self._pin:
+            self._pin = pixel
+            text = "" if pixel is None else f"Pinned pixel {pixel[0]}, {pixel[1]}: {self.value_text(pixel)}"
+            self.setAccessibleDescription(text)
+            self.update()
+
+    def show_step(self, pixels: NDArray[np.integer] | None) -> None:
+        """Outline the (N, 2) pixels (column, row) of the step just done; None: none."""
+        if pixels is not None and (pixels.ndim != 2 or pixels.shape[1] != 2):
+            raise ValueError(f"pixels must be (N, 2), got {pixels.shape}")
+        before, self._step = self._step, pixels
+        same = before is pixels or (
+            before is not None and pixels is not None and np.array_equal(before, pixels)
+        )
+        if not same:
+            self.update()
+
+    def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
+        """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
+        buffer = self._canvas.buffer
+        if hidden is not None and (buffer is None or hidden.shape != (buffer.rows, buffer.columns)):
+            raise ValueError(f"hidden must have the shape of the buffer's pixels, got {hidden.shape}")
+        if self._canvas.set_hidden(hidden):
+            self.update()
+
+    def show_samples(self, samples: NDArray[np.float64] | None) -> None:
+        """Show several sample positions per pixel, (S, 2) from 0 to 1, y up; None: the one in the middle."""
+        if self._canvas.set_samples(samples):
+            self.update()
+
+    def set_pixel_center(self, name: str) -> None:
+        """Say where centres lie: "half" at (i + 0.5, j + 0.5), "integer" at (i, j)."""
+        corners = {"half": 0.0, "integer": -0.5}
+        if name not in corners:
+            raise ValueError(f"pixel center must be half or integer, got {name!r}")
+        if corners[name] != self._corner:
+            self._corner = corners[name]
+            self.update()
+
+    def set_view(self, view: GridView) -> None:
+        """Zoom and pan as a linked grid did; emits nothing."""
+        view = clamped(view)
+        if view != self._view:
+            self._view = view
+            self.update()
+
+    def has_numbers(self) -> bool:
+        """Return whether the values are written into the cells at this zoom."""
+        buffer = self._canvas.buffer
+        return buffer is not None and has_numbers(self.placement(), buffer, current_theme())
+
+    def value_text(self, pixel: tuple[int, int], digits: int = 4) -> str:
+        """Return the value of a pixel as text: "?" where it is covered, empty outside of the raster."""
+        buffer, hidden = self._canvas.buffer, self._canvas.hidden
+        column, row = pixel
+        if buffer is None or not (0 <= column < buffer.columns and 0 <= row < buffer.rows):
+            return ""
+        return "?" if hidden is not None and hidden[row, column] else buffer.text_at(column, row, digits)
+
+    def paint_to(self, painter: QPainter) -> None:
+        """Paint the grid as it is seen, but as vectors, for an SVG or PDF of the widget's size."""
+        theme, placement = current_theme(), self.placement()
+        if self._canvas.buffer is not None:
+            self._canvas.paint_now(painter, placement, self.rect(), theme)
+            self._paint_marks(painter, placement)
+
+    def sizeHint(self) -> QSize:
+        """Return the size that suits a grid: a thumbnail or the main view."""
+        return QSize(192, 144) if self._compact else QSize(640, 480)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the kept picture, then marks, handles and the focus ring."""
+        theme = current_theme()
+        painter = QPainter(self)
+        if self._canvas.buffer is None:
+            painter.fillRect(self.rect(), QColor(theme.panel))
+            painter.setPen(QColor(theme.muted_text))
+            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            painter.drawText(self.rect().adjusted(8, 8, -8, -8), flags, self.empty_text)
+        else:
+            placement = self.placement()
+            self._canvas.paint(painter, placement, self.rect(), theme)
+            self._paint_marks(painter, placement)
+        if self.hasFocus() and self._shows_focus:
+            painter.setClipping(False)
+            painter.setPen(QPen(QColor(theme.focus), 2))
+            painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
+        painter.end()
+
+    def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
+        """Paint what changes at every move: step, pin, hover, the triangle in focus, and the ruler's numbers."""
+        theme = current_theme()
+        if self._hover is not None and not self._compact and self._is_inside(self._hover):
+            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
+        painter.save()
+        painter.setClipRect(placement.viewport)
+        if self._geometry is not None:
+            paint_focus(painter, placement, self._geometry, theme, self._vertex, self._compact)
+        if self._step is not None:
+            paint_step(painter, placement, self._step, theme)
+        if self._pin is not None and self._is_inside(self._pin):
+            paint_pin(painter, placement, self._pin)
+        if self._hover is not None and self._is_inside(self._hover):
+            paint_hover(painter, placement, self._hover)
+        painter.restore()
+
+    def _viewport(self, rows: int) -> QRect:
+        """Return the part of the widget that shows pixels."""
+        if self._compact:
+            return self.rect()
+        across, down = ruler_size(rows, current_theme())
+        return self.rect().adjusted(across, 8, -8, -down)
+
+    def _is_inside(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel belongs to the raster."""
+        buffer = self._canvas.buffer
+        return buffer is not None and 0 <= pixel[0] < buffer.columns and 0 <= pixel[1] < buffer.rows
+
+    def _repaint_all(self) -> None:
+        """Paint everything again with the present theme."""
+        self._canvas.forget()
+        self.update()

@@ -1,0 +1,290 @@
+"""How the cells of a pixel grid are painted: colour, then grid lines, sample centres and numbers as zoom grows."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen
+
+from widgets.grid_buffer import GridBuffer
+from widgets.grid_overlay import Mark
+from widgets.grid_view import GridPlacement
+from widgets.mark_patterns import cell_tile
+from widgets.overlay_paint import paint_pattern
+from widgets.theme import Theme, text_font
+
+LINE_CELL = 6.0
+"""Side of a cell in logical pixels from which grid lines are drawn."""
+CENTRE_CELL = 12.0
+"""Side from which sample centres are drawn."""
+NUMBER_CELL = 40.0
+"""Side from which values are written into the cells, if they fit."""
+_LEAST_CHARACTERS = 6
+"""Values are written only where so many digits fit."""
+
+
+def paint_image(painter: QPainter, placement: GridPlacement, image: QImage) -> None:
+    """Paint the visible cells of the buffer's picture, each cell one plain square."""
+    column0, row0, column1, row1 = placement.visible_cells()
+    if column1 <= column0 or row1 <= row0:
+        return
+    target = placement.cells_rect(column0, row0, column1 - column0, row1 - row0)
+    source = QRectF(column0, placement.rows - row1, column1 - column0, row1 - row0)
+    painter.save()
+    # Below one screen pixel a cell, averaging tells more than picking some cells and losing others.
+    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, placement.cell < 1)
+    painter.drawImage(target, image, source)
+    painter.restore()
+
+
+def paint_lines(
+    painter: QPainter,
+    placement: GridPlacement,
+    theme: Theme,
+    samples: NDArray[np.float64] | None,
+    has_centres: bool,
+) -> None:
+    """Paint grid lines and sample centres where the cells are large enough.
+
+    ``samples`` are (S, 2) positions inside of a pixel, 0 to 1, y up; None is the one in the middle, which is
+    left out without ``has_centres``.
+    """
+    raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
+    shown = raster.intersected(QRectF(placement.viewport))
+    cell = placement.cell
+    if cell >= LINE_CELL:
+        strength = min(0.25 + 0.02 * (cell - LINE_CELL), 0.6)
+        ratio = painter.device().devicePixelRatioF()
+        has_centre = samples is None and has_centres and cell >= CENTRE_CELL
+        painter.save()
+        painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
+        painter.fillRect(shown, QBrush(cell_tile(cell, round(strength, 2), has_centre, theme, ratio)))
+        painter.restore()
+    if samples is not None and cell >= CENTRE_CELL:
+        _paint_samples(painter, placement, samples)
+
+
+def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> None:
+    """Paint a thin line around the raster, so that it ends visibly whatever its colours are."""
+    raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
+    painter.save()
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(theme.grid_line), 1.0))
+    painter.drawRect(raster.adjusted(-0.5, -0.5, 0.5, 0.5))
+    painter.restore()
+
+
+def _paint_samples(painter: QPainter, placement: GridPlacement, samples: NDArray[np.float64]) -> None:
+    """Paint several sample positions per cell."""
+    column0, row0, column1, row1 = placement.visible_cells()
+    columns, rows = np.meshgrid(np.arange(column0, column1), np.arange(row0, row1))
+    x = placement.left + (columns.ravel()[:, None] + samples[:, 0]) * placement.cell
+    y = placement.bottom - (rows.ravel()[:, None] + samples[:, 1]) * placement.cell
+    points = [QPointF(*place) for place in np.stack((x.ravel(), y.ravel()), axis=1).tolist()]
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    for color, width in (("#ffffff", 3.6), ("#000000", 2.0)):
+        painter.setPen(QPen(QColor(color), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPoints(points)
+    painter.restore()
+
+
+def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> None:
+    """Paint a fine checker over NaN pixels."""
+    if buffer.values.dtype.kind == "f" and placement.cell >= LINE_CELL:
+        is_nan = np.isnan(buffer.values)
+        if is_nan.any():
+            paint_pattern(
+                painter, placement, is_nan.any(axis=2) if is_nan.ndim == 3 else is_nan, Mark.NAN, theme
+            )
+
+
+def has_numbers(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
+    """Return whether the values are written into the cells at this zoom."""
+    return buffer.kind != "bool" and _number_size(placement, buffer, theme) is not None
+
+
+def _number_size(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> int | None:
+    """Return the text size of the values in logical pixels, or None where the cells are too small for them."""
+    cell, least = placement.cell, round(0.73 * theme.small_px)
+    room = (cell - 6) / (1.25 * buffer.channels)
+    if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
+        return None
+    size = max(int(min(cell / 5.2, room, theme.text_px)), least)
+    return size if _characters(cell, size, theme) >= _LEAST_CHARACTERS else None
+
+
+def _characters(cell: float, size: int, theme: Theme) -> int:
+    """Return how many digits of a text size fit side by side into a cell."""
+    return int((cell - 5) / QFontMetricsF(text_font(theme, size)).horizontalAdvance("0"))
+
+
+def _stands_below(placement: GridPlacement, lines: int, height: float) -> bool:
+    """Return whether so many lines of text fit below the sample centre of a cell."""
+    return placement.cell / 2 - 5 >= height * lines
+
+
+def paint_numbers(
+    painter: QPainter,
+    placement: GridPlacement,
+    buffer: GridBuffer,
+    image: QImage,
+    theme: Theme,
+    cells: tuple[int, int, int, int],
+    hidden: NDArray[np.bool_] | None,
+) -> None:
+    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better."""
+    size = _number_size(placement, buffer, theme)
+    if size is None or buffer.kind == "bool":
+        return
+    font = text_font(theme, size)
+    metrics = QFontMetricsF(font)
+    height = metrics.height() * 0.95
+    width = _characters(placement.cell, size, theme)
+    below = _stands_below(placement, buffer.channels, height)
+    dark, light = QColor("#000000"), QColor("#ffffff")
+    backdrop = QColor(theme.canvas)
+    is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
+    painter.save()
+    painter.setFont(font)
+    flags = Qt.AlignmentFlag.AlignCenter
+    for row in range(cells[1], cells[3]):
+        for column in range(cells[0], cells[2]):
+            if hidden is not None and hidden[row, column]:
+                continue
+            color = image.pixelColor(column, placement.rows - 1 - row)
+            painter.setPen(dark if _is_light(color, backdrop) else light)
+            rect = placement.cells_rect(column, row)
+            lines = buffer.lines_at(column, row, 4, width)
+            if is_nan is not None and is_nan[row, column].any():
+                chip = QRectF(0, 0, placement.cell * 0.8, height * len(lines) + 2)
+                chip.moveCenter(rect.center() + QPointF(0, 2 + height * len(lines) / 2 if below else 0))
+                painter.fillRect(chip, QColor(theme.nan_light))
+                painter.setPen(dark)
+            # Below the sample centre if there is room, so that both can be read.
+            top = rect.center().y() + (2 if below else -height * len(lines) / 2)
+            for index, line in enumerate(lines):
+                box = QRectF(rect.left(), top + index * height, rect.width(), height)
+                painter.drawText(box, flags, line)
+    painter.restore()
+
+
+def _is_light(color: QColor, backdrop: QColor) -> bool:
+    """Return whether black text is seen better than white on a colour that lies on a backdrop."""
+    alpha = color.alphaF()
+    channels = (
+        (color.redF(), backdrop.redF()),
+        (color.greenF(), backdrop.greenF()),
+        (color.blueF(), backdrop.blueF()),
+    )
+    red, green, blue = ((alpha * top + (1 - alpha) * below) ** 2.2 for top, below in channels)
+    return bool(0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18)
+
+
+def paint_hidden(
+    painter: QPainter, placement: GridPlacement, hidden: NDArray[np.bool_], theme: Theme
+) -> None:
+    """Cover the cells of an (H, W) mask; a question mark says that something is to be found out there."""
+    column0, row0, column1, row1 = placement.visible_cells()
+    rows, columns = np.nonzero(hidden[row0:row1, column0:column1])
+    cell = placement.cell
+    painter.save()
+    painter.setFont(text_font(theme, int(min(max(cell * 0.5, 9), 2 * theme.text_px))))
+    inset = 1.0 if cell >= LINE_CELL else 0.0
+    rects = [
+        placement.cells_rect(column + column0, row + row0)
+        for row, column in zip(rows.tolist(), columns.tolist(), strict=True)
+    ]
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.hidden))
+    painter.drawRects([rect.adjusted(inset, 0, 0, -inset) for rect in rects])
+    if cell >= 14:
+        painter.setPen(QColor(theme.text))
+        for rect in rects:
+            painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, "?")
+    painter.restore()
+
+
+def centres_are_free(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
+    """Return whether no number is written over the sample centres."""
+    size = _number_size(placement, buffer, theme)
+    if size is None or buffer.kind == "bool":
+        return True
+    return _stands_below(placement, buffer.channels, QFontMetricsF(text_font(theme, size)).height() * 0.95)
+
+
+def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
+    """Return the width of the ruler of rows and the height of the ruler of columns in logical pixels."""
+    metrics = QFontMetricsF(text_font(theme, theme.small_px))
+    return int(metrics.horizontalAdvance("0" * max(len(str(rows - 1)), 2)) + 12), int(metrics.height() + 6)
+
+
+def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
+    """Write column numbers below and row numbers left of the viewport, as many as have room."""
+    painter.save()
+    font = text_font(theme, theme.small_px)
+    metrics = QFontMetricsF(font)
+    column0, row0, column1, row1 = placement.visible_cells()
+    viewport = placement.viewport
+    widest = metrics.horizontalAdvance(str(placement.columns - 1))
+    every_column = _ruler_step(placement.cell, widest + 8)
+    every_row = _ruler_step(placement.cell, metrics.height() + 2)
+    center = Qt.AlignmentFlag.AlignCenter
+    painter.setFont(font)
+    painter.setPen(QColor(theme.muted_text))
+    for column in range(-(-column0 // every_column) * every_column, column1, every_column):
+        x = placement.cells_rect(column, 0).center().x()
+        if viewport.left() <= x <= viewport.right():
+            painter.drawText(_below(placement, area, x, 80), center, str(column))
+    for row in range(-(-row0 // every_row) * every_row, row1, every_row):
+        y = placement.cells_rect(0, row).center().y()
+        if viewport.top() <= y <= viewport.bottom():
+            painter.drawText(_beside(placement, area, y, 40), center, str(row))
+    painter.restore()
+
+
+def paint_ruler_pixel(
+    painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme, pixel: tuple[int, int]
+) -> None:
+    """Write the column and row of one pixel so that they stand out on the rulers."""
+    painter.save()
+    font = text_font(theme, theme.small_px)
+    font.setBold(True)
+    painter.setFont(font)
+    middle = placement.cells_rect(*pixel).center()
+    metrics = QFontMetricsF(font)
+    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(str(pixel[0])) + 8)
+    beside = _beside(placement, area, middle.y(), metrics.height() + 2)
+    viewport = placement.viewport
+    for box, number, is_shown in (
+        (below.adjusted(0, 2, 0, -2), pixel[0], viewport.left() <= middle.x() <= viewport.right()),
+        (beside.adjusted(2, 0, -2, 0), pixel[1], viewport.top() <= middle.y() <= viewport.bottom()),
+    ):
+        if is_shown:
+            painter.fillRect(box, QColor(theme.text))
+            painter.setPen(QColor(theme.panel))
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(number))
+    painter.restore()
+
+
+def _below(placement: GridPlacement, area: QRect, x: float, width: float) -> QRectF:
+    """Return the box of a column number whose cell is centred at widget ``x``: under the raster, or the viewport."""
+    height = area.bottom() - placement.viewport.bottom()
+    top = min(placement.bottom + 1, placement.viewport.bottom() + 1)
+    return QRectF(x - width / 2, top, width, height)
+
+
+def _beside(placement: GridPlacement, area: QRect, y: float, height: float) -> QRectF:
+    """Return the box of a row number whose cell is centred at widget ``y``: left of the raster, or of the viewport."""
+    width = placement.viewport.left() - area.left()
+    left = max(placement.left - 1 - width, area.left())
+    return QRectF(left, y - height / 2, width, height)
+
+
+def _ruler_step(cell: float, space: float) -> int:
+    """Return every how many cells a number has room: 1, 2, 5, 10, 20, 50, ..."""
+    step = 1
+    while True:
+        for factor in (1, 2, 5):
+            if step * factor * cell >= space:
+                return step * factor
+        step *= 10

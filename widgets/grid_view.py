@@ -1,0 +1,140 @@
+"""Where the pixels of a grid stand on the screen: the shared zoom and pan, and the two mappings between the spaces.
+
+Window coordinates are y-up with pixel (column, row) centred at (column + 0.5, row + 0.5); widget coordinates are
+y-down in logical screen pixels. This is the only place that turns one into the other.
+"""
+
+from dataclasses import dataclass
+from math import floor, isfinite
+
+from PySide6.QtCore import QPointF, QRect, QRectF
+
+MOST_PIXELS_PER_CELL = 400.0
+
+
+@dataclass(frozen=True)
+class GridView:
+    """The part of a raster that is looked at; it does not depend on the size of the widget, so grids can share it."""
+
+    x: float = 0.5
+    """Middle of the view as a fraction of the raster's width, from the left."""
+    y: float = 0.5
+    """Middle of the view as a fraction of the raster's height, from the bottom."""
+    zoom: float = 1.0
+    """Magnification; at 1 the whole raster just fits."""
+
+
+FIT = GridView()
+"""The whole raster, as large as it fits."""
+
+
+@dataclass(frozen=True)
+class GridPlacement:
+    """A raster of columns x rows cells placed in a widget."""
+
+    columns: int
+    rows: int
+    viewport: QRect
+    """The part of the widget that shows pixels (without rulers)."""
+    left: float
+    """Widget x of the left edge of column 0; whole device pixels."""
+    bottom: float
+    """Widget y of the bottom edge of row 0; whole device pixels."""
+    cell: float
+    """Side of a cell in logical pixels; a whole number of device pixels from 2 on, so that all cells are alike."""
+    corner: float = 0.0
+    """Window coordinate of the corner of cell (0, 0): 0 for centres at halves, -0.5 for centres on integers."""
+
+    def to_widget(self, x: float, y: float) -> QPointF:
+        """Return the widget position of a window position."""
+        return QPointF(self.left + (x - self.corner) * self.cell, self.bottom - (y - self.corner) * self.cell)
+
+    def to_window(self, position: QPointF) -> tuple[float, float]:
+        """Return the window position of a widget position."""
+        return (
+            (position.x() - self.left) / self.cell + self.corner,
+            (self.bottom - position.y()) / self.cell + self.corner,
+        )
+
+    def pixel_at(self, position: QPointF) -> tuple[int, int] | None:
+        """Return (column, row) of the cell under a widget position, or None outside of the raster or viewport."""
+        if not QRectF(self.viewport).contains(position):
+            return None
+        column = floor((position.x() - self.left) / self.cell)
+        row = floor((self.bottom - position.y()) / self.cell)
+        return (column, row) if 0 <= column < self.columns and 0 <= row < self.rows else None
+
+    def cells_rect(self, column: float, row: float, columns: float = 1, rows: float = 1) -> QRectF:
+        """Return the widget rectangle of a block of cells whose lower left cell is (column, row)."""
+        side = self.cell
+        return QRectF(
+            self.left + column * side, self.bottom - (row + rows) * side, columns * side, rows * side
+        )
+
+    def visible_cells(self) -> tuple[int, int, int, int]:
+        """Return (column0, row0, column1, row1) of the cells in the viewport; the upper ends are excluded."""
+        rect = self.viewport
+        column0 = max(floor((rect.left() - self.left) / self.cell), 0)
+        column1 = min(floor((rect.right() - self.left) / self.cell) + 1, self.columns)
+        row0 = max(floor((self.bottom - rect.bottom() - 1) / self.cell), 0)
+        row1 = min(floor((self.bottom - rect.top()) / self.cell) + 1, self.rows)
+        return column0, row0, max(column1, column0), max(row1, row0)
+
+
+def place(
+    columns: int, rows: int, viewport: QRect, view: GridView, ratio: float = 1.0, corner: float = 0.0
+) -> GridPlacement:
+    """Place a raster in ``viewport`` as ``view`` wants it; ``ratio`` is device pixels per logical pixel."""
+    fit = _fitting_cell(viewport, columns, rows)
+    cell = whole_cell(min(fit * view.zoom, max(MOST_PIXELS_PER_CELL, fit)), ratio)
+    middle = QRectF(viewport).center()
+    left = round((middle.x() - view.x * columns * cell) * ratio) / ratio
+    bottom = round((middle.y() + view.y * rows * cell) * ratio) / ratio
+    return GridPlacement(columns, rows, viewport, left, bottom, cell, corner)
+
+
+def _fitting_cell(viewport: QRect, columns: int, rows: int) -> float:
+    """Return the side of the cells of a raster that just fits, with room for its border."""
+    return min(max(viewport.width() - 2, 1) / columns, max(viewport.height() - 2, 1) / rows)
+
+
+def whole_cell(cell: float, ratio: float = 1.0) -> float:
+    """Round the side of a cell down to whole device pixels where it has at least two."""
+    return floor(cell * ratio + 1e-6) / ratio if cell * ratio >= 2 else cell
+
+
+def zoomed(placement: GridPlacement, position: QPointF, factor: float, ratio: float = 1.0) -> GridView:
+    """Return the view magnified by ``factor`` with the window point under ``position`` kept in its place.
+
+    The side of a cell changes by at least one device pixel, so that every notch of the wheel is seen, and stays
+    between half of what fits and 400 logical pixels.
+    """
+    viewport = placement.viewport
+    fit = _fitting_cell(viewport, placement.columns, placement.rows)
+    cell = placement.cell * factor
+    if cell * ratio >= 2:
+        step = 1.0 if factor > 1 else -1.0
+        grown = placement.cell * ratio + step
+        cell = (max(cell * ratio, grown) if step > 0 else min(cell * ratio, grown)) / ratio
+    cell = whole_cell(max(min(cell, max(MOST_PIXELS_PER_CELL, fit)), 0.5 * fit), ratio)
+    across = (position.x() - placement.left) / placement.cell
+    up = (placement.bottom - position.y()) / placement.cell
+    middle = QRectF(viewport).center()
+    x = across - (position.x() - middle.x()) / cell
+    y = up - (middle.y() - position.y()) / cell
+    return clamped(GridView(x / placement.columns, y / placement.rows, cell / fit))
+
+
+def panned(placement: GridPlacement, view: GridView, delta: QPointF) -> GridView:
+    """Return the view after the raster was dragged by ``delta`` logical pixels."""
+    x = view.x - delta.x() / (placement.cell * placement.columns)
+    y = view.y + delta.y() / (placement.cell * placement.rows)
+    return clamped(GridView(x, y, view.zoom))
+
+
+def clamped(view: GridView) -> GridView:
+    """Keep the middle of the view inside of the raster, and the zoom finite and positive."""
+    zoom = view.zoom if isfinite(view.zoom) and view.zoom > 0 else 1.0
+    x = view.x if isfinite(view.x) else 0.5
+    y = view.y if isfinite(view.y) else 0.5
+    return GridView(min(max(x, 0.0), 1.0), min(max(y, 0.0), 1.0), zoom)

@@ -1,0 +1,272 @@
+"""A number typed the way one writes it on the board: decimals, fractions, multiples of pi.
+
+The text rules (reading a number, writing it with four significant digits, in full, or in 1/256ths) stand here
+as functions; every widget that shows numbers uses them, so one value reads the same everywhere.
+"""
+
+import math
+import re
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.theme import current_theme, theme_notifier
+
+SUBPIXELS = 256
+"""Steps of one pixel that a snapped position can take; fractions are shown in these."""
+
+_DECIMAL = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = re.compile(
+    rf"^(?P<sign>[+\-\u2212]?)\s*(?:(?P<whole>\d+)\s+(?=\d+\s*/))?"
+    rf"(?P<top>{_DECIMAL})?\s*(?:[*\u00b7]?\s*(?P<pi>pi|PI|Pi|\u03c0))?"
+    rf"(?:\s*/\s*(?P<bottom>{_DECIMAL}))?$"
+)
+
+
+def parse_number(text: str) -> float:
+    """Read a number as people write it.
+
+    Parameters
+    ----------
+    text : str
+        A decimal (``-1.5``, ``1e-3``, ``0,25``), a fraction (``3/256``, ``1 1/2``), or multiple of pi
+        (``pi/4``).
+
+    Returns
+    -------
+    float
+        The value; always finite.
+
+    Raises
+    ------
+    ValueError
+        With one plain sentence that says what was wanted.
+    """
+    found = _NUMBER.match(text.strip())
+    if found is None or not (found["top"] or found["pi"]):
+        raise ValueError("a number is wanted, such as 1.5, 3/256 or pi/4")
+    value = float(found["top"].replace(",", ".")) if found["top"] else 1.0
+    if found["pi"]:
+        value *= math.pi
+    if found["bottom"]:
+        bottom = float(found["bottom"].replace(",", "."))
+        if bottom == 0.0:
+            raise ValueError("division by zero")
+        value /= bottom
+    value += float(found["whole"] or 0)
+    if not math.isfinite(value):
+        raise ValueError("the number is too large")
+    return -value if found["sign"] in ("-", "\u2212") else value
+
+
+def full_text(value: float) -> str:
+    """Return the shortest text that reads back to the same value, with a true minus sign."""
+    if isinstance(value, int):
+        return str(value).replace("-", "\u2212")
+    if not math.isfinite(value):
+        return _non_finite(value)
+    text = repr(float(value))
+    return text.removesuffix(".0").replace("-", "\u2212")
+
+
+def number_text(value: float, digits: int = 4) -> str:
+    """Write four significant digits with a true minus sign; whole numbers keep up to six."""
+    if not math.isfinite(value):
+        return _non_finite(value)
+    if value == int(value) and abs(value) < 1e6:
+        text = str(int(value))
+        return (
+            ("\u2212" + text) if value == 0 and math.copysign(1.0, value) < 0 else text.replace("-", "\u2212")
+        )
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        text = f"{mantissa}e{int(exponent)}"
+    return text.replace("-", "\u2212")
+
+
+def fraction_text(value: float) -> str:
+    """Write an exact multiple of 1/256 as a mixed fraction; anything else rounded, with a leading ``~``."""
+    if not math.isfinite(value):
+        return _non_finite(value)
+    scaled = value * SUBPIXELS
+    if scaled != round(scaled):
+        return "~" + number_text(value)
+    whole, part = divmod(abs(round(scaled)), SUBPIXELS)
+    sign = "\u2212" if value < 0 else ""
+    if part == 0:
+        return f"{sign}{whole}"
+    lead = f"{whole} " if whole else ""
+    return f"{sign}{lead}{part}/{SUBPIXELS}"
+
+
+def _non_finite(value: float) -> str:
+    if math.isnan(value):
+        return "NaN"
+    return "\u221e" if value > 0 else "\u2212\u221e"
+
+
+def tabular_font(font: QFont) -> QFont:
+    """Return the font with figures of one width, so that numbers line up and do not jitter."""
+    result = QFont(font)
+    result.setFeature(QFont.Tag("tnum"), 1)
+    return result
+
+
+class TypedValue(QWidget):
+    """One editable number: commits on Enter or on leaving, restores on Escape, explains bad text."""
+
+    value_committed = Signal(float)
+    """The user has entered a valid value that differs from the present one."""
+
+    def __init__(self, name: str, parent: QWidget | None = None, *, is_compact: bool = False) -> None:
+        super().__init__(parent)
+        self._name = name
+        self._value = 0.0
+        self._lowest = -math.inf
+        self._highest = math.inf
+        self._is_compact = is_compact
+        self.edit = QLineEdit(self)
+        self.edit.setAccessibleName(name)
+        self.edit.setFont(tabular_font(self.edit.font()))
+        self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.edit.installEventFilter(self)
+        self.edit.editingFinished.connect(self._commit)
+        self.edit.textEdited.connect(self._clear_error)
+        self.error = QLabel(self)
+        self.error.setWordWrap(True)
+        self.error.setProperty("role", "bad")
+        self.error.hide()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(2)
+        layout.addWidget(self.edit)
+        layout.addWidget(self.error)
+        self.setFocusProxy(self.edit)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self._follow_theme()
+        self._show_text()
+
+    def value(self) -> float:
+        """Return the last valid value."""
+        return self._value
+
+    @Slot(float)
+    def show_value(self, value: float) -> None:
+        """Show a value set by the program; text the user is typing at the moment is left alone."""
+        self._value = float(value)
+        if not (self.edit.hasFocus() and self.edit.isModified()):
+            self._show_text()
+
+    def set_range(self, lowest: float, highest: float) -> None:
+        """Refuse values outside [lowest, highest]."""
+        self._lowest, self._highest = lowest, highest
+
+    def error_text(self) -> str:
+        """Return what is wrong with the typed text; empty when nothing is."""
+        return self.error.text()
+
+    def sizeHint(self) -> QSize:
+        """Wide enough for a sign and seven figures."""
+        hint = super().sizeHint()
+        text = "\u22120.000" if self._is_compact else "\u22120.000000"
+        return QSize(self.edit.fontMetrics().horizontalAdvance(text) + 16, hint.height())
+
+    def minimumSizeHint(self) -> QSize:
+        """Never narrower than four significant figures with sign and point."""
+        hint = super().minimumSizeHint()
+        text, room = ("\u22120.00", 10) if self._is_compact else ("\u22120.0000", 16)
+        return QSize(self.edit.fontMetrics().horizontalAdvance(text) + room, hint.height())
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Show full precision while editing; Escape restores."""
+        if watched is self.edit:
+            if isinstance(event, QKeyEvent) and event.type() in (
+                QEvent.Type.KeyPress,
+                QEvent.Type.ShortcutOverride,
+            ):
+                if event.key() == Qt.Key.Key_Escape and (self.edit.isModified() or self.error_text()):
+                    if event.type() == QEvent.Type.KeyPress:
+                        self._clear_error()
+                        self._show_text(is_full=True)
+                    event.accept()
+                    return True
+            elif (
+                isinstance(event, QFocusEvent)
+                and event.type() == QEvent.Type.FocusIn
+                and not self.error_text()
+            ):
+                self._show_text(is_full=True)
+                if event.reason() != Qt.FocusReason.MouseFocusReason:
+                    self.edit.selectAll()
+        return super().eventFilter(watched, event)
+
+    @Slot()
+    def _commit(self) -> None:
+        if not self.edit.isModified():
+            if not self.edit.hasFocus() and not self.error_text():
+                self._show_text()
+            return
+        try:
+            value = parse_number(self.edit.text())
+            if not self._lowest <= value <= self._highest:
+                raise ValueError(self._range_text())
+        except ValueError as problem:
+            self._show_error(str(problem))
+            return
+        self._clear_error()
+        is_changed = value != self._value
+        self._value = value
+        self._show_text(is_full=self.edit.hasFocus())
+        if is_changed:
+            self.value_committed.emit(value)
+
+    def _range_text(self) -> str:
+        if math.isinf(self._highest):
+            return f"at least {number_text(self._lowest)}"
+        if math.isinf(self._lowest):
+            return f"at most {number_text(self._highest)}"
+        return f"between {number_text(self._lowest)} and {number_text(self._highest)}"
+
+    def _show_text(self, is_full: bool = False) -> None:
+        self.edit.setText(full_text(self._value) if is_full else self._fitting_text())
+        self.edit.setCursorPosition(0)
+        self.edit.setModified(False)
+        self.edit.setToolTip(
+            f"{self._name} = {full_text(self._value)}\nDecimals, fractions (3/256) and pi are read."
+        )
+
+    def _fitting_text(self) -> str:
+        """Return four significant digits, or in a narrow field as many as it can show."""
+        room = self.edit.width() - 10
+        texts = [number_text(self._value, digits) for digits in (4, 3, 2)]
+        fitting = (text for text in texts if self.edit.fontMetrics().horizontalAdvance(text) <= room)
+        return next(fitting, texts[0])
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show as many digits as fit."""
+        super().resizeEvent(event)
+        if not self.edit.hasFocus() and not self.error_text():
+            self._show_text()
+
+    def _show_error(self, text: str) -> None:
+        self.error.setText(text)
+        self.error.setVisible(not self._is_compact)
+        self.edit.setToolTip(f"{self._name}: {text}. Escape restores {full_text(self._value)}.")
+        self.edit.setAccessibleDescription(text)
+        self._follow_theme()
+
+    @Slot()
+    def _clear_error(self) -> None:
+        self.error.clear()
+        self.error.hide()
+        self.edit.setAccessibleDescription("")
+        self._follow_theme()
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        rules = "padding-left: 2px; padding-right: 2px;" if self._is_compact else ""
+        rules += f"border: 2px solid {current_theme().bad};" if self.error_text() else ""
+        self.edit.setStyleSheet(f"QLineEdit {{ {rules} }}" if rules else "")
