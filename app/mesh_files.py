@@ -1,8 +1,9 @@
 """Opening mesh files: a path becomes a scene that is centred, framed and lit, or one clear sentence.
 
 The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB and glTF. All of their triangles are
-there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). What a file names but
-does not have, such as a texture, is a warning; anything else that is wrong with it is an error.
+there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). An OBJ file that names
+no material file takes an image beside it, ``<stem>_texture.png`` or ``<stem>.png``, as its texture. What a
+file names but does not have, such as a texture, is a warning; anything else that is wrong is an error.
 """
 
 from collections.abc import Callable
@@ -13,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from app.mesh_formats import READERS, LoadedMeshes, MeshFileError, Report
+from app.mesh_formats.reading import check_positions
 from app.mesh_process import OpeningCancelledError, read_in_process
 from core.arrays import Floats
 from core.scene import Camera, DirectionalLight, Mesh, Scene
@@ -37,8 +39,6 @@ VIEWED_FROM = (0.35, 0.4, 1.0)
 
 MARGIN = 1.08
 """How much farther away the camera stands than where the model touches the border of the picture."""
-
-LARGEST = float(np.finfo(np.float32).max)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,10 @@ def open_mesh(
         If ``is_cancelled()``.
     """
     loaded = load_meshes(path, progress, is_cancelled)
-    return OpenedFile(frame_meshes(loaded.meshes, size), loaded.warnings)
+    scene = frame_meshes(loaded.meshes, size)
+    if is_cancelled is not None and is_cancelled():
+        raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
+    return OpenedFile(scene, loaded.warnings)
 
 
 def load_meshes(
@@ -136,11 +139,10 @@ def read_file(path: Path, report: Report) -> LoadedMeshes:
 
 
 def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
-    """Raise MeshFileError if no triangle has an area, or a place is beyond what 32-bit floats hold."""
+    """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
     has_area = False
     for mesh in meshes:
-        if np.abs(mesh.positions).max() > LARGEST:
-            raise MeshFileError(f"{path.name} has positions beyond {LARGEST:.3g}, which cannot be drawn")
+        check_positions(path, mesh.positions)
         corners = mesh.positions[mesh.triangles]
         sides = corners[:, 1:] - corners[:, :1]
         longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
@@ -162,23 +164,29 @@ def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -
     size : (width, height)
         Raster in pixels.
     """
-    points = np.concatenate([world_positions(mesh) for mesh in meshes])
-    low, high = points.min(axis=0), points.max(axis=0)
+    clouds = [world_positions(mesh) for mesh in meshes]
+    low = np.min([points.min(axis=1) for points in clouds], axis=0)
+    high = np.max([points.max(axis=1) for points in clouds], axis=0)
     target = low / 2 + high / 2
-    scale = float(np.abs(high - low).max()) or 1.0
-    around = (points - target) / scale
-    radius = sqrt(float((around * around).sum(axis=1).max())) or 1.0
+    scale = float((high - low).max()) or 1.0
 
-    # The axes of the camera, then the distance at which the outermost point is on the border.
+    # The axes of the camera, and the four planes of a view volume whose tip is at the camera.
     toward = np.array(VIEWED_FROM) / np.linalg.norm(VIEWED_FROM)
     right = np.cross([0.0, 1.0, 0.0], toward)
     right /= np.linalg.norm(right)
     up = np.cross(toward, right)
     field_of_view = Camera(eye=toward, target=np.zeros(3)).field_of_view
     steep = tan(field_of_view / 2)
-    x, y, z = around @ right, around @ up, around @ toward
-    aspect = size[0] / size[1]
-    distance = MARGIN * float((np.maximum(np.abs(x) / (steep * aspect), np.abs(y) / steep) + z).max())
+    across = right / (steep * size[0] / size[1])
+    planes = np.stack([toward + across, toward - across, toward + up / steep, toward - up / steep])
+
+    # The camera stands where the outermost point comes to lie on the border of the picture.
+    distance = radius = 0.0
+    for points in clouds:
+        x, y, z = (points[k] / scale - target[k] / scale for k in range(3))
+        radius = max(radius, sqrt(float((x * x + y * y + z * z).max())))
+        for plane in planes:
+            distance = max(distance, MARGIN * float((plane[0] * x + plane[1] * y + plane[2] * z).max()))
     distance = max(distance, 1.1 * radius)
     camera = Camera(
         eye=target + toward * (distance * scale),
@@ -195,7 +203,8 @@ def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -
 
 
 def world_positions(mesh: Mesh) -> Floats:
-    """Return (N, 3) float64 positions of the vertices that triangles of ``mesh`` use, in world space."""
+    """Return (3, N) float64 world x, y, z of the vertices that triangles of ``mesh`` use."""
     used = np.zeros(len(mesh.positions), np.bool_)
     used[mesh.triangles.ravel()] = True
-    return mesh.positions[used] @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    x, y, z = (mesh.positions[used, k] for k in range(3))
+    return np.stack([row[0] * x + row[1] * y + row[2] * z + row[3] for row in mesh.transform[:3]])

@@ -64,7 +64,7 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
             elif kind == "error":
                 raise MeshFileError(content)
             else:
-                raise MeshFileError(f"{path.name} cannot be read: its reader ended ({content})")
+                raise MeshFileError(f"{path.name} cannot be read: its reader ended {content}")
     finally:
         process.kill()
         process.wait()
@@ -73,14 +73,17 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
 
 
 def listen(pipe: BinaryIO, messages: "SimpleQueue[tuple[str, Any]]") -> None:
-    """Put what the process says into ``messages``, until its last word or its end."""
-    kind = "progress"
-    while kind == "progress":
-        try:
-            kind, content = pickle.load(pipe)
-        except (EOFError, pickle.UnpicklingError, MemoryError) as problem:
-            kind, content = "end", str(problem) or "no result"
-        messages.put((kind, content))
+    """Put what the process says into ``messages``, and its end behind that, whatever happens."""
+    end = "before its result was whole"
+    try:
+        while True:
+            messages.put(pickle.load(pipe))
+    except EOFError:
+        end = "without a result"
+    except pickle.UnpicklingError as problem:
+        end = f"in the middle of it: {problem}"
+    finally:
+        messages.put(("end", end))
 
 
 def restored(loaded: LoadedMeshes) -> LoadedMeshes:

@@ -84,7 +84,7 @@ class BufferTile(QWidget):
 
 
 class BufferStrip(QWidget):
-    """Buffers side by side under one pointer, zoom and pan. A click on a title makes that buffer the main one."""
+    """Buffers side by side under one pointer, zoom and pan; a click on a title chooses the main one."""
 
     buffer_chosen = Signal(str)
     """Name of the buffer whose title was clicked."""
@@ -97,7 +97,7 @@ class BufferStrip(QWidget):
     pixel_menu_requested = Signal(int, int, QPoint)
     """Column, row and global position of a right click in any of the grids."""
     view_changed = Signal(object)
-    """The new :class:`~widgets.grid_view.GridView` after the user zoomed or panned in one; the others followed."""
+    """The new :class:`~widgets.grid_view.GridView` after the user zoomed or panned; all grids followed."""
     hidden_changed = Signal(object)
     """Names of the buffers that are hidden, a frozenset of str, after the user changed them."""
 
@@ -193,7 +193,7 @@ class BufferStrip(QWidget):
             tile.grid.show_overlays(self._overlays)
 
     def show_covered(self, name: str, hidden: NDArray[np.bool_] | None) -> None:
-        """Cover the cells of an (H, W) mask in one buffer until they have been predicted; None covers none."""
+        """Cover the cells of an (H, W) mask in one buffer until they are predicted; None covers none."""
         self._tiles[name].grid.show_hidden(hidden)
         self._show_values()
 
@@ -214,6 +214,10 @@ class BufferStrip(QWidget):
             tile.setVisible(name not in self._hidden)
         for action in self._menu.actions():
             action.setChecked(str(action.data()) not in self._hidden)
+
+    def menu(self) -> QMenu:
+        """Return the menu that shows and hides buffers, to be offered elsewhere too."""
+        return self._menu
 
     def tile(self, name: str) -> BufferTile:
         """Return the tile of a buffer."""

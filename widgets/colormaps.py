@@ -1,4 +1,4 @@
-"""Colour tables: viridis and cividis for scalars, a diverging map for signed errors, distinct colours for ids."""
+"""Colour tables: viridis and cividis for scalars, diverging for signed errors, distinct colours for ids."""
 
 from functools import cache
 from importlib import import_module
@@ -28,8 +28,8 @@ def colormap_table(name: str) -> NDArray[np.uint8]:
     Returns
     -------
     (N, 3) uint8 array
-        sRGB from the lowest value to the highest, read-only. N is 256; 255 for ``diverging``, whose middle entry
-        127 is exactly white.
+        sRGB from the lowest value to the highest, read-only. N is 256; 255 for ``diverging``, whose middle
+        entry 127 is exactly white.
 
     Raises
     ------
@@ -59,8 +59,8 @@ def colormap_table(name: str) -> NDArray[np.uint8]:
 def id_table(count: int = 4096) -> NDArray[np.uint8]:
     """Return ``count`` distinct colours for ids, (count, 3) uint8 sRGB, read-only.
 
-    The first are :data:`ID_COLORS`; the others take the golden angle in hue and vary in lightness, so that neighbouring
-    ids differ for every kind of colour vision. They avoid the hue of the accent.
+    The first are :data:`ID_COLORS`; the others take the golden angle in hue and vary in lightness, so that
+    neighbouring ids differ for every kind of colour vision. They avoid the hue of the accent.
     """
     ids = np.arange(count)
     fraction = (ids * 0.6180339887498949) % 1.0
@@ -76,7 +76,7 @@ def id_table(count: int = 4096) -> NDArray[np.uint8]:
 def oklch_to_srgb(
     lightness: NDArray[np.float64], chroma: NDArray[np.float64], hue: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """Turn N colours in OKLCH (lightness 0 to 1, chroma, hue in radians) into (N, 3) uint8 sRGB, clipped to the gamut.
+    """Turn N colours in OKLCH (lightness 0 to 1, chroma, hue in radians) into (N, 3) uint8 sRGB, clipped.
 
     References
     ----------

@@ -24,9 +24,9 @@ class GridBuffer:
     """(H, W) or (H, W, C) array of bool, integers or floats; row 0 is the bottom row."""
     kind: BufferKind = "scalar"
     """scalar: a colormap over the range (C > 1: the first three channels as red, green, blue over the range).
-    signed: a diverging map with white at zero. color: linear floats, or uint8 that are sRGB already (C = 1, 3, 4).
-    weights: (H, W, 3), a mix of the colours of vertices 0, 1, 2. ids: distinct colours, negative is none.
-    bool: empty or covered."""
+    signed: a diverging map with white at zero. color: linear floats, or uint8 that are sRGB already (C = 1,
+    3, 4). weights: (H, W, 3), a mix of the colours of vertices 0, 1, 2. ids: distinct colours, negative is
+    none. bool: empty or covered."""
     unit: str = ""
     range: tuple[float, float] | None = None
     """Values at the two ends of the colormap; None: those of the finite values."""
@@ -103,7 +103,7 @@ class GridBuffer:
 
 
 def number_text(value: bool | int | float, digits: int = 4, width: int | None = None) -> str:
-    """Return a number as people read it: four significant digits, a true minus, no padding zeros of the exponent.
+    """Return a number as people read it: four significant digits, a true minus, no padding zeros.
 
     Parameters
     ----------
@@ -111,7 +111,8 @@ def number_text(value: bool | int | float, digits: int = 4, width: int | None = 
     digits : int
         Significant digits of a float; 0 for the shortest text that reads back as the same float64.
     width : int, optional
-        Most characters; digits are dropped, down to one, until it fits (whole digits before the point are kept).
+        Most characters; digits are dropped, down to one, until it fits (whole digits before the point are
+        kept).
 
     Returns
     -------

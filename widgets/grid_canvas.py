@@ -56,6 +56,11 @@ class GridCanvas:
         return self._buffer
 
     @property
+    def dirty(self) -> Cells | None:
+        """The cells that wait to be painted again; None: everything."""
+        return self._dirty
+
+    @property
     def overlays(self) -> tuple[Overlay, ...]:
         """The overlays that are shown."""
         return self._overlays
@@ -127,9 +132,8 @@ class GridCanvas:
             self._pixmap.setDevicePixelRatio(ratio)
             self._dirty, self._painted = None, key
         if self._dirty != NO_CELLS:
-            inner = QPainter(self._pixmap)
-            self.paint_now(inner, placement, area, theme, self._dirty)
-            inner.end()
+            with QPainter(self._pixmap) as inner:
+                self.paint_now(inner, placement, area, theme, self._dirty)
             self._dirty = NO_CELLS
         painter.drawPixmap(area.topLeft(), self._pixmap)
 

@@ -1,23 +1,23 @@
-"""What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks at some zoom and pan."""
+"""What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks."""
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_canvas import GridCanvas
 from widgets.grid_geometry import GridGeometry, paint_focus
-from widgets.grid_marks import paint_hover, paint_pin, paint_step
+from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
-from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_size
+from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
 from widgets.theme import current_theme, theme_notifier
 
 
 class GridDisplay(QWidget):
-    """The showing half of a :class:`~widgets.pixel_grid.PixelGrid`. Slots paint only what changed and never emit."""
+    """The showing half of a :class:`~widgets.pixel_grid.PixelGrid`; slots paint only what changed."""
 
     def __init__(self, parent: QWidget | None = None, compact: bool = False) -> None:
         """Make an empty grid; a ``compact`` one is a thumbnail without rulers, handles and keyboard focus."""
@@ -30,8 +30,10 @@ class GridDisplay(QWidget):
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step: NDArray[np.integer] | None = None
-        self._shows_focus = True
-        """Whether the focus came by the keyboard: only then its ring helps."""
+        self._shows_focus = False
+        """Whether the focus came by a key: only then its ring helps."""
+        self._layer: QPixmap | None = None
+        self._layer_key: object = None
         self._vertex: int | None = None
         """The vertex under the pointer or being dragged."""
         self.empty_text = "Nothing to show yet"
@@ -63,12 +65,12 @@ class GridDisplay(QWidget):
         if buffer is not None and (before is None or before.label != buffer.label):
             self.setAccessibleName(f"Pixel grid: {buffer.label}")
         if changed:
-            self.update()
+            self._update_dirty()
 
     def show_overlays(self, overlays: tuple[Overlay, ...] | list[Overlay]) -> None:
         """Lay overlays over the cells, the first lowest."""
         if self._canvas.set_overlays(tuple(overlays)):
-            self.update()
+            self._update_dirty()
 
     def show_geometry(self, geometry: GridGeometry | None) -> None:
         """Show triangles in window coordinates."""
@@ -80,16 +82,16 @@ class GridDisplay(QWidget):
     def show_hover(self, pixel: tuple[int, int] | None) -> None:
         """Mark (column, row) as the pixel under the pointer."""
         if pixel != self._hover:
-            self._hover = pixel
-            self.update()
+            before, self._hover = self._hover, pixel
+            self._update_marks(before, pixel)
 
     def show_pin(self, pixel: tuple[int, int] | None) -> None:
         """Mark (column, row) as the pinned pixel."""
         if pixel != self._pin:
-            self._pin = pixel
+            before, self._pin = self._pin, pixel
             text = "" if pixel is None else f"Pinned pixel {pixel[0]}, {pixel[1]}: {self.value_text(pixel)}"
             self.setAccessibleDescription(text)
-            self.update()
+            self._update_marks(before, pixel)
 
     def show_step(self, pixels: NDArray[np.integer] | None) -> None:
         """Outline the (N, 2) pixels (column, row) of the step just done; None: none."""
@@ -100,7 +102,13 @@ class GridDisplay(QWidget):
             before is not None and pixels is not None and np.array_equal(before, pixels)
         )
         if not same:
-            self.update()
+            placement = self.placement()
+            for shown in (before, pixels):
+                if shown is not None and len(shown):
+                    (column0, row0), (column1, row1) = shown.min(axis=0).tolist(), shown.max(axis=0).tolist()
+                    self._update_rect(
+                        placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
+                    )
 
     def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
         """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
@@ -158,31 +166,30 @@ class GridDisplay(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the kept picture, then marks, handles and the focus ring."""
         theme = current_theme()
-        painter = QPainter(self)
-        if self._canvas.buffer is None:
-            painter.fillRect(self.rect(), QColor(theme.panel))
-            painter.setPen(QColor(theme.muted_text))
-            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-            painter.drawText(self.rect().adjusted(8, 8, -8, -8), flags, self.empty_text)
-        else:
-            placement = self.placement()
-            self._canvas.paint(painter, placement, self.rect(), theme)
-            self._paint_marks(painter, placement)
-        if self.hasFocus() and self._shows_focus:
-            painter.setClipping(False)
-            painter.setPen(QPen(QColor(theme.focus), 2))
-            painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
-        painter.end()
+        with QPainter(self) as painter:
+            if self._canvas.buffer is None:
+                painter.fillRect(self.rect(), QColor(theme.panel))
+                painter.setPen(QColor(theme.muted_text))
+                flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+                painter.drawText(self.rect().adjusted(8, 8, -8, -8), flags, self.empty_text)
+            else:
+                placement = self.placement()
+                self._canvas.paint(painter, placement, self.rect(), theme)
+                self._paint_marks(painter, placement)
+            if self.hasFocus() and self._shows_focus:
+                painter.setClipping(False)
+                painter.setPen(QPen(QColor(theme.focus), 2))
+                painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
 
     def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
-        """Paint what changes at every move: step, pin, hover, the triangle in focus, and the ruler's numbers."""
+        """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
         if self._hover is not None and not self._compact and self._is_inside(self._hover):
             paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
         painter.save()
         painter.setClipRect(placement.viewport)
         if self._geometry is not None:
-            paint_focus(painter, placement, self._geometry, theme, self._vertex, self._compact)
+            self._paint_geometry(painter, placement, self._geometry)
         if self._step is not None:
             paint_step(painter, placement, self._step, theme)
         if self._pin is not None and self._is_inside(self._pin):
@@ -190,6 +197,48 @@ class GridDisplay(QWidget):
         if self._hover is not None and self._is_inside(self._hover):
             paint_hover(painter, placement, self._hover)
         painter.restore()
+
+    def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
+        """Paint the triangle in focus from a kept layer: smooth lines are slow to draw at every move."""
+        theme, ratio = current_theme(), painter.device().devicePixelRatioF()
+        key = (geometry, placement, theme, self._vertex, ratio)
+        if painter.device() is not self:
+            paint_focus(painter, placement, geometry, theme, self._vertex, self._compact)
+            return
+        if self._layer is None or self._layer_key != key:
+            self._layer = QPixmap(self.size() * ratio)
+            self._layer.setDevicePixelRatio(ratio)
+            self._layer.fill(Qt.GlobalColor.transparent)
+            with QPainter(self._layer) as inner:
+                paint_focus(inner, placement, geometry, theme, self._vertex, self._compact)
+            self._layer_key = key
+        painter.drawPixmap(0, 0, self._layer)
+
+    def _update_dirty(self) -> None:
+        """Have the cells painted that changed."""
+        cells = self._canvas.dirty
+        if cells is None:
+            self.update()
+        else:
+            placement = self.placement()
+            self._update_rect(
+                placement.cells_rect(cells[0], cells[1], cells[2] - cells[0], cells[3] - cells[1])
+            )
+
+    def _update_marks(self, before: tuple[int, int] | None, after: tuple[int, int] | None) -> None:
+        """Have the places painted where a mark was and is, and the numbers of the rulers."""
+        placement = self.placement()
+        for pixel in (before, after):
+            if pixel is not None:
+                self._update_rect(marked_rect(placement, pixel))
+        if not self._compact:
+            for area in ruler_areas(placement, self.rect()):
+                self.update(area)
+
+    def _update_rect(self, rect: QRectF) -> None:
+        """Have a part painted, with the room that marks take around it."""
+        room = 10
+        self.update(rect.adjusted(-room, -room, room, room).toAlignedRect().intersected(self.rect()))
 
     def _viewport(self, rows: int) -> QRect:
         """Return the part of the widget that shows pixels."""

@@ -26,7 +26,7 @@ class GridGeometry:
     triangles: NDArray[np.integer] = field(repr=False)
     """(T, 3) integers into ``vertices``."""
     focus: int = 0
-    """The triangle whose vertices and edges have the colours 0, 1, 2; -1: none. Edge k lies opposite of vertex k."""
+    """The triangle whose vertices and edges have the colours 0, 1, 2; -1: none. Edge k faces vertex k."""
     snapped: NDArray[np.float64] | None = field(default=None, repr=False)
     """(V, 2) float64 snapped positions, or None."""
     draggable: bool = True
@@ -113,7 +113,8 @@ def paint_focus(
 ) -> None:
     """Paint the triangle in focus: edges and vertices in their colours, snapped positions as hollow diamonds.
 
-    ``held`` is the vertex under the pointer or being dragged; ``small`` leaves out handles and names, for thumbnails.
+    ``held`` is the vertex under the pointer or being dragged; ``small`` leaves out handles and names, for
+    thumbnails.
     """
     corners = geometry.focus_vertices
     if not corners:
@@ -178,7 +179,8 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
     font.setBold(True)
     painter.setFont(font)
     corners = list(geometry.focus_vertices)
-    middle = geometry.vertices[corners].mean(axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        middle = geometry.vertices[corners].mean(axis=0)
     for place, corner in enumerate(corners):
         position = vertex_place(geometry, placement, corner)
         text = geometry.label(corner)

@@ -78,7 +78,7 @@ class MaskOverlay:
 
 @dataclass(frozen=True, eq=False)
 class CountOverlay:
-    """How often each pixel was drawn: a tint that grows with the count, and the number where cells are large."""
+    """How often each pixel was drawn: a tint that grows with the count, and numbers in large cells."""
 
     key: str
     counts: NDArray[np.integer] = field(repr=False)
@@ -152,7 +152,7 @@ class SegmentOverlay:
 
     key: str
     segments: NDArray[np.float64] = field(repr=False)
-    """(N, 2, 2) float64: both ends (x, y) in window coordinates; any value, also far away, infinite or NaN."""
+    """(N, 2, 2) float64: both ends (x, y) in window coordinates; may be far away, infinite or NaN."""
     edges: tuple[int, ...] = ()
     """The edge 0, 1, 2 that gives each its colour, or -1 for a neutral line; empty: neutral."""
     extended: bool = False
@@ -185,7 +185,8 @@ def changed_cells(
     Returns
     -------
     tuple of int or None
-        column0, row0, column1, row1 (upper ends excluded; all 0 if nothing changed); None: anything may have changed.
+        column0, row0, column1, row1 (upper ends excluded; all 0 if nothing changed); None: anything may
+        have changed.
     """
     if len(before) != len(after):
         return None
@@ -202,7 +203,7 @@ def changed_cells(
 
 
 def bounds(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """Return column0, row0, column1, row1 of what is true in an (H, W) mask; upper ends excluded, 0 if nothing is."""
+    """Return column0, row0, column1, row1 of what is true in an (H, W) mask; all 0 if nothing is."""
     rows = np.flatnonzero(mask.any(axis=1))
     if rows.size == 0:
         return 0, 0, 0, 0
@@ -211,7 +212,7 @@ def bounds(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
 
 
 def union(first: tuple[int, int, int, int], second: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
-    """Return the smallest block of cells (column0, row0, column1, row1) that holds both; an empty one adds nothing."""
+    """Return the smallest block of cells that holds both; an empty one adds nothing."""
     if first[0] >= first[2] or first[1] >= first[3]:
         return second
     if second[0] >= second[2] or second[1] >= second[3]:

@@ -1,4 +1,4 @@
-"""How the cells of a pixel grid are painted: colour, then grid lines, sample centres and numbers as zoom grows."""
+"""How the cells of a pixel grid are painted: colour, then lines, sample centres, numbers as zoom grows."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ CENTRE_CELL = 12.0
 """Side from which sample centres are drawn."""
 NUMBER_CELL = 40.0
 """Side from which values are written into the cells, if they fit."""
+_GAP = 5.0
+"""Between the sample centre and the value below it, which else would read as an i."""
 _LEAST_CHARACTERS = 6
 """Values are written only where so many digits fit."""
 
@@ -104,7 +106,7 @@ def has_numbers(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> b
 
 
 def _number_size(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> int | None:
-    """Return the text size of the values in logical pixels, or None where the cells are too small for them."""
+    """Return the text size of the values in logical pixels, or None where the cells are too small."""
     cell, least = placement.cell, round(0.73 * theme.small_px)
     room = (cell - 6) / (1.25 * buffer.channels)
     if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
@@ -120,7 +122,7 @@ def _characters(cell: float, size: int, theme: Theme) -> int:
 
 def _stands_below(placement: GridPlacement, lines: int, height: float) -> bool:
     """Return whether so many lines of text fit below the sample centre of a cell."""
-    return placement.cell / 2 - 5 >= height * lines
+    return placement.cell / 2 - _GAP - 3 >= height * lines
 
 
 def paint_numbers(
@@ -157,11 +159,11 @@ def paint_numbers(
             lines = buffer.lines_at(column, row, 4, width)
             if is_nan is not None and is_nan[row, column].any():
                 chip = QRectF(0, 0, placement.cell * 0.8, height * len(lines) + 2)
-                chip.moveCenter(rect.center() + QPointF(0, 2 + height * len(lines) / 2 if below else 0))
+                chip.moveCenter(rect.center() + QPointF(0, _GAP + height * len(lines) / 2 if below else 0))
                 painter.fillRect(chip, QColor(theme.nan_light))
                 painter.setPen(dark)
             # Below the sample centre if there is room, so that both can be read.
-            top = rect.center().y() + (2 if below else -height * len(lines) / 2)
+            top = rect.center().y() + (_GAP if below else -height * len(lines) / 2)
             for index, line in enumerate(lines):
                 box = QRectF(rect.left(), top + index * height, rect.width(), height)
                 painter.drawText(box, flags, line)
@@ -266,15 +268,22 @@ def paint_ruler_pixel(
     painter.restore()
 
 
+def ruler_areas(placement: GridPlacement, area: QRect) -> tuple[QRect, QRect]:
+    """Return the parts of a widget that the rulers of columns and of rows may write into."""
+    below = _below(placement, area, area.center().x(), area.width())
+    beside = _beside(placement, area, area.center().y(), area.height())
+    return below.toAlignedRect(), beside.toAlignedRect()
+
+
 def _below(placement: GridPlacement, area: QRect, x: float, width: float) -> QRectF:
-    """Return the box of a column number whose cell is centred at widget ``x``: under the raster, or the viewport."""
+    """Return the box of a column number centred at widget ``x``: under the raster or the viewport."""
     height = area.bottom() - placement.viewport.bottom()
     top = min(placement.bottom + 1, placement.viewport.bottom() + 1)
     return QRectF(x - width / 2, top, width, height)
 
 
 def _beside(placement: GridPlacement, area: QRect, y: float, height: float) -> QRectF:
-    """Return the box of a row number whose cell is centred at widget ``y``: left of the raster, or of the viewport."""
+    """Return the box of a row number centred at widget ``y``: left of the raster or the viewport."""
     width = placement.viewport.left() - area.left()
     left = max(placement.left - 1 - width, area.left())
     return QRectF(left, y - height / 2, width, height)

@@ -1,20 +1,22 @@
-"""Where the pixels of a grid stand on the screen: the shared zoom and pan, and the two mappings between the spaces.
+"""Where the pixels of a grid stand on the screen: zoom and pan, and the mappings between the spaces.
 
-Window coordinates are y-up with pixel (column, row) centred at (column + 0.5, row + 0.5); widget coordinates are
-y-down in logical screen pixels. This is the only place that turns one into the other.
+Window coordinates are y-up with pixel (column, row) centred at (column + 0.5, row + 0.5); widget
+coordinates are y-down in logical screen pixels. This is the only place that turns one into the other.
 """
 
 from dataclasses import dataclass
-from math import floor, isfinite
+from math import ceil, floor, isfinite
 
 from PySide6.QtCore import QPointF, QRect, QRectF
 
 MOST_PIXELS_PER_CELL = 400.0
+WHOLE_CELL = 6.0
+"""Side of a cell in device pixels from which it is rounded, so that all cells are alike."""
 
 
 @dataclass(frozen=True)
 class GridView:
-    """The part of a raster that is looked at; it does not depend on the size of the widget, so grids can share it."""
+    """The part of a raster that is looked at; independent of the widget's size, so grids can share it."""
 
     x: float = 0.5
     """Middle of the view as a fraction of the raster's width, from the left."""
@@ -41,9 +43,9 @@ class GridPlacement:
     bottom: float
     """Widget y of the bottom edge of row 0; whole device pixels."""
     cell: float
-    """Side of a cell in logical pixels; a whole number of device pixels from 2 on, so that all cells are alike."""
+    """Side of a cell in logical pixels; a whole number of device pixels where it has six or more."""
     corner: float = 0.0
-    """Window coordinate of the corner of cell (0, 0): 0 for centres at halves, -0.5 for centres on integers."""
+    """Window coordinate of the corner of cell (0, 0): 0 for centres at halves, -0.5 on integers."""
 
     def to_widget(self, x: float, y: float) -> QPointF:
         """Return the widget position of a window position."""
@@ -57,7 +59,7 @@ class GridPlacement:
         )
 
     def pixel_at(self, position: QPointF) -> tuple[int, int] | None:
-        """Return (column, row) of the cell under a widget position, or None outside of the raster or viewport."""
+        """Return (column, row) of the cell under a widget position, or None outside of the raster."""
         if not QRectF(self.viewport).contains(position):
             return None
         column = floor((position.x() - self.left) / self.cell)
@@ -73,11 +75,15 @@ class GridPlacement:
 
     def visible_cells(self) -> tuple[int, int, int, int]:
         """Return (column0, row0, column1, row1) of the cells in the viewport; the upper ends are excluded."""
-        rect = self.viewport
+        return self.cells_in(QRectF(self.viewport))
+
+    def cells_in(self, area: QRectF) -> tuple[int, int, int, int]:
+        """Return (column0, row0, column1, row1) of the visible cells that touch a part of the widget."""
+        rect = area.intersected(QRectF(self.viewport))
         column0 = max(floor((rect.left() - self.left) / self.cell), 0)
-        column1 = min(floor((rect.right() - self.left) / self.cell) + 1, self.columns)
-        row0 = max(floor((self.bottom - rect.bottom() - 1) / self.cell), 0)
-        row1 = min(floor((self.bottom - rect.top()) / self.cell) + 1, self.rows)
+        column1 = min(ceil((rect.right() - self.left) / self.cell), self.columns)
+        row0 = max(floor((self.bottom - rect.bottom()) / self.cell), 0)
+        row1 = min(ceil((self.bottom - rect.top()) / self.cell), self.rows)
         return column0, row0, max(column1, column0), max(row1, row0)
 
 
@@ -99,20 +105,20 @@ def _fitting_cell(viewport: QRect, columns: int, rows: int) -> float:
 
 
 def whole_cell(cell: float, ratio: float = 1.0) -> float:
-    """Round the side of a cell down to whole device pixels where it has at least two."""
-    return floor(cell * ratio + 1e-6) / ratio if cell * ratio >= 2 else cell
+    """Round the side of a cell down to whole device pixels where it has at least six."""
+    return floor(cell * ratio + 1e-6) / ratio if cell * ratio >= WHOLE_CELL else cell
 
 
 def zoomed(placement: GridPlacement, position: QPointF, factor: float, ratio: float = 1.0) -> GridView:
     """Return the view magnified by ``factor`` with the window point under ``position`` kept in its place.
 
-    The side of a cell changes by at least one device pixel, so that every notch of the wheel is seen, and stays
-    between half of what fits and 400 logical pixels.
+    The side of a cell changes by at least one device pixel, so that every notch of the wheel is seen, and
+    stays between half of what fits and 400 logical pixels.
     """
     viewport = placement.viewport
     fit = _fitting_cell(viewport, placement.columns, placement.rows)
     cell = placement.cell * factor
-    if cell * ratio >= 2:
+    if cell * ratio >= WHOLE_CELL:
         step = 1.0 if factor > 1 else -1.0
         grown = placement.cell * ratio + step
         cell = (max(cell * ratio, grown) if step > 0 else min(cell * ratio, grown)) / ratio

@@ -17,7 +17,7 @@ _BAND = 6
 
 
 class Histogram(QWidget):
-    """Bars of how often values occur, the colormap's band over the range, and two handles that can be dragged.
+    """Bars of how often values occur, the colormap's band over the range, and two handles to drag.
 
     The horizontal axis runs over all finite values and the range, with a little room at both sides.
     """
@@ -53,7 +53,7 @@ class Histogram(QWidget):
             self._extent = (low, high)
             span = high - low
             if 0 < span < np.inf:
-                bins = np.minimum(((floats - low) * (_BINS / span)).astype(np.intp), _BINS - 1)
+                bins = np.minimum(((floats - low) / span * _BINS).astype(np.intp), _BINS - 1)
                 self._counts = np.bincount(bins, minlength=_BINS).astype(np.float64)
             else:
                 self._counts = np.zeros(_BINS)
@@ -80,48 +80,48 @@ class Histogram(QWidget):
     def position_of(self, value: float) -> float:
         """Return the widget x of a value."""
         low, high = self._axis
-        part = (value / 2 - low / 2) / (high / 2 - low / 2)
+        span = high / 2 - low / 2
+        part = (value / 2 - low / 2) / span if span > 0 else 0.5
         return _MARGIN + part * (self.width() - 2 * _MARGIN)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint bars, band and handles."""
         theme = current_theme()
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        floor = self.height() - _BAND - 4
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(theme.outline))
-        if not self.isEnabled():
-            painter.setOpacity(0.35)
-        # One full bar of background must not flatten the others: the scale follows the second highest.
-        scale = max(float(np.sort(self._counts)[-2]) * 1.25, 1.0)
-        heights = np.sqrt(np.minimum(self._counts / scale, 1.0)) * (floor - 6)
-        left, right = self.position_of(self._extent[0]), self.position_of(self._extent[1])
-        if right - left < 4:
-            left, right = left - 2, right + 2
-            painter.drawRect(QRectF(left, 4, right - left, floor - 4 if self._counts.any() else 0))
-        else:
-            width = (right - left) / _BINS
-            bars = [
-                QRectF(left + index * width, floor - height, max(width - 0.5, 0.5), height)
-                for index, height in enumerate(heights.tolist())
-                if height > 0
-            ]
-            painter.drawRects(bars)
-        low, high = self.position_of(self._low), self.position_of(self._high)
-        painter.drawImage(QRectF(low, floor + 2, max(high - low, 1.0), _BAND), _band(self._colormap))
-        for index, x in enumerate((low, high)):
-            strong = index in (self._held, self._hovered)
-            painter.setPen(QPen(QColor(theme.text), 2.0 if strong else 1.4))
-            painter.drawLine(QPointF(x, 2), QPointF(x, self.height() - 2))
-            painter.setPen(QPen(QColor(theme.panel), 1.0))
-            painter.setBrush(QColor(theme.text))
-            reach = 6.0 if strong else 5.0
-            painter.drawPolygon(
-                QPolygonF([QPointF(x - reach, 0), QPointF(x + reach, 0), QPointF(x, reach * 1.6)])
-            )
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.end()
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            floor = self.height() - _BAND - 4
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.outline))
+            if not self.isEnabled():
+                painter.setOpacity(0.35)
+            # One full bar of background must not flatten the others: the scale follows the second highest.
+            scale = max(float(np.sort(self._counts)[-2]) * 1.25, 1.0)
+            heights = np.sqrt(np.minimum(self._counts / scale, 1.0)) * (floor - 6)
+            left, right = self.position_of(self._extent[0]), self.position_of(self._extent[1])
+            if right - left < 4:
+                left, right = left - 2, right + 2
+                painter.drawRect(QRectF(left, 4, right - left, floor - 4 if self._counts.any() else 0))
+            else:
+                width = (right - left) / _BINS
+                bars = [
+                    QRectF(left + index * width, floor - height, max(width - 0.5, 0.5), height)
+                    for index, height in enumerate(heights.tolist())
+                    if height > 0
+                ]
+                painter.drawRects(bars)
+            low, high = self.position_of(self._low), self.position_of(self._high)
+            painter.drawImage(QRectF(low, floor + 2, max(high - low, 1.0), _BAND), _band(self._colormap))
+            for index, x in enumerate((low, high)):
+                strong = index in (self._held, self._hovered)
+                painter.setPen(QPen(QColor(theme.text), 2.0 if strong else 1.4))
+                painter.drawLine(QPointF(x, 2), QPointF(x, self.height() - 2))
+                painter.setPen(QPen(QColor(theme.panel), 1.0))
+                painter.setBrush(QColor(theme.text))
+                reach = 6.0 if strong else 5.0
+                painter.drawPolygon(
+                    QPolygonF([QPointF(x - reach, 0), QPointF(x + reach, 0), QPointF(x, reach * 1.6)])
+                )
+                painter.setBrush(Qt.BrushStyle.NoBrush)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take the handle that is nearer, from anywhere: a click moves it there."""
@@ -148,7 +148,7 @@ class Histogram(QWidget):
             self._fit_axis()
 
     def _nearer(self, x: float) -> int:
-        """Return 0 or 1: the handle that is nearer to widget ``x``; of two at one place, the one on that side."""
+        """Return 0 or 1: the handle nearer to widget ``x``; of two at one place, the one on that side."""
         low, high = self.position_of(self._low), self.position_of(self._high)
         return 0 if abs(x - low) < abs(x - high) or (low == high and x < low) else 1
 

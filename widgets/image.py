@@ -1,4 +1,4 @@
-"""The one function that turns an array into a QImage. Row 0 of an array is the bottom row; it is flipped here."""
+"""The one function that turns an array into a QImage; row 0, the bottom row, is flipped here."""
 
 from functools import cache
 
@@ -32,8 +32,8 @@ def buffer_image(buffer: GridBuffer, theme: Theme) -> QImage:
 
     Notes
     -----
-    NaN alternates between two greys from pixel to pixel (a checker), infinite values have a colour of their own.
-    Linear colour is encoded as sRGB by a table of 65536 entries, at most one level from the exact value.
+    NaN alternates between two greys from pixel to pixel (a checker), infinite values have a colour of their
+    own. Linear colour is encoded as sRGB by a table of 65536 entries, at most one level from the exact value.
     Transparency is straight alpha. Values outside the range take the colour of the nearest end.
     """
     values = buffer.values
@@ -63,8 +63,8 @@ def mask_image(mask: NDArray[np.bool_]) -> QImage:
 def value_range(buffer: GridBuffer) -> tuple[float, float]:
     """Return the values at the two ends of a buffer's colormap, low <= high.
 
-    The range of the buffer if it has one, else that of the finite values (for signed ones made symmetric about 0);
-    (0, 1) where no value is finite.
+    The range of the buffer if it has one, else that of the finite values (for signed ones made symmetric
+    about 0); (0, 1) where no value is finite.
     """
     low, high = buffer.range if buffer.range is not None else fitted_range(buffer.values)
     if buffer.kind == "signed":
@@ -74,7 +74,7 @@ def value_range(buffer: GridBuffer) -> tuple[float, float]:
 
 
 def fitted_range(values: NDArray[np.generic]) -> tuple[float, float]:
-    """Return the smallest and the largest finite value of an array of any shape, or (0, 1) if there is none."""
+    """Return the least and the largest finite value of an array of any shape, or (0, 1)."""
     if values.dtype.kind == "f":
         low, high = float(values.min()), float(values.max())
         if not (np.isfinite(low) and np.isfinite(high)):
@@ -100,7 +100,7 @@ def _scalar_pixels(
 def _channel_pixels(
     values: NDArray[np.generic], ends: tuple[float, float], theme: Theme
 ) -> NDArray[np.uint32]:
-    """Return (H, W) packed colours of (H, W, C) values: the first three channels over the range, not encoded."""
+    """Return (H, W) packed colours of (H, W, C) values: three channels over the range, not encoded."""
     unit, is_finite = _normalized(values[:, :, :3], ends)
     levels = (unit * 255.0 + 0.5).astype(np.uint32)
     pixels = np.full(levels.shape[:2], _OPAQUE, np.uint32)
@@ -131,7 +131,7 @@ def _color_pixels(values: NDArray[np.generic], theme: Theme) -> NDArray[np.uint3
 
 
 def _weight_pixels(values: NDArray[np.generic], theme: Theme) -> NDArray[np.uint32]:
-    """Return (H, W) packed colours of (H, W, 3) barycentric weights: the vertex colours mixed in linear light."""
+    """Return (H, W) packed colours of (H, W, 3) weights: the vertex colours mixed in linear light."""
     unit, is_finite = _normalized(values, (0.0, 1.0))
     mixed = unit @ _vertex_light()
     steps = (mixed.clip(0.0, 1.0) * _SRGB_STEPS + 0.5).astype(np.uint16)
@@ -151,7 +151,7 @@ def _id_pixels(values: NDArray[np.generic]) -> NDArray[np.uint32]:
 def _normalized(
     values: NDArray[np.generic], ends: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_] | None]:
-    """Return values as 0 to 1 over the range, and which are finite (None: all); a range of no width gives 0.5."""
+    """Return values as 0 to 1 over the range (0.5 if it has no width), and which are finite (None: all)."""
     low, high = ends
     is_finite = None
     floats = values.astype(np.float64)

@@ -119,6 +119,13 @@ class KeyHelp(QWidget):
         width = round(_COLUMN_WIDTH * current_theme().text_px / 13)
         return max(1, self.width() // width)
 
+    def _key_width(self) -> int:
+        """Return one width for the keys of every group, so that what they do lines up."""
+        metrics = self.fontMetrics()
+        rows = [entry.keys.split(", ") for entry in self._entries]
+        widths = [sum(metrics.horizontalAdvance(key) + 16 for key in row) for row in rows]
+        return min(max(widths, default=0), round(200 * current_theme().text_px / 13))
+
     @Slot()
     def _narrow(self) -> None:
         self._rebuild()
@@ -141,7 +148,7 @@ class KeyHelp(QWidget):
             # The shortest column so far takes the next group.
             place = heights.index(min(heights))
             heights[place] += len(members) + 2
-            box = _group(name, members)
+            box = _group(name, members, self._key_width())
             stacks[place].addWidget(box)
         for stack in stacks:
             stack.setSpacing(16)
@@ -150,13 +157,14 @@ class KeyHelp(QWidget):
         self._scroll.setWidget(body)
 
 
-def _group(name: str, entries: Sequence[KeyEntry]) -> QWidget:
+def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
     theme = current_theme()
     box = QWidget()
     grid = QGridLayout(box)
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setHorizontalSpacing(12)
     grid.setVerticalSpacing(6)
+    grid.setColumnMinimumWidth(0, key_width)
     grid.setColumnStretch(1, 1)
     heading = QLabel(name)
     heading.setProperty("role", "title")

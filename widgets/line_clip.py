@@ -1,4 +1,4 @@
-"""Segments cut to a box in float64 before Qt sees them, so that coordinates of 1e9, infinity or NaN do no harm."""
+"""Segments cut to a box in float64 before Qt sees them: coordinates of 1e9, infinity, NaN do no harm."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +30,8 @@ def clip_segments(
 
     Notes
     -----
-    A segment with an end that is not finite has no direction and is left out. A segment of no length is a point; a
-    line through it does not exist and is left out too.
+    A segment with an end that is not finite has no direction and is left out. A segment of no length is a
+    point; a line through it does not exist and is left out too.
 
     References
     ----------
@@ -65,7 +65,7 @@ def clip_segments(
 def widget_lines(
     segments: NDArray[np.float64], placement: GridPlacement, extended: bool = False
 ) -> tuple[list[QLineF], NDArray[np.intp]]:
-    """Return the visible parts of window segments, (N, 2, 2) float64, as widget lines, and where each comes from."""
+    """Return the visible parts of (N, 2, 2) window segments as widget lines, and where each is from."""
     margin = 16.0
     rect = QRectF(placement.viewport).adjusted(-margin, -margin, margin, margin)
     left, top = placement.to_window(rect.topLeft())

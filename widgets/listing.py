@@ -7,7 +7,7 @@ import tokenize
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -25,6 +25,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QFrame, QPlainTextEdit, QTextEdit, QWidget
 
+from widgets.key_claim import KeyClaim
 from widgets.marks import Mark, blended, draw_mark
 from widgets.theme import current_theme, theme_notifier
 
@@ -121,11 +122,11 @@ class ListingView(QPlainTextEdit):
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
-        self.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.setPlaceholderText("The algorithm of the stage appears here, with the line of each step marked.")
         self.setCornerWidget(QWidget(self))
         self.setAccessibleName("Listing")
         self.viewport().setCursor(Qt.CursorShape.ArrowCursor)
+        KeyClaim(self, _COMMANDS)
         self._margin = _Margin(self)
         self.updateRequest.connect(self._follow_scroll)
         theme_notifier().theme_changed.connect(self._follow_theme)
@@ -239,17 +240,6 @@ class ListingView(QPlainTextEdit):
         if is_click and line is not None and not self.textCursor().hasSelection():
             self.line_clicked.emit(line)
 
-    def event(self, event: QEvent) -> bool:
-        """Keep the keys of this pane from window-wide shortcuts while it has the focus."""
-        if (
-            event.type() == QEvent.Type.ShortcutOverride
-            and isinstance(event, QKeyEvent)
-            and event.key() in _COMMANDS
-        ):
-            event.accept()
-            return True
-        return super().event(event)
-
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter runs to the chosen line, Shift+Enter toggles its breakpoint."""
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
@@ -326,6 +316,9 @@ class ListingView(QPlainTextEdit):
     @Slot()
     def _follow_theme(self) -> None:
         theme = current_theme()
+        font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        font.setPixelSize(theme.text_px)
+        self.setFont(font)
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Base, QColor(theme.panel))
         palette.setColor(QPalette.ColorRole.PlaceholderText, QColor(theme.muted_text))

@@ -72,7 +72,7 @@ def mark_color(mark: Mark, theme: Theme) -> str:
 
 @lru_cache(maxsize=16)
 def cell_tile(side: float, line_strength: float, has_centre: bool, theme: Theme, ratio: float) -> QImage:
-    """Return one cell's grid lines (left and bottom) and sample centre as a transparent tile of ``side`` logical pixels.
+    """Return one cell's grid lines (left, bottom) and sample centre as a tile of ``side`` logical pixels.
 
     ``line_strength`` is the opacity of the lines, 0 to 1.
     """

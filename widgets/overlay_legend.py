@@ -36,7 +36,7 @@ _FORMS = {
 
 
 class OverlayLegend(QWidget):
-    """Lists overlays with a swatch and a checkbox each; the marks in the swatches are the ones on the grid."""
+    """Lists overlays with a swatch and a checkbox each; swatches are painted as the grid is."""
 
     overlays_changed = Signal(object)
     """Keys of the overlays that are on, a frozenset of str, after the user changed them."""
@@ -55,7 +55,7 @@ class OverlayLegend(QWidget):
     def show_overlays(
         self, overlays: tuple[Overlay, ...] | list[Overlay], shown: frozenset[str] | None = None
     ) -> None:
-        """List the overlays on offer; ``shown`` are the keys of those that are on (None: as they were; new ones off)."""
+        """List the overlays on offer; ``shown`` are the keys of those that are on (None: as before)."""
         before, kept = self._overlays, self.shown_keys() if shown is None else shown
         self._overlays = tuple(overlays)
         looks = [(item.key, item.label, _look(item)) for item in self._overlays]

@@ -1,4 +1,4 @@
-"""How overlays are painted: patterns under the grid lines, glyphs, blocks, spans and thin lines above them."""
+"""How overlays are painted: patterns under the grid lines; glyphs, outlines and thin lines above."""
 
 from collections.abc import Iterable
 
@@ -66,10 +66,10 @@ def paint_pattern(
 ) -> None:
     """Paint the pattern of ``mark`` over the visible cells of an (H, W) mask.
 
-    The pattern fills a layer of its own that the mask, magnified, is cut out of: the cost does not depend on the
-    number of cells, and a hatch runs on from cell to cell.
+    The pattern fills a layer of its own that the mask, magnified, is cut out of: the cost does not depend
+    on the number of cells, and a hatch runs on from cell to cell.
     """
-    column0, row0, column1, row1 = placement.visible_cells()
+    column0, row0, column1, row1 = _painted_cells(painter, placement)
     left, low, right, high = bounds(mask[row0:row1, column0:column1])
     if left == right:
         return
@@ -118,15 +118,15 @@ def _paint_counts(
         return
     size = int(min(max(placement.cell * 0.3, 8), theme.small_px))
     painter.setFont(text_font(theme, size))
-    for column, row in _visible(placement, counts > 0):
-        rect = placement.cells_rect(column, row).adjusted(0, 0, -3, -2)
+    metrics = painter.fontMetrics()
+    chip, ink = _faded(theme.panel, 0.85), QColor(theme.text)
+    for column, row in _visible(painter, placement, counts > 0):
         text = f"×{int(counts[row, column])}"
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
-        painter.setPen(QColor(theme.halo()))
-        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-            painter.drawText(rect.translated(dx, dy), flags, text)
-        painter.setPen(QColor(theme.text))
-        painter.drawText(rect, flags, text)
+        box = QRectF(0, 0, metrics.horizontalAdvance(text) + 4, metrics.height())
+        box.moveBottomRight(placement.cells_rect(column, row).bottomRight() - QPointF(0, 1))
+        painter.fillRect(box, chip)
+        painter.setPen(ink)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
 def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOverlay, theme: Theme) -> None:
@@ -138,7 +138,9 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
     if cell < _GLYPH_CELL:
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(color)
-        painter.drawRects([placement.cells_rect(*pixel) for pixel in _visible(placement, overlay.mask)])
+        painter.drawRects(
+            [placement.cells_rect(*pixel) for pixel in _visible(painter, placement, overlay.mask)]
+        )
         painter.restore()
         return
     width = min(max(cell * 0.09, 1.2), 2.5)
@@ -146,7 +148,7 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
     for pen in (outer, inner):
         pen.setJoinStyle(Qt.PenJoinStyle.MiterJoin)
     size = min(cell * 0.3, 14.0)
-    for column, row in _visible(placement, overlay.mask):
+    for column, row in _visible(painter, placement, overlay.mask):
         rect = placement.cells_rect(column, row)
         middle = rect.center()
         if overlay.mark is Mark.TIE:
@@ -195,7 +197,7 @@ def _arrowhead(rect: QRectF, size: float) -> QPolygonF:
 def _corner(rect: QRectF) -> QPolygonF:
     """Return the upper right corner of a cell as a triangle."""
     size = min(rect.width() * 0.45, 16.0)
-    corner = rect.topRight()
+    corner = rect.topRight() + QPointF(-1.5, 1.5)
     return QPolygonF([corner, corner - QPointF(size, 0), corner + QPointF(0, size)])
 
 
@@ -256,7 +258,7 @@ def _paint_spans(painter: QPainter, placement: GridPlacement, overlay: SpanOverl
         rect = placement.cells_rect(first, row, end - first, 1)
         # Where values are written, the bar runs below them.
         y = rect.center().y() if placement.cell < 40 else rect.bottom() - max(tick + 3, 0.14 * placement.cell)
-        left, right = rect.left() + 1, rect.right() - 1
+        left, right = rect.left() + 2.5, rect.right() - 2.5
         if end > first:
             lines += [QLineF(left, y, right, y), QLineF(left, y - tick, left, y + tick)]
             lines.append(QLineF(right, y - tick, right, y + tick))
@@ -295,11 +297,18 @@ def _stroke(
     painter.restore()
 
 
-def _visible(placement: GridPlacement, mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return (column, row) of the visible true cells of an (H, W) mask."""
-    column0, row0, column1, row1 = placement.visible_cells()
+def _visible(painter: QPainter, placement: GridPlacement, mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return (column, row) of the true cells of an (H, W) mask in the part that is painted."""
+    column0, row0, column1, row1 = _painted_cells(painter, placement)
     rows, columns = np.nonzero(mask[row0:row1, column0:column1])
     return list(zip((columns + column0).tolist(), (rows + row0).tolist(), strict=True))
+
+
+def _painted_cells(painter: QPainter, placement: GridPlacement) -> tuple[int, int, int, int]:
+    """Return (column0, row0, column1, row1) of the cells in the part that is painted."""
+    if painter.hasClipping():
+        return placement.cells_in(painter.clipBoundingRect())
+    return placement.visible_cells()
 
 
 def _faded(color: str, opacity: float) -> QColor:

@@ -37,9 +37,10 @@ class _Drag(Enum):
 class PixelGrid(GridDisplay):
     """Shows a :class:`~widgets.grid_buffer.GridBuffer` magnified and tells what the user points at and drags.
 
-    Wheel: zoom about the pointer. Middle drag, right drag or Space and drag: pan. Click: ``pixel_clicked``. Vertices of
-    the triangle in focus can be dragged; Shift rounds to half pixels, Escape takes the drag back. Double click beside
-    the raster, or :meth:`fit`: the whole raster. Ctrl+C copies the pinned value in full precision.
+    Wheel: zoom about the pointer. Middle drag, right drag or Space and drag: pan. Click: ``pixel_clicked``.
+    Vertices of the triangle in focus can be dragged; Shift rounds to half pixels, Escape takes the drag
+    back. Double click beside the raster, or :meth:`fit`: the whole raster. Ctrl+C copies the pinned value
+    in full precision.
     """
 
     pixel_hovered = Signal(int, int)
@@ -197,7 +198,7 @@ class PixelGrid(GridDisplay):
             super().keyReleaseEvent(event)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        """Ask for the pinned pixel's menu with the menu key; the right button asks when it is let go unmoved."""
+        """Ask for the pinned pixel's menu with the menu key; the right button asks when let go unmoved."""
         if event.reason() == QContextMenuEvent.Reason.Keyboard and self._pin is not None:
             corner = self.placement().cells_rect(*self._pin).bottomRight().toPoint()
             self.pixel_menu_requested.emit(*self._pin, self.mapToGlobal(corner))
@@ -209,8 +210,16 @@ class PixelGrid(GridDisplay):
         super().leaveEvent(event)
 
     def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = event.reason() != Qt.FocusReason.MouseFocusReason
+        """Show the focus ring if the focus came by a key, not by a click; else leave it."""
+        by_key = (
+            Qt.FocusReason.TabFocusReason,
+            Qt.FocusReason.BacktabFocusReason,
+            Qt.FocusReason.ShortcutFocusReason,
+        )
+        if event.reason() in by_key:
+            self._shows_focus = True
+        elif event.reason() == Qt.FocusReason.MouseFocusReason:
+            self._shows_focus = False
         super().focusInEvent(event)
 
     def focusOutEvent(self, event: QFocusEvent) -> None:

@@ -14,8 +14,8 @@ from widgets.theme import current_theme, text_font, theme_notifier
 class RangeControl(QWidget):
     """Low end, histogram with two handles, high end, Fit and Reset.
 
-    A right click on Fit (or the menu key) asks to keep fitting: then the owner shows buffers without a range of their
-    own, which follow their values from step to step.
+    A right click on Fit (or the menu key) asks to keep fitting: then the owner shows buffers without a
+    range of their own, which follow their values from step to step.
     """
 
     range_changed = Signal(float, float)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
+from widgets.key_claim import KeyClaim
 from widgets.theme import current_theme, theme_notifier
 from widgets.typed_value import TypedValue
 
@@ -56,10 +57,16 @@ class _RowLabel(QLabel):
         self._outline = outline
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setIndent(10)
-        self.setMinimumWidth(self.fontMetrics().horizontalAdvance(row.label) + 16)
+        KeyClaim(self, (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter))
         self.setAccessibleName(row.label)
         self.setToolTip(row.note or row.label)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
+
+    def sizeHint(self) -> QSize:
+        return super().sizeHint() + QSize(6, 0)
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton:

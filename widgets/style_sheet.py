@@ -1,4 +1,4 @@
-"""The one style sheet of the program: panels are set apart by space, controls are flat, focus is a clear ring."""
+"""The one style sheet: panels are set apart by space, controls are flat, focus is a clear ring."""
 
 from pathlib import Path
 from string import Template
@@ -29,7 +29,9 @@ QToolButton[flat="true"]:focus, QPlainTextEdit:focus {
 QPushButton:focus, QComboBox:focus { padding: 2px ${uu_focus}px; }
 QPushButton:disabled, QToolButton:disabled, QComboBox:disabled { color: $outline; border-color: $selection; }
 QComboBox::drop-down { border: none; width: 20px; }
-QComboBox::down-arrow, QAbstractSpinBox::down-arrow { image: url($icons/down-$ink.svg); width: 10px; height: 10px; }
+QComboBox::down-arrow, QAbstractSpinBox::down-arrow {
+    image: url($icons/down-$ink.svg); width: 10px; height: 10px;
+}
 QAbstractSpinBox::up-arrow { image: url($icons/up-$ink.svg); width: 10px; height: 10px; }
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {
     border: none; width: 16px; subcontrol-origin: padding;
@@ -43,8 +45,7 @@ QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
     background: $panel; color: $text; border: 1px solid $outline; border-radius: 3px; padding: 3px ${u}px;
     selection-background-color: $selection; selection-color: $text;
 }
-QAbstractSpinBox { padding: 3px 20px 3px ${uu}px; }
-QAbstractSpinBox:focus { padding: 2px 19px 2px 7px; }
+QAbstractSpinBox > QLineEdit { border: none; padding: 0 0 0 ${u}px; }
 QLineEdit:disabled { color: $outline; }
 QTextBrowser, QTextEdit[readOnly="true"], QPlainTextEdit[readOnly="true"] { border: 1px solid transparent; }
 
@@ -52,7 +53,8 @@ QCheckBox, QRadioButton { spacing: ${uu}px; padding: 2px; border: 2px solid tran
 QCheckBox:focus, QRadioButton:focus { border-color: $focus; }
 QCheckBox:disabled, QRadioButton:disabled { color: $outline; }
 QCheckBox::indicator, QRadioButton::indicator, QMenu::indicator, QAbstractItemView::indicator {
-    width: ${indicator}px; height: ${indicator}px; border: 1px solid $outline; border-radius: 2px; background: $raised;
+    width: ${indicator}px; height: ${indicator}px; background: $raised;
+    border: 1px solid $outline; border-radius: 2px;
 }
 QRadioButton::indicator { border-radius: ${round}px; }
 QCheckBox::indicator:checked, QMenu::indicator:checked, QAbstractItemView::indicator:checked {
@@ -76,7 +78,9 @@ QMenu::item:disabled { color: $outline; }
 QMenu::separator { height: 1px; background: $selection; margin: ${u}px; }
 
 QTabWidget::pane { border: none; }
-QTabBar::tab { background: transparent; color: $muted_text; padding: ${u}px ${uuu}px; border: 2px solid transparent; }
+QTabBar::tab {
+    background: transparent; color: $muted_text; padding: ${u}px ${uuu}px; border: 2px solid transparent;
+}
 QTabBar::tab:selected { color: $text; border-bottom-color: $text; }
 QTabBar::tab:focus { border-color: $focus; }
 
@@ -111,7 +115,8 @@ QWidget[role="panel"] { background: $panel; border-radius: 4px; }
 def style_sheet(theme: "Theme") -> str:
     """Return the application's style sheet for ``theme``.
 
-    Labels may set the property ``role`` to muted, title, good or bad, containers to panel, and buttons ``flat`` to true.
+    Labels may set the property ``role`` to muted, title, good or bad, containers to panel, and buttons
+    ``flat`` to true.
     """
     unit = theme.unit
     names = (

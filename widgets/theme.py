@@ -1,7 +1,7 @@
 """The look of the program as one frozen record: named colours, text sizes and the 4-px rhythm.
 
-One colour means one thing. Vertices, edges and weights 0, 1, 2 are blue, orange and green of the Okabe-Ito palette in
-every theme; the accent marks the step just done and nothing else; focus and selection are neutral.
+One colour means one thing. Vertices, edges and weights 0, 1, 2 are blue, orange and green of the Okabe-Ito
+palette in every theme; the accent marks the step just done and nothing else; focus and selection are neutral.
 """
 
 from dataclasses import dataclass, replace
@@ -245,7 +245,7 @@ def palette(theme: Theme) -> QPalette:
 
 
 def text_font(theme: Theme, pixels: int | None = None) -> QFont:
-    """Return the system's interface font with tabular figures, at ``pixels`` (default: the theme's text size)."""
+    """Return the interface font with tabular figures, at ``pixels`` (default: the theme's text size)."""
     font = QFont(QApplication.font())
     font.setPixelSize(pixels or theme.text_px)
     font.setBold(False)

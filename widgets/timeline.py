@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QPointF, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import (
     QButtonGroup,
@@ -18,8 +18,11 @@ from PySide6.QtWidgets import (
 
 from core.steps import Level
 from widgets.theme import current_theme, theme_notifier
-from widgets.timeline_bar import TimelineBar, TimelineRun
+from widgets.timeline_bar import TimelineBar
+from widgets.timeline_run import TimelineRun
 from widgets.typed_value import tabular_font
+
+__all__ = ["SPEEDS", "Timeline", "TimelineRun"]
 
 SPEEDS = (1.0, 2.0, 4.0, 10.0, 30.0, 60.0)
 """Steps a second that can be chosen."""
@@ -101,8 +104,7 @@ class Timeline(QWidget):
         """Show another run; the position is kept inside it."""
         self._count = run.count
         self._position = min(self._position, run.count)
-        digits = self.fontMetrics().horizontalAdvance(f"{run.count}0")
-        self.position_box.setFixedWidth(digits + 16)
+        self._fit_position_box()
         self.count_label.setText(f"/ {run.count:,}")
         self.bar.show_run(run)
         self._update_state()
@@ -167,13 +169,16 @@ class Timeline(QWidget):
         """Return the level that is marked."""
         return self._level
 
+    def transport_buttons(self) -> tuple[QToolButton, ...]:
+        """Return the buttons that step and play, from left to right."""
+        return self.first_button, self.back_button, self.play_button, self.forward_button, self.last_button
+
     def _button(self, name: str, key: str) -> QToolButton:
         button = QToolButton(self)
         button.setProperty("flat", True)
         button.setAccessibleName(name)
         button.setToolTip(f"{name} ({key})")
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        button.setIconSize(QSize(18, 18))
         return button
 
     def _level_button(self, level: Level) -> QToolButton:
@@ -189,13 +194,7 @@ class Timeline(QWidget):
     def _arrange(self) -> None:
         row = QHBoxLayout()
         row.setSpacing(4)
-        for button in (
-            self.first_button,
-            self.back_button,
-            self.play_button,
-            self.forward_button,
-            self.last_button,
-        ):
+        for button in self.transport_buttons():
             row.addWidget(button)
         row.addSpacing(12)
         caption = QLabel("Step by", self)
@@ -214,6 +213,10 @@ class Timeline(QWidget):
         layout.addLayout(row)
         layout.addWidget(self.bar)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def _fit_position_box(self) -> None:
+        text = "0" * (len(str(self._count)) + 1)
+        self.position_box.setFixedWidth(self.position_box.fontMetrics().horizontalAdvance(text) + 16)
 
     def _update_state(self) -> None:
         can_go_back, can_go_on = self._position > 0, self._position < self._count
@@ -282,7 +285,11 @@ class Timeline(QWidget):
 
     @Slot()
     def _follow_theme(self) -> None:
-        self._icons = {name: _transport_icon(name) for name in _SHAPES}
+        side = round(18 * current_theme().text_px / 13)
+        self._icons = {name: _transport_icon(name, side) for name in _SHAPES}
+        for button in self.transport_buttons():
+            button.setIconSize(QSize(side, side))
+        self._fit_position_box()
         self.first_button.setIcon(self._icons["first"])
         self.back_button.setIcon(self._icons["back"])
         self.forward_button.setIcon(self._icons["forward"])
@@ -317,23 +324,23 @@ _SHAPES: dict[str, tuple[_Corners, ...]] = {
 }
 
 
-def _transport_icon(name: str) -> QIcon:
-    """Draw a transport sign in the theme's text colour, and greyed out."""
+def _transport_icon(name: str, side: int) -> QIcon:
+    """Draw a transport sign of `side` logical pixels in the theme's text colour, and greyed out."""
     theme = current_theme()
     icon = QIcon()
     for mode, color in ((QIcon.Mode.Normal, theme.text), (QIcon.Mode.Disabled, theme.outline)):
         for ratio in (1, 2, 3):
-            pixmap = QPixmap(18 * ratio, 18 * ratio)
+            pixmap = QPixmap(side * ratio, side * ratio)
             pixmap.setDevicePixelRatio(ratio)
             pixmap.fill(Qt.GlobalColor.transparent)
             painter = QPainter(pixmap)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(color))
-            box = QRectF(2.0, 2.0, 14.0, 14.0)
+            inner = side - 4.0
             for corners in _SHAPES[name]:
                 painter.drawPolygon(
-                    QPolygonF([QPointF(box.left() + x * 14.0, box.top() + y * 14.0) for x, y in corners])
+                    QPolygonF([QPointF(2.0 + x * inner, 2.0 + y * inner) for x, y in corners])
                 )
             painter.end()
             icon.addPixmap(pixmap, mode)

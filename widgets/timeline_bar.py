@@ -1,22 +1,15 @@
 """The whole run as one bar: a lane of marks per outcome, the present position, zoom and scrub.
 
 Position p means that p steps are done; step k (from 0) fills the stretch [k, k + 1) and is the one just done
-at position k + 1. Marks are binned per pixel column by binary search, so a million positions paint as fast as
-ten.
+at position k + 1.
 """
-
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
-    QFont,
-    QFontMetrics,
     QHelpEvent,
-    QImage,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -29,52 +22,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from widgets.marks import Mark, draw_mark
 from widgets.theme import current_theme, theme_notifier
-
-LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)
-"""Outcomes with a lane of their own, top down."""
-FLAGS = (Mark.PINNED, Mark.BREAKPOINT, Mark.BOOKMARK)
-"""Marks that stand on the rail above the lanes."""
+from widgets.timeline_run import RunView, TimelineRun, flag_height, lane_height, ruler_height
 
 _SMALLEST_SPAN = 8.0
-_MOST_FLAGS = 60
-
-
-@dataclass(frozen=True, eq=False)
-class TimelineRun:
-    """A run of steps and what happened in it."""
-
-    count: int
-    """Number of steps; positions go from 0 to `count`."""
-    marks: Mapping[Mark, NDArray[np.int64]] = field(default_factory=dict)
-    """Step numbers (n,) per kind of mark, each sorted in ascending order."""
-
-
-def column_counts(steps: NDArray[np.int64], first: float, last: float, columns: int) -> NDArray[np.int64]:
-    """Count marks per pixel column.
-
-    Parameters
-    ----------
-    steps : ndarray, shape (n,), int64
-        Step numbers in ascending order.
-    first, last : float
-        Stretch of positions that the columns show.
-    columns : int
-        Number of pixel columns W.
-
-    Returns
-    -------
-    ndarray, shape (W,), int64
-        Marks in each column.
-
-    Notes
-    -----
-    Step k is counted where its left end lies, so a step that spans several columns is counted in one.
-    """
-    edges = np.linspace(first, last, columns + 1)
-    places: NDArray[np.int64] = np.searchsorted(steps, edges, side="left").astype(np.int64)
-    return np.diff(places)
 
 
 class TimelineBar(QWidget):
@@ -88,7 +39,6 @@ class TimelineBar(QWidget):
         self._run = TimelineRun(0)
         self._position = 0
         self._first, self._last = 0.0, 1.0
-        self._lanes: tuple[Mark, ...] = ()
         self._picture: QPixmap | None = None
         self._grabbed_at: float | None = None
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -102,7 +52,6 @@ class TimelineBar(QWidget):
         """Show a run from end to end; the position is kept inside it."""
         is_same_length = run.count == self._run.count
         self._run = run
-        self._lanes = tuple(mark for mark in LANES if mark in run.marks)
         self._position = min(self._position, run.count)
         if not is_same_length:
             self._first, self._last = 0.0, float(max(run.count, 1))
@@ -131,8 +80,7 @@ class TimelineBar(QWidget):
 
     def x_of(self, position: float) -> float:
         """Return where a position lies, in widget pixels."""
-        lane = self._lane_rect()
-        return lane.left() + (position - self._first) / (self._last - self._first) * lane.width()
+        return self._view().x_of(position)
 
     def position_at(self, x: float) -> int:
         """Return the position after the step that is drawn at `x`; 0 left of the first step."""
@@ -155,9 +103,7 @@ class TimelineBar(QWidget):
 
     def sizeHint(self) -> QSize:
         """Room for the flags, the lanes in use and the ruler."""
-        return QSize(
-            400, self._flag_height() + self._lane_height() * max(2, len(self._lanes)) + self._ruler_height()
-        )
+        return QSize(400, flag_height() + lane_height() * max(2, len(self._run.lanes())) + ruler_height())
 
     def minimumSizeHint(self) -> QSize:
         """As tall as wanted, but narrow."""
@@ -172,13 +118,14 @@ class TimelineBar(QWidget):
             self._picture.setDevicePixelRatio(ratio)
             self._picture.fill(QColor(current_theme().panel))
             picture_painter = QPainter(self._picture)
-            self._paint_marks(picture_painter)
+            self._view().paint(picture_painter)
             picture_painter.end()
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._picture)
         if self._run.count:
             self._paint_position(painter)
         if self.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(current_theme().focus), 2))
             painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
 
@@ -249,10 +196,10 @@ class TimelineBar(QWidget):
             self.position_requested.emit(target)
 
     def _tip_at(self, x: float, y: float) -> str:
-        lane_number = int((y - self._flag_height()) // self._lane_height())
+        lane_number = int((y - flag_height()) // lane_height())
         if x < self._lane_rect().left():
-            if 0 <= lane_number < len(self._lanes):
-                mark = self._lanes[lane_number]
+            if 0 <= lane_number < len(self._run.lanes()):
+                mark = self._run.lanes()[lane_number]
                 return f"{mark.value}: {len(self._run.marks[mark]):,} steps"
             return ""
         position = self.position_at(x)
@@ -262,7 +209,7 @@ class TimelineBar(QWidget):
         return f"step {position:,} of {self._run.count:,}" + "".join(f"\n{name}" for name in here)
 
     def _describe(self) -> None:
-        totals = [f"{len(self._run.marks[mark])} {mark.value}" for mark in self._lanes]
+        totals = [f"{len(self._run.marks[mark])} {mark.value}" for mark in self._run.lanes()]
         self.setAccessibleDescription(", ".join([f"{self._position} of {self._run.count}", *totals]))
 
     def _move_by(self, pixels: float) -> None:
@@ -282,107 +229,13 @@ class TimelineBar(QWidget):
         self._picture = None
         self.update()
 
-    def _small_font(self) -> QFont:
-        font = QFont(self.font())
-        font.setPixelSize(current_theme().small_px)
-        font.setFeature(QFont.Tag("tnum"), 1)
-        return font
-
-    def _flag_height(self) -> int:
-        return current_theme().small_px + 2
-
-    def _lane_height(self) -> int:
-        return max(8, round(current_theme().small_px * 0.82))
-
-    def _ruler_height(self) -> int:
-        return current_theme().small_px + 7
+    def _view(self) -> RunView:
+        return RunView(self._run, self._first, self._last, self._lane_rect())
 
     def _lane_rect(self) -> QRectF:
-        left = self._lane_height() + 12
-        height = self._lane_height() * max(2, len(self._lanes))
-        return QRectF(left, self._flag_height(), max(1.0, self.width() - left - 8.0), height)
-
-    def _paint_marks(self, painter: QPainter) -> None:
-        theme = current_theme()
-        lane = self._lane_rect()
-        painter.fillRect(lane, QColor(theme.canvas))
-        if not self._run.count:
-            painter.setPen(QColor(theme.muted_text))
-            painter.drawText(lane, Qt.AlignmentFlag.AlignCenter, "The steps of this stage appear here.")
-            return
-        for number, mark in enumerate(self._lanes):
-            top = lane.top() + number * self._lane_height()
-            side = self._lane_height()
-            draw_mark(painter, mark, QRectF(6.0, top, side, side))
-            if number:
-                painter.fillRect(QRectF(lane.left(), top, lane.width(), 1.0), QColor(theme.panel))
-            self._paint_lane(painter, mark, QRectF(lane.left(), top + 1.0, lane.width(), side - 1.0))
-        self._paint_flags(painter, lane)
-        self._paint_ruler(painter, lane)
-
-    def _paint_lane(self, painter: QPainter, mark: Mark, lane: QRectF) -> None:
-        theme = current_theme()
-        steps = self._run.marks[mark]
-        step_width = lane.width() / (self._last - self._first)
-        side = lane.height()
-        first, last = np.searchsorted(steps, [self._first - 1.0, self._last])
-        visible = steps[first:last]
-        if len(visible) * side <= lane.width() and _are_apart(visible, side / step_width):
-            for step in visible:
-                middle = self.x_of(float(step) + 0.5)
-                draw_mark(painter, mark, QRectF(middle - side / 2, lane.top(), side, side))
-            return
-        # One row of pixels, as wide as the lane, stretched over its height.
-        ratio = painter.device().devicePixelRatioF()
-        columns = max(1, int(lane.width() * ratio))
-        is_marked = column_counts(steps, self._first, self._last, columns) > 0
-        tick = max(1, round(min(step_width, side) * 0.8 * ratio))
-        is_painted = np.convolve(is_marked, np.ones(tick, dtype=np.int64))[:columns] > 0
-        box = lane.adjusted(0.0, 1.0, 0.0, -1.0)
-        if mark is Mark.TIE:
-            # Yellow alone is too light beside a light ground.
-            _paint_columns(painter, is_painted, theme.text, box)
-            box.adjust(0.0, 1.5, 0.0, -1.5)
-        _paint_columns(painter, is_painted, _lane_color(mark), box)
-
-    def _paint_flags(self, painter: QPainter, lane: QRectF) -> None:
-        theme = current_theme()
-        side = self._flag_height() - 2.0
-        for mark in FLAGS:
-            steps = self._run.marks.get(mark)
-            if steps is None:
-                continue
-            counts = column_counts(steps, self._first, self._last, max(1, int(lane.width() / 4)))
-            step_width = lane.width() / (self._last - self._first)
-            columns = np.flatnonzero(counts)
-            for column in columns:
-                middle = lane.left() + 4.0 * column + min(step_width, side) / 2
-                if len(columns) > _MOST_FLAGS:
-                    painter.fillRect(QRectF(middle - 1.0, 3.0, 2.0, side - 4.0), QColor(theme.text))
-                    continue
-                draw_mark(painter, mark, QRectF(middle - side / 2, 1.0, side, side))
-
-    def _paint_ruler(self, painter: QPainter, lane: QRectF) -> None:
-        theme = current_theme()
-        painter.setFont(self._small_font())
-        metrics = QFontMetrics(self._small_font())
-        span = self._last - self._first
-        label_width = metrics.horizontalAdvance(f"{self._run.count:,}") + 24
-        step = _round_step(span * label_width / lane.width())
-        top = lane.bottom() + 1
-        position = int(np.ceil(self._first / step)) * step
-        right = 0.0
-        while position <= self._last:
-            x = self.x_of(position)
-            painter.fillRect(QRectF(x, top, 1.0, 3.0), QColor(theme.grid_line))
-            text = f"{position:,}"
-            width = metrics.horizontalAdvance(text)
-            left = min(max(x - width / 2, 2.0), self.width() - width - 2.0)
-            if left > right:
-                painter.setPen(QColor(theme.muted_text))
-                painter.drawText(QPointF(left, top + 3.0 + metrics.ascent()), text)
-                right = left + width + 8
-            position += step
+        left = lane_height() + 12
+        height = lane_height() * max(2, len(self._run.lanes()))
+        return QRectF(left, flag_height(), max(1.0, self.width() - left - 8.0), height)
 
     def _paint_position(self, painter: QPainter) -> None:
         theme = current_theme()
@@ -408,29 +261,3 @@ class TimelineBar(QWidget):
 def _contains(steps: NDArray[np.int64], step: int) -> bool:
     place = int(np.searchsorted(steps, step))
     return place < len(steps) and int(steps[place]) == step
-
-
-def _paint_columns(painter: QPainter, is_painted: NDArray[np.bool_], color: str, box: QRectF) -> None:
-    pixels = np.where(is_painted, np.uint32(QColor(color).rgba()), np.uint32(0))
-    image = QImage(pixels.data, len(pixels), 1, 4 * len(pixels), QImage.Format.Format_ARGB32)
-    painter.drawImage(box, image, QRectF(0.0, 0.0, len(pixels), 1.0))
-
-
-def _are_apart(steps: NDArray[np.int64], least: float) -> bool:
-    return len(steps) < 2 or bool(np.diff(steps).min() >= least)
-
-
-def _lane_color(mark: Mark) -> str:
-    theme = current_theme()
-    colors = {Mark.COVERED: theme.covered, Mark.REJECTED: theme.rejected, Mark.TIE: theme.tie}
-    return colors.get(mark, theme.nan_dark if mark is Mark.NAN else theme.muted_text)
-
-
-def _round_step(least: float) -> int:
-    """Return the smallest of 1, 2, 5, 10, 20, ... that is at least `least`."""
-    power = 1
-    while True:
-        for lead in (1, 2, 5):
-            if lead * power >= least:
-                return lead * power
-        power *= 10

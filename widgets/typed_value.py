@@ -18,7 +18,7 @@ SUBPIXELS = 256
 
 _DECIMAL = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = re.compile(
-    rf"^(?P<sign>[+\-\u2212]?)\s*(?:(?P<whole>\d+)\s+(?=\d+\s*/))?"
+    rf"^(?P<sign>[+\-]?)\s*(?:(?P<whole>\d+)\s+(?=\d+\s*/))?"
     rf"(?P<top>{_DECIMAL})?\s*(?:[*\u00b7]?\s*(?P<pi>pi|PI|Pi|\u03c0))?"
     rf"(?:\s*/\s*(?P<bottom>{_DECIMAL}))?$"
 )
@@ -43,7 +43,7 @@ def parse_number(text: str) -> float:
     ValueError
         With one plain sentence that says what was wanted.
     """
-    found = _NUMBER.match(text.strip())
+    found = _NUMBER.match(text.strip().replace("\u2212", "-"))
     if found is None or not (found["top"] or found["pi"]):
         raise ValueError("a number is wanted, such as 1.5, 3/256 or pi/4")
     value = float(found["top"].replace(",", ".")) if found["top"] else 1.0
@@ -57,7 +57,7 @@ def parse_number(text: str) -> float:
     value += float(found["whole"] or 0)
     if not math.isfinite(value):
         raise ValueError("the number is too large")
-    return -value if found["sign"] in ("-", "\u2212") else value
+    return -value if found["sign"] == "-" else value
 
 
 def full_text(value: float) -> str:

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from widgets.key_claim import KeyClaim
 from widgets.theme import current_theme, theme_notifier
 from widgets.typed_value import fraction_text, full_text, number_text, tabular_font
 
@@ -106,6 +107,7 @@ class VariablesView(QTreeWidget):
         self.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.setItemDelegate(_ChangeDelegate(self))
         self.setAccessibleName("Variables")
+        KeyClaim(self, (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right))
         header = self.header()
         header.setSectionsMovable(False)
         header.setStretchLastSection(False)

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.mesh_formats.images import ImageError, texture_from_image
 from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory
-from app.mesh_formats.through_trimesh import load_with_trimesh
+from app.mesh_formats.through_trimesh import MissingFiles, load_with_trimesh, translated_errors
 from core.arrays import Floats
 from core.scene import Mesh, Texture
 
@@ -39,20 +39,22 @@ def read_gltf(path: Path, report: Report) -> LoadedMeshes:
     header = read_header(path)
     warnings = check_header(path, header)
     report(None, "reading nodes and meshes")
-    scene, files = load_with_trimesh(path, path.suffix.lower()[1:])
-    report(None, "converting meshes")
-    warnings += [f"{name} is missing; what it holds is left out" for name in dict.fromkeys(files.missing)]
+    files = MissingFiles(path)
     textures: dict[int, Texture | None] = {}
-    order = {name: place for place, name in enumerate(scene.geometry)}
-    nodes = [(node, *scene.graph[node]) for node in scene.graph.nodes_geometry]
-    meshes = []
-    for node, transform, name in sorted(nodes, key=lambda found: order[found[2]]):
-        part = scene.geometry[name]
-        if len(getattr(part, "faces", ())):
-            meshes.append(convert(path, part, np.asarray(transform), str(node), textures, warnings))
+    with translated_errors(path, files):
+        scene = load_with_trimesh(path, files)
+        report(None, "converting meshes")
+        warnings += [f"{name} is missing; what it holds is left out" for name in dict.fromkeys(files.missing)]
+        order = {name: place for place, name in enumerate(scene.geometry)}
+        nodes = [(node, *scene.graph[node]) for node in scene.graph.nodes_geometry]
+        meshes = [
+            convert(path, scene.geometry[name], np.asarray(transform), str(node), textures, warnings)
+            for node, transform, name in sorted(nodes, key=lambda found: order[found[2]])
+            if len(getattr(scene.geometry[name], "faces", ()))
+        ]
+        warnings += missing_textures(header, scene, bool(files.missing))
     if not meshes:
         raise MeshFileError(f"{path.name} has no faces")
-    warnings += missing_textures(header, scene, bool(files.missing))
     return LoadedMeshes(tuple(meshes), tuple(warnings))
 
 
@@ -76,6 +78,8 @@ def read_header(path: Path) -> dict[str, Any]:
             raise ValueError("it names no version of glTF")
     except (ValueError, KeyError, TypeError, RecursionError) as problem:
         raise MeshFileError(f"{path.name} is not a glTF file: {problem}") from problem
+    if header["asset"]["version"].partition(".")[0] != "2":
+        raise MeshFileError(f"{path.name} is glTF {header['asset']['version']}; only glTF 2 is read")
     return header
 
 

@@ -10,7 +10,14 @@ import numpy as np
 from app.mesh_formats.images import linear_from_srgb
 from app.mesh_formats.mtl import ObjMaterial, find_materials
 from app.mesh_formats.polygons import share_vertices, triangulate_polygons
-from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, check_text
+from app.mesh_formats.reading import (
+    LoadedMeshes,
+    MeshFileError,
+    Report,
+    check_memory,
+    check_positions,
+    check_text,
+)
 from core.arrays import Floats, Integers
 from core.geometry.vertex_stage import vertex_normals
 from core.scene import Mesh
@@ -215,11 +222,7 @@ def build_meshes(path: Path, found: ObjLines, numbers: Integers) -> LoadedMeshes
     uvs, normals = np.array(found.uvs).reshape(-1, 2), np.array(found.normals).reshape(-1, 3)
     colors = np.array(found.colors).reshape(-1, 3)
     sizes = np.array(found.sizes, np.int64)
-    if not np.isfinite(positions).all():
-        where = int(np.argmax(~np.isfinite(positions).all(axis=1)))
-        raise MeshFileError(
-            f"{path.name}: vertex {where + 1} is at {positions[where].tolist()}, which is no place"
-        )
+    check_positions(path, positions, first=1)
     corners, faces = triangulate_polygons(positions[numbers[:, 0]], sizes)
     corners = numbers[corners]
     averaged = None

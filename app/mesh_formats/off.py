@@ -9,7 +9,14 @@ import numpy as np
 
 from app.mesh_formats.images import linear_from_srgb
 from app.mesh_formats.polygons import check_polygons, triangulate_polygons
-from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, check_text
+from app.mesh_formats.reading import (
+    LoadedMeshes,
+    MeshFileError,
+    Report,
+    check_memory,
+    check_positions,
+    check_text,
+)
 from core.arrays import Floats
 from core.scene import Mesh
 
@@ -92,6 +99,7 @@ def read_off(path: Path, report: Report) -> LoadedMeshes:
     report(None, "joining corners")
     positions, sizes = np.array(found.positions), np.array(found.sizes, np.int64)
     corners = np.array(found.corners, np.int64)
+    check_positions(path, positions)
     check_polygons(path, sizes, corners, len(positions))
     places, faces = triangulate_polygons(positions[corners], sizes)
     mesh = Mesh(

@@ -9,7 +9,7 @@ from app.mesh_formats.images import ImageError, linear_from_srgb, read_texture
 from app.mesh_formats.mtl import beside
 from app.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
 from app.mesh_formats.polygons import check_polygons, share_vertices, triangulate_polygons
-from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory
+from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, check_positions
 from core.arrays import Floats
 from core.geometry.vertex_stage import vertex_normals
 from core.scene import Mesh, Texture
@@ -103,6 +103,7 @@ def read_ply(path: Path, report: Report) -> LoadedMeshes:
 def build_mesh(path: Path, header: Header, vertex: Rows, face: Rows, polygons: Column) -> LoadedMeshes:
     """Make the one mesh of a PLY file."""
     positions = stacked(vertex, "xyz")
+    check_positions(path, positions)
     check_polygons(path, polygons.sizes, polygons.items, len(positions))
     indices = polygons.items.astype(np.int64)
     corners, faces = triangulate_polygons(positions[indices], polygons.sizes)
@@ -150,7 +151,9 @@ def build_mesh(path: Path, header: Header, vertex: Rows, face: Rows, polygons: C
 
 def stacked(rows: Rows, names: str | tuple[str, ...]) -> Floats:
     """Return columns side by side, (count, len(names)) float64."""
-    return np.stack([rows.columns[name].astype(np.float64) for name in names], axis=1)
+    # A signalling NaN would warn here; it is refused later like any other.
+    with np.errstate(invalid="ignore"):
+        return np.stack([rows.columns[name].astype(np.float64) for name in names], axis=1)
 
 
 def read_colors(rows: Rows) -> Floats | None:

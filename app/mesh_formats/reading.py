@@ -4,7 +4,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from core.arrays import Floats
 from core.scene import Mesh
+
+LARGEST = float(np.finfo(np.float32).max)
+"""Farthest place of a vertex on any axis: colours and depths are stored as 32-bit floats."""
 
 MEMORY_LIMIT = 4 * 2**30
 """Most memory in bytes that opening a file may take, as estimated before it is read."""
@@ -35,6 +41,26 @@ def check_memory(path: Path, wanted: int) -> None:
         raise MeshFileError(
             f"{path.name} is too large: opening it would take about {wanted / 2**30:.1f} GiB of memory, "
             f"the limit is {MEMORY_LIMIT / 2**30:.1f} GiB"
+        )
+
+
+def check_positions(path: Path, positions: Floats, first: int = 0) -> None:
+    """Raise MeshFileError for the first vertex that has no place within 32-bit floats.
+
+    Parameters
+    ----------
+    path : Path
+        The file, for the message.
+    positions : (N, 3) float64
+    first : int
+        What the file calls the first vertex.
+    """
+    is_placed = (np.abs(positions) <= LARGEST).all(axis=1)
+    if not is_placed.all():
+        where = int(np.argmin(is_placed))
+        raise MeshFileError(
+            f"{path.name}: vertex {where + first} is at {positions[where].tolist()}, "
+            f"which is no number or beyond {LARGEST:.3g}"
         )
 
 

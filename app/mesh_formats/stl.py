@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from app.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, first_bytes
-from app.mesh_formats.through_trimesh import load_with_trimesh
+from app.mesh_formats.through_trimesh import MissingFiles, load_with_trimesh, translated_errors
 from core.scene import Mesh
 
 HEADER = 84
@@ -35,7 +35,9 @@ def read_stl(path: Path, report: Report) -> LoadedMeshes:
     """
     count = check_layout(path)
     report(None, "reading triangles")
-    scene, _ = load_with_trimesh(path, "stl")
+    files = MissingFiles(path)
+    with translated_errors(path, files):
+        scene = load_with_trimesh(path, files)
     report(None, "checking")
     meshes = [
         Mesh(

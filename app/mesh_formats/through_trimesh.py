@@ -2,6 +2,8 @@
 
 import logging
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -27,36 +29,39 @@ class MissingFiles:
     __getitem__ = get
 
 
-def load_with_trimesh(path: Path, kind: str) -> tuple[Any, MissingFiles]:
-    """Load ``path`` as ``kind`` (``stl``, ``glb``, ``gltf``) without any clean-up of its triangles.
+@contextmanager
+def translated_errors(path: Path, files: MissingFiles) -> Iterator[None]:
+    """Turn the many kinds of exceptions that trimesh raises on broken files into MeshFileError."""
+    try:
+        yield
+    except MeshFileError:
+        raise
+    except Exception as problem:
+        reason = f"the file {files.missing[0]} is missing" if files.missing else describe(problem)
+        kind = path.suffix[1:].upper()
+        raise MeshFileError(f"{path.name} cannot be read as {kind}: {reason}") from problem
+
+
+def load_with_trimesh(path: Path, files: MissingFiles) -> Any:
+    """Load ``path`` as what its extension says, without any clean-up of its triangles.
 
     Returns
     -------
-    scene : trimesh.Scene
-    files : MissingFiles
+    trimesh.Scene
 
-    Raises
-    ------
-    MeshFileError
-        Whatever trimesh raises; its loaders raise many kinds of exceptions on broken files.
-    OSError
-        If ``path`` cannot be read.
+    Notes
+    -----
+    To be called under ``translated_errors``.
     """
     # trimesh takes a quarter of a second to import, which only those wait for who open such a file.
     import trimesh
 
-    files = MissingFiles(path)
     resolver: Any = files
     logging.getLogger("trimesh").setLevel(logging.ERROR)
     with path.open("rb") as file, warnings.catch_warnings():
         # numpy.fromstring only warns where a text stops being numbers: half a mesh would pass as the whole.
         warnings.filterwarnings("error", message="string or file could not be read to its end")
-        try:
-            scene = trimesh.load_scene(file, file_type=kind, resolver=resolver, process=False)
-        except Exception as problem:
-            reason = f"the file {files.missing[0]} is missing" if files.missing else describe(problem)
-            raise MeshFileError(f"{path.name} cannot be read as {kind.upper()}: {reason}") from problem
-    return scene, files
+        return trimesh.load_scene(file, file_type=path.suffix.lower()[1:], resolver=resolver, process=False)
 
 
 def describe(problem: Exception) -> str:

@@ -177,8 +177,11 @@ def diamond_exit(segments: Segments, last_pixel: bool) -> LineRun:
     everyone = np.arange(len(course.start))
     begins_late = ~_judge(course, everyone, np.zeros_like(everyone), last_pixel).is_drawn
     index = k - begins_late[owner]
-    before = _judge(course, owner, k - 1, last_pixel).minor
-    major, is_steep = course.start[owner] + course.step[owner] * k, course.is_steep[owner]
+    step, is_steep = course.step[owner], course.is_steep[owner]
+    major = course.start[owner] + step * k
+    before, _, _ = nearest_minor(
+        major - step, course.snapped[owner], course.run[owner], course.rise[owner], step, is_steep
+    )
     column, row = np.where(is_steep, verdict.minor, major), np.where(is_steep, major, verdict.minor)
     drawn = verdict.is_drawn
     return LineRun(

@@ -63,8 +63,8 @@ def trace_depth(source: TraceSource) -> StageTrace:
         listings=dict.fromkeys(KINDS, listing(depth_test)),
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
-            BufferTrack("depth", source.start.depth, passed, place[passed], stored[passed]),
-            BufferTrack("primitive", identity, passed, place[passed], triangle[passed], "ids"),
+            BufferTrack("depth", source.start.depth, passed, place[passed], stored[passed], starts_known=True),
+            BufferTrack("primitive", identity, passed, place[passed], triangle[passed], "ids", True),
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )

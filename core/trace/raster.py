@@ -135,7 +135,7 @@ def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]
         ]
     hit_rows, hit_place = rows[covered], place[covered]
     count = source.start.cover_count.ravel()[hit_place] + 1 + occurrence(hit_place)
-    tracks.append(BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count"))
+    tracks.append(BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count", True))
     return tuple(tracks)
 
 

@@ -143,6 +143,11 @@ class TraceSource:
         before[index], passes[index] = tests.before, tests.passes
         return DepthTests(before, passes)
 
+    @cached_property
+    def picture(self) -> Frame:
+        """The buffers after the last row, drawn in batches."""
+        return draw(self.scene, self.settings, self.raster)
+
     def with_settings(self, settings: Settings) -> "TraceSource":
         """Return the source of the same input under other settings."""
         return replace(self, settings=settings)

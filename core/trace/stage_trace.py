@@ -30,7 +30,9 @@ class BufferTrack:
     values: NDArray[Any]
     """(k,) or (k, C), what each writes."""
     kind: str = "scalar"
-    """``scalar``, ``signed``, ``color``, ``ids``, ``flags`` or ``count``: how it is to be looked at."""
+    """``scalar``, ``signed``, ``color``, ``bytes``, ``ids``, ``flags`` or ``count``: how it is to be looked at."""
+    starts_known: bool = False
+    """Whether ``initial`` is a buffer of the frame, rather than no values yet."""
 
     def at(self, rows_done: int) -> NDArray[Any]:
         """Return the buffer after ``rows_done`` rows; of several writes to a place the last one stays."""
@@ -39,6 +41,12 @@ class BufferTrack:
         flat = buffer.reshape(-1, *buffer.shape[2:])
         flat[self.places[:done]] = self.values[:done]
         return read_only(buffer)
+
+    def known_at(self, rows_done: int) -> Flags:
+        """Return (h, w) bool, where the buffer holds something after ``rows_done`` rows."""
+        known = np.full(self.initial.shape[:2], self.starts_known)
+        known.ravel()[self.places[: int(np.searchsorted(self.rows, rows_done, "left"))]] = True
+        return known
 
 
 @dataclass(frozen=True, eq=False)

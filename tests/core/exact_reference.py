@@ -66,19 +66,23 @@ def edge_signs(clip, size: tuple[int, int], snaps: bool = True) -> list[tuple[in
 
 
 def exact_coverage(
-    clip, size: tuple[int, int], rule: str = "shared-edge", doubled_center: int = 1, snaps: bool = True
+    clip,
+    size: tuple[int, int],
+    rule: str = "shared-edge",
+    doubled_center: int = 1,
+    snaps: bool = True,
+    region: tuple[int, int, int, int] | None = None,
 ) -> np.ndarray:
-    """Return (H, W) bool, row 0 at the bottom: the pixels of one triangle (3, 4) in clip space."""
-    width, height = size
-    covered = np.zeros((height, width), bool)
+    """Return (rows, columns) bool of the region, row 0 at the bottom: the pixels of one triangle (3, 4)."""
+    first_column, first_row, columns, rows = region or (0, 0, *size)
+    covered = np.zeros((rows, columns), bool)
     if facing(clip, size, snaps) == 0 or all(Fraction(float(corner[3])) <= 0 for corner in clip):
         return covered
     lines = edge_signs(clip, size, snaps)
-    for row in range(height):
-        for column in range(width):
-            covered[row, column] = all(
-                side(line, 2 * column + doubled_center, 2 * row + doubled_center, rule) for line in lines
-            )
+    for row in range(rows):
+        for column in range(columns):
+            x, y = 2 * (first_column + column) + doubled_center, 2 * (first_row + row) + doubled_center
+            covered[row, column] = all(side(line, x, y, rule) for line in lines)
     return covered
 
 

@@ -42,7 +42,8 @@ def ply_binary(positions: np.ndarray, polygons: list[list[int]], order: str = "<
     header = (
         f"ply\nformat binary_{name}_endian 1.0\nelement vertex {len(positions)}\n"
         "property float x\nproperty double y\nproperty float z\n"
-        f"element face {len(polygons)}\nproperty list uchar uint vertex_index\nproperty uchar flag\nend_header\n"
+        f"element face {len(polygons)}\nproperty list uchar uint vertex_index\n"
+        "property uchar flag\nend_header\n"
     )
     vertices = b"".join(struct.pack(order + "fdf", *position) for position in positions)
     faces = b"".join(
@@ -53,9 +54,7 @@ def ply_binary(positions: np.ndarray, polygons: list[list[int]], order: str = "<
 
 def stl_binary(triangles: np.ndarray) -> bytes:
     """Triangles (T, 3, 3)."""
-    rows = np.zeros(
-        len(triangles), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]
-    )
+    rows = np.zeros(len(triangles), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     rows["corners"] = triangles
     return b"written by a test".ljust(80) + struct.pack("<I", len(triangles)) + rows.tobytes()
 
@@ -106,7 +105,9 @@ class GltfWriter:
         )
         return len(self.header["accessors"]) - 1
 
-    def primitive(self, indices: list[list[int]], material: int | None = None, **attributes: np.ndarray) -> None:
+    def primitive(
+        self, indices: list[list[int]], material: int | None = None, **attributes: np.ndarray
+    ) -> None:
         part: dict = {
             "attributes": {name: self.accessor(values) for name, values in attributes.items()},
             "indices": self.accessor(np.array(indices, np.uint32).ravel()),
@@ -120,7 +121,12 @@ class GltfWriter:
         text = json.dumps(self.header).encode()
         text += b" " * (-len(text) % 4)
         binary = self.buffer + b"\0" * (-len(self.buffer) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+        chunks = (
+            struct.pack("<I4s", len(text), b"JSON")
+            + text
+            + struct.pack("<I4s", len(binary), b"BIN\0")
+            + binary
+        )
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
     def gltf(self, buffer: Path) -> str:

@@ -1,0 +1,157 @@
+"""A | B | difference: the traced picture under the page's settings and under other ones, on the same input."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.grid_records import geometry_of
+from app.scene_presenter import FAMILY_TITLES, settings_records
+from app.session import Session
+from core import Frame, Settings
+from core.methods import table
+from core.trace import TraceSource
+from widgets.compare_view import CompareView, Comparison
+from widgets.grid_buffer import BufferKind, GridBuffer, number_text
+from widgets.grid_overlay import Mark, MaskOverlay
+
+BUFFERS = (("color", "Colour"), ("primitive", "Triangles"), ("depth", "Depth"), ("cover_count", "Cover count"))
+
+
+class ComparePresenter(QObject):
+    """Keeps the settings of B and shows both pictures while the view is open."""
+
+    edit_refused = Signal(str)
+
+    def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._view = session, view
+        self.other = replace(session.document.settings, fill="scanline-lecture")
+        """Settings of B."""
+        self._buffer = "color"
+        self._is_active = False
+        session.document_changed.connect(self.refresh)
+        session.pin_changed.connect(self.refresh_pointing)
+        session.hover_changed.connect(self.refresh_pointing)
+        view.setting_chosen.connect(self._choose)
+        view.buffer_chosen.connect(self._choose_buffer)
+        view.reset_requested.connect(self._reset)
+        view.swap_requested.connect(self._swap)
+        view.pixel_hovered.connect(self._hover)
+        view.pixel_left.connect(self._leave)
+        view.pixel_clicked.connect(self._pin)
+
+    def set_active(self, is_active: bool) -> None:
+        """Show the comparison from now on, or stop computing it."""
+        self._is_active = is_active
+        self.refresh()
+
+    @Slot()
+    def refresh(self) -> None:
+        """Draw both pictures and their difference."""
+        if not self._is_active:
+            return
+        session = self._session
+        document, source = session.document, session.trace.source
+        self._view.show_buffers(BUFFERS, self._buffer)
+        self._view.show_settings(settings_records(replace(document, settings=self.other)))
+        self._view.show_geometry(geometry_of(document, session.trace))
+        first = source.picture
+        try:
+            second = TraceSource(source.scene, self.other, source.triangle, source.region).picture
+        except ValueError as error:
+            self.edit_refused.emit(str(error))
+            return
+        self._view.show_comparison(compare(first, second, self._buffer, document.settings, self.other))
+        self.refresh_pointing()
+
+    @Slot()
+    def refresh_pointing(self) -> None:
+        """Mark pin and hover."""
+        if self._is_active:
+            first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+            marks = [
+                None if pixel is None else (pixel[0] - first_column, pixel[1] - first_row)
+                for pixel in (self._session.pin, self._session.hover)
+            ]
+            self._view.show_pointing(marks[0], marks[1])
+
+    def set_other(self, settings: Settings) -> None:
+        """Choose the settings of B."""
+        self.other = settings
+        self.refresh()
+
+    @Slot(str, str)
+    def _choose(self, family: str, value: str) -> None:
+        chosen: str | int = int(value) if family == "block_size" else value
+        self.set_other(replace(self.other, **{family: chosen}))  # type: ignore[arg-type]
+
+    @Slot(str)
+    def _choose_buffer(self, name: str) -> None:
+        self._buffer = name
+        self.refresh()
+
+    @Slot()
+    def _reset(self) -> None:
+        self.set_other(self._session.document.settings)
+
+    @Slot()
+    def _swap(self) -> None:
+        document = self._session.document
+        other, self.other = self.other, document.settings
+        self._session.edit(replace(document, settings=other))
+
+    @Slot(int, int)
+    def _hover(self, column: int, row: int) -> None:
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        self._session.set_hover((column + first_column, row + first_row))
+
+    @Slot()
+    def _leave(self) -> None:
+        self._session.set_hover(None)
+
+    @Slot(int, int)
+    def _pin(self, column: int, row: int) -> None:
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        self._session.set_pin((column + first_column, row + first_row))
+
+
+def compare(first: Frame, second: Frame, buffer: str, mine: Settings, other: Settings) -> Comparison:
+    """Return both buffers, their difference (B minus A; colours: the largest channel) and how many pixels differ."""
+    a, b = getattr(first, buffer), getattr(second, buffer)
+    differs = (a != b).any(axis=2) if a.ndim == 3 else a != b
+    amount = b.astype(float) - a.astype(float)
+    if a.ndim == 3:
+        largest = np.abs(amount).argmax(axis=2)
+        amount = np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
+    kind: BufferKind = "color" if buffer == "color" else "ids" if buffer == "primitive" else "scalar"
+    scale = None
+    if kind == "scalar":
+        scale = (float(min(a.min(), b.min())), float(max(a.max(), b.max())))
+    count = int(np.count_nonzero(differs))
+    summary = f"{count:,} of {differs.size:,} pixels differ"
+    if buffer == "primitive":
+        amount = differs.astype(float)
+        summary += f"; {int(np.count_nonzero((a >= 0) & (b < 0)))} only in A, {int(np.count_nonzero((a < 0) & (b >= 0)))} only in B"
+    elif count:
+        summary += f"; largest difference {number_text(float(np.abs(amount).max()))}"
+    return Comparison(
+        GridBuffer("A", a, kind, range=scale),
+        GridBuffer("B", b, kind, range=scale),
+        GridBuffer("difference", differs, "bool") if buffer == "primitive" else GridBuffer("difference", amount, "signed"),
+        "A, the page's settings",
+        "B, " + (settings_difference(mine, other) or "the same settings"),
+        summary + ".",
+        (MaskOverlay("difference", Mark.DIFFERENCE, differs),),
+    )
+
+
+def settings_difference(mine: Settings, other: Settings) -> str:
+    """Return in words what ``other`` does otherwise than ``mine``."""
+    parts = []
+    for field in fields(Settings):
+        value = getattr(other, field.name)
+        if value != getattr(mine, field.name):
+            text = table.get(field.name, value).title if isinstance(value, str) else str(value)
+            parts.append(f"{FAMILY_TITLES[field.name][0].lower()}: {text}")
+    return ", ".join(parts)

@@ -1,0 +1,212 @@
+"""The pixel grids of the stepping page: what they show of the trace, and what is done in them."""
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QObject, Slot
+
+from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
+from app.scene_edits import move_corner
+from app.session import Session
+from core.steps import Level
+from widgets.buffer_strip import BufferStrip
+from widgets.grid_buffer import GridBuffer
+from widgets.grid_overlay import Overlay
+from widgets.overlay_legend import OverlayLegend
+from widgets.pixel_grid import PixelGrid
+from widgets.range_control import RangeControl
+
+HIGHLIGHT_LIMIT = 4096
+"""Pixels of a step that are outlined."""
+DEFAULT_OVERLAYS = frozenset({"tie", "nan", "blocks"})
+
+
+class GridPresenter(QObject):
+    """Shows buffers, overlays and triangles of the session; takes hover, pin and drags back to it."""
+
+    def __init__(
+        self,
+        session: Session,
+        grid: PixelGrid,
+        strip: BufferStrip,
+        legend: OverlayLegend,
+        ranges: RangeControl,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._grid, self._strip, self._legend, self._ranges = grid, strip, legend, ranges
+        self._chosen: dict[str, str] = {}
+        self._own_ranges: dict[str, tuple[float, float]] = {}
+        self._shown_overlays = DEFAULT_OVERLAYS
+        self._drags = 0
+        self.drag_error = ""
+        """Why the last drag did nothing."""
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_step)
+        session.pin_changed.connect(self.refresh_pointing)
+        session.hover_changed.connect(self.refresh_pointing)
+        for widget in (grid, strip):
+            widget.pixel_hovered.connect(self._hover)
+            widget.pixel_left.connect(self._leave)
+            widget.pixel_clicked.connect(self._pin)
+        grid.view_changed.connect(strip.set_view)
+        strip.view_changed.connect(grid.set_view)
+        strip.buffer_chosen.connect(self._choose_buffer)
+        grid.vertex_dragged.connect(self._drag)
+        grid.vertex_drag_finished.connect(self._end_drag)
+        legend.overlays_changed.connect(self._choose_overlays)
+        ranges.range_changed.connect(self._choose_range)
+        ranges.range_reset.connect(self._reset_range)
+        self._stage = ""
+        self.refresh_run()
+
+    # Showing.
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another run: outlines, rulers, buffers."""
+        session = self._session
+        geometry = geometry_of(session.document, session.trace)
+        self._grid.set_pixel_center(session.document.settings.pixel_center)
+        self._grid.show_geometry(geometry)
+        self._strip.show_geometry(geometry)
+        self._stage = session.cursor.stage
+        self.refresh_step()
+        self.refresh_pointing()
+
+    @Slot()
+    def refresh_step(self) -> None:
+        """Show the state after the step just done."""
+        session = self._session
+        stage = session.cursor.stage
+        buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
+        self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
+        names = [buffer.name for buffer in buffers]
+        chosen = self._chosen.get(stage, names[0])
+        main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
+        self._strip.show_chosen(main.name)
+        self._grid.show_buffer(main)
+        self._ranges.show_buffer(main)
+        overlays = self._overlays()
+        self._legend.show_overlays(overlays, self._shown_overlays)
+        self._grid.show_overlays([overlay for overlay in overlays if overlay.key in self._shown_overlays])
+        pixels = self._step_pixels()
+        self._grid.show_step(pixels)
+        self._strip.show_step(pixels)
+
+    @Slot()
+    def refresh_pointing(self) -> None:
+        """Show pin and hover in all grids."""
+        pin, hover = self._local(self._session.pin), self._local(self._session.hover)
+        for widget in (self._grid, self._strip):
+            widget.show_pin(pin)
+            widget.show_hover(hover)
+
+    def _overlays(self) -> list[Overlay]:
+        session = self._session
+        trace, position = session.stage_trace, session.cursor.position
+        found: list[Overlay] = []
+        blocks = block_overlay(trace, session.trace, position)
+        if blocks is not None:
+            found.append(blocks)
+        found += mask_overlays(trace, session.trace.source.raster, position)
+        spans = span_overlay(trace, session.trace.source.raster, position)
+        if spans is not None:
+            found.append(spans)
+        lines = edge_overlay(session.document, session.trace)
+        if lines is not None:
+            found.append(lines)
+        return found
+
+    def _step_pixels(self) -> np.ndarray | None:
+        """Return the pixels of the step just done, in the grid's columns and rows."""
+        session = self._session
+        trace, cursor = session.stage_trace, session.cursor
+        row, _ = trace.steps.row_at(cursor.position)
+        if row < 0 or cursor.level <= Level.TRIANGLE:
+            return None
+        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
+        first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
+        if trace.stage == "bin" and trace.kind_of(row) == "block":
+            values = trace.variables(row)
+            column, line, size = int(values["column"]), int(values["row"]), int(values["size"])
+            columns = np.arange(max(column, first_column), min(column + size, end_column))
+            rows = np.arange(max(line, first_row), min(line + size, end_row))
+            pixels = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
+        else:
+            pixels = trace.pixel[first : row + 1]
+            pixels = pixels[pixels[:, 0] >= 0][:HIGHLIGHT_LIMIT]
+        return pixels - np.array([first_column, first_row])
+
+    def _ranged(self, buffer: GridBuffer) -> GridBuffer:
+        chosen = self._own_ranges.get(buffer.name)
+        return replace(buffer, range=chosen) if chosen else buffer
+
+    # Acting.
+
+    def _local(self, pixel: tuple[int, int] | None) -> tuple[int, int] | None:
+        if pixel is None:
+            return None
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        return pixel[0] - first_column, pixel[1] - first_row
+
+    def _global(self, column: int, row: int) -> tuple[int, int]:
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        return column + first_column, row + first_row
+
+    @Slot(int, int)
+    def _hover(self, column: int, row: int) -> None:
+        self._session.set_hover(self._global(column, row))
+
+    @Slot()
+    def _leave(self) -> None:
+        self._session.set_hover(None)
+
+    @Slot(int, int)
+    def _pin(self, column: int, row: int) -> None:
+        self._session.set_pin(self._global(column, row))
+
+    @Slot(str)
+    def _choose_buffer(self, name: str) -> None:
+        self._chosen[self._session.cursor.stage] = name
+        self.refresh_step()
+
+    @Slot(object)
+    def _choose_overlays(self, keys: frozenset[str]) -> None:
+        offered = {overlay.key for overlay in self._overlays()}
+        self._shown_overlays = (self._shown_overlays - offered) | keys
+        self.refresh_step()
+
+    @Slot(float, float)
+    def _choose_range(self, low: float, high: float) -> None:
+        buffer = self._grid.buffer()
+        if buffer is not None:
+            self._own_ranges[buffer.name] = (low, high)
+            self.refresh_step()
+
+    @Slot()
+    def _reset_range(self) -> None:
+        buffer = self._grid.buffer()
+        if buffer is not None:
+            self._own_ranges.pop(buffer.name, None)
+            self.refresh_step()
+
+    @Slot(int, float, float)
+    def _drag(self, vertex: int, x: float, y: float) -> None:
+        document = self._session.document
+        raster = self._session.trace.source.raster
+        first_column, first_row, _, _ = raster.bounds
+        triangle = document.triangle if document.triangle is not None else vertex // 3
+        size = document.traced_scene.size
+        try:
+            scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)
+        except ValueError as error:
+            self.drag_error = str(error)
+            return
+        self._session.edit(replace(document, scene=scene), f"drag {self._drags}")
+
+    @Slot(int)
+    def _end_drag(self, vertex: int) -> None:
+        self._drags += 1
+        self._session.end_gesture()

@@ -1,0 +1,186 @@
+"""From records of the trace to what the pixel grids show: buffers, outlines and overlays."""
+
+import numpy as np
+
+from app.document import Document
+from core import Trace
+from core.framebuffer.display import to_display
+from core.raster.schedule import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
+from core.trace import BufferTrack, StageTrace
+from widgets.grid_buffer import BufferKind, GridBuffer
+from widgets.grid_geometry import GridGeometry
+from widgets.grid_overlay import (
+    EDGE_MARKS,
+    BlockOverlay,
+    BlockState,
+    CountOverlay,
+    Mark,
+    MaskOverlay,
+    Overlay,
+    SegmentOverlay,
+    SpanOverlay,
+)
+
+OUTLINE_LIMIT = 400
+"""Triangles whose outlines are drawn."""
+KINDS: dict[str, BufferKind] = {
+    "scalar": "scalar",
+    "signed": "signed",
+    "color": "color",
+    "bytes": "color",
+    "ids": "ids",
+    "flags": "bool",
+    "count": "scalar",
+}
+STATES = {
+    OUTSIDE: BlockState.REJECTED,
+    INSIDE: BlockState.ACCEPTED,
+    SPLIT: BlockState.SPLIT,
+    LEAF: BlockState.LEAF,
+}
+
+
+def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffer]:
+    """Return the buffers of a stage at a position, then the finished picture and its triangles."""
+    done = stage.steps.rows_done(position)
+    buffers = [grid_buffer(track, done) for track in stage.buffers]
+    picture = trace.source.picture
+    buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", title="picture"))
+    if not any(track.name == "primitive" for track in stage.buffers):
+        buffers.append(GridBuffer("triangles", picture.primitive, "ids", title="triangles"))
+    return buffers
+
+
+def grid_buffer(track: BufferTrack, rows_done: int) -> GridBuffer:
+    """Return one buffer after ``rows_done`` rows."""
+    values, known = track.at(rows_done), track.known_at(rows_done)
+    if track.kind == "flags":
+        values = np.nan_to_num(values) > 0
+    if track.kind == "color":
+        values = np.where(known[..., None], values, 0.0)
+    return GridBuffer(track.name, values, KINDS[track.kind], known=known)
+
+
+def geometry_of(document: Document, trace: Trace) -> GridGeometry:
+    """Return the outlines of the traced triangles, in the columns and rows of the grid."""
+    source = trace.source
+    geometry = source.geometry
+    triangles = geometry.assembled.triangle[:OUTLINE_LIMIT]
+    corners = geometry.vertices.corners[triangles].ravel()
+    first_column, first_row, _, _ = source.raster.bounds
+    origin = np.array([first_column, first_row], float)
+    in_front = geometry.vertices.clip[corners, 3:] > 0
+    window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
+    with np.errstate(invalid="ignore"):
+        snapped = np.rint(window * 256) / 256
+    return GridGeometry(
+        vertices=window - origin,
+        triangles=np.arange(len(corners)).reshape(-1, 3),
+        focus=0 if document.triangle is not None or len(triangles) == 1 else -1,
+        snapped=(snapped - origin) if document.settings.coverage == "snapped" else None,
+    )
+
+
+def edge_overlay(document: Document, trace: Trace) -> SegmentOverlay | None:
+    """Return the edges of the triangle in focus as whole lines."""
+    geometry = geometry_of(document, trace)
+    if geometry.focus < 0:
+        return None
+    a, b, c = geometry.vertices[:3]
+    segments = np.array([[b, c], [c, a], [a, b]])
+    return SegmentOverlay("edge lines", segments, (0, 1, 2), extended=True, title="edge lines")
+
+
+def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverlay | None:
+    """Return the boxes and blocks that binning has looked at by now (all of them in later stages)."""
+    if stage.stage not in ("bin", "raster"):
+        return None
+    bins = trace.stage("bin")
+    done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
+    first_column, first_row, _, _ = trace.source.raster.bounds
+    columns = bins.columns
+    boxes = np.stack(
+        [
+            columns["column"] - first_column,
+            columns["row"] - first_row,
+            columns["column_end"] - columns["column"],
+            columns["row_end"] - columns["row"],
+        ],
+        axis=1,
+    )[:done]
+    blocks = trace.source.runs.blocks
+    states, labels = [], []
+    for node in columns["node"][:done]:
+        is_block = node >= 0 and blocks is not None
+        states.append(STATES[int(blocks.verdict[node])] if is_block and blocks is not None else BlockState.SPLIT)
+        labels.append("")
+    keep = (boxes[:, 2:] > 0).all(axis=1)
+    if stage.stage == "raster":
+        keep &= columns["node"][:done] >= 0
+    if not keep.any():
+        return None
+    chosen = np.flatnonzero(keep)
+    return BlockOverlay(
+        "blocks",
+        boxes[chosen],
+        tuple(states[k] for k in chosen),
+        tuple(labels[k] for k in chosen),
+        tuple(int(k) for k in columns["rejected_by"][chosen]),
+        title="blocks",
+    )
+
+
+def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
+    """Return the marks of the rows done by now, one mask for each kind."""
+    done = stage.steps.rows_done(position)
+    pixel = stage.pixel[:done]
+    of_pixel = pixel[:, 0] >= 0
+    if not len(stage.pixel) or (stage.pixel[:, 0] < 0).all():
+        return []
+
+    def mask(flags: np.ndarray) -> np.ndarray:
+        found = np.zeros(raster.shape, bool)
+        chosen = pixel[flags & of_pixel]
+        found.ravel()[raster.index(chosen[:, 0], chosen[:, 1])] = True
+        return found
+
+    overlays: list[Overlay] = []
+    marks = {name: flags[:done] for name, flags in stage.marks.items()}
+    if stage.stage == "raster":
+        overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
+        values = stage.columns["values"][:done]
+        for k in range(3):
+            overlays.append(
+                MaskOverlay(f"outside {k}", EDGE_MARKS[k], mask(values[:, k] < 0), f"outside edge {k}")
+            )
+        overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), "on an edge"))
+        counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
+        overlays.append(CountOverlay("overdraw", counted))
+    if stage.stage == "depth":
+        overlays.append(MaskOverlay("passed", Mark.DEPTH_PASSED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("failed", Mark.DEPTH_FAILED, mask(marks["depth-failed"])))
+    if "nan" in marks:
+        overlays.append(MaskOverlay("nan", Mark.NAN, mask(marks["nan"])))
+    return overlays
+
+
+def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverlay | None:
+    """Return the spans of a scanline fill that are known by now."""
+    if stage.stage != "raster":
+        return None
+    done = stage.steps.rows_done(position)
+    kinds = np.array([kind in ("span", "line") for kind in stage.steps.kinds])
+    rows = np.flatnonzero(kinds[stage.steps.kind[:done]])
+    if not len(rows):
+        return None
+    first_column, first_row, _, _ = raster.bounds
+    spans = np.stack(
+        [
+            stage.columns["row"][rows] - first_row,
+            stage.columns["start"][rows] - first_column,
+            stage.columns["stop"][rows] - first_column,
+        ],
+        axis=1,
+    )
+    return SpanOverlay("spans", spans)

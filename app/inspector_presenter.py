@@ -1,0 +1,138 @@
+"""The inspector: what the step just done did, in words, formula, listing and variables; and the pixel's history."""
+
+from PySide6.QtCore import QObject, Slot
+from PySide6.QtWidgets import QLabel
+
+from app.pixel_stories import story_of
+from app.session import Session
+from app.stepping_presenter import SteppingPresenter
+from core.steps import Level
+from widgets.formula import FormulaView
+from widgets.formulas import formula
+from widgets.listing import ListingText, ListingView
+from widgets.pixel_history import PixelHistory
+from widgets.sentences import initial_sentence, sentence, summary_sentence
+from widgets.stage_card import StageCardView
+from widgets.stage_texts import stage_card
+from widgets.step_variables import step_variables
+from widgets.variables import VariablesView
+
+
+class InspectorPresenter(QObject):
+    """Shows the step of the session's cursor and the history of its pinned (or hovered) pixel."""
+
+    def __init__(
+        self,
+        session: Session,
+        stepping: SteppingPresenter,
+        sentence_label: QLabel,
+        card: StageCardView,
+        formula_view: FormulaView,
+        listing: ListingView,
+        variables: VariablesView,
+        history: PixelHistory,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._stepping = session, stepping
+        self._sentence, self._card, self._formula = sentence_label, card, formula_view
+        self._listing, self._variables, self._history = listing, variables, history
+        self._function = ""
+        self._stage = ""
+        self._positions: tuple[int, ...] = ()
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_step)
+        session.pin_changed.connect(self.refresh_history)
+        session.hover_changed.connect(self.refresh_history)
+        listing.line_clicked.connect(self._run_to_line)
+        listing.breakpoint_toggled.connect(self._toggle_breakpoint)
+        history.row_activated.connect(self._go_to_event)
+        self.refresh_run()
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another trace."""
+        self._stage = ""
+        self.refresh_step()
+        self.refresh_history()
+
+    @Slot()
+    def refresh_step(self) -> None:
+        """Show the step just done."""
+        session = self._session
+        trace, cursor = session.stage_trace, session.cursor
+        if cursor.stage != self._stage:
+            self._stage = cursor.stage
+            self._card.show_card(stage_card(cursor.stage, trace.method))
+        self._sentence.setText(self.sentence())
+        explanation = trace.explain(cursor.position)
+        if explanation is None:
+            self._formula.show_formula(None)
+            self._variables.show_variables([])
+            first = trace.explain(1)
+            self._show_listing(first.listing.function.__name__ if first and first.listing else "", first)
+            self._listing.show_line(None)
+            return
+        before = trace.explain(trace.steps.back(cursor.position, cursor.level))
+        self._formula.show_formula(formula(explanation))
+        self._variables.show_variables(step_variables(explanation, before))
+        self._show_listing(explanation.listing.function.__name__ if explanation.listing else "", explanation)
+        self._listing.show_line(explanation.line or None)
+
+    def sentence(self) -> str:
+        """Return the sentence of the step just done; a step larger than a row is summed up."""
+        trace, cursor = self._session.stage_trace, self._session.cursor
+        row, _ = trace.steps.row_at(cursor.position)
+        if row < 0:
+            return initial_sentence(cursor.stage)
+        triangle = int(trace.triangle[row])
+        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
+        if cursor.level <= Level.GROUP and row > first:
+            return summary_sentence(cursor.stage, cursor.level, trace.summary(first, row + 1), triangle)
+        explanation = trace.explain(cursor.position)
+        assert explanation is not None
+        pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
+        return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+
+    def _show_listing(self, function: str, explanation: object) -> None:
+        if function == self._function:
+            return
+        self._function = function
+        listing = getattr(explanation, "listing", None)
+        self._listing.show_listing(ListingText(function, listing.source) if listing else None)
+        lines = {line for name, line in self._stepping.line_breakpoints if name == function}
+        self._listing.show_breakpoints(lines)
+
+    @Slot()
+    def refresh_history(self) -> None:
+        """Show the history of the pinned pixel, or of the one under the pointer."""
+        pixel = self._session.pin or self._session.hover
+        if pixel is None or not self._session.has_pixel(pixel):
+            self._history.show_story(None)
+            self._positions = ()
+            return
+        story, self._triangles = story_of(self._session.trace.source, *pixel)
+        self._history.show_story(story)
+
+    @Slot(int)
+    def _go_to_event(self, index: int) -> None:
+        """Go to the depth test of a fragment of the history."""
+        pixel = self._session.pin or self._session.hover
+        triangle = self._triangles[index] if index < len(self._triangles) else None
+        if pixel is None or triangle is None:
+            return
+        trace = self._session.trace.stage("depth")
+        rows = trace.rows_at_pixel(*pixel)
+        rows = rows[trace.triangle[rows] == triangle]
+        if len(rows):
+            self._session.set_stage("depth", trace.steps.position_after(int(rows[0])))
+
+    @Slot(int)
+    def _run_to_line(self, line: int) -> None:
+        self._stepping.run_to_line(self._function, line)
+
+    @Slot(int)
+    def _toggle_breakpoint(self, line: int) -> None:
+        self._stepping.toggle_line_breakpoint(self._function, line)
+        lines = {at for name, at in self._stepping.line_breakpoints if name == self._function}
+        self._listing.show_breakpoints(lines)

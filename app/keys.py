@@ -1,0 +1,108 @@
+"""The one table of keys: menus, tooltips and the ``?`` page are made from it."""
+
+from dataclasses import dataclass
+
+from core.frame import STAGES
+
+
+@dataclass(frozen=True)
+class KeyAction:
+    """Something a key does."""
+
+    name: str
+    """Name of the handler, as ``step_forward``."""
+    keys: tuple[str, ...]
+    """Qt's portable texts; the first is shown in menus."""
+    title: str
+    group: str
+    """Heading on the ``?`` page."""
+    menu: str = ""
+    """Menu that it stands in; empty: none."""
+    is_checkable: bool = False
+
+
+STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES = (
+    "Stepping",
+    "Pixels",
+    "Stages",
+    "Run to",
+    "View",
+    "Edit",
+    "Files",
+)
+
+_STAGE_TITLES = ("Transform", "Cull", "Clip", "Edge functions", "Bin", "Raster", "Interpolate", "Shade", "Depth", "Blend")
+
+ACTIONS: tuple[KeyAction, ...] = (
+    KeyAction("step_forward", ("Right",), "Step forward", STEPPING, "Step"),
+    KeyAction("step_back", ("Left",), "Step back", STEPPING, "Step"),
+    KeyAction("larger_forward", ("Shift+Right", "F10"), "Larger step forward (over)", STEPPING, "Step"),
+    KeyAction("larger_back", ("Shift+Left", "Ctrl+F10"), "Larger step back", STEPPING, "Step"),
+    KeyAction("level_in", ("Down", "F11"), "Smaller steps (into)", STEPPING, "Step"),
+    KeyAction("level_out", ("Up", "Shift+F11"), "Larger steps (out)", STEPPING, "Step"),
+    KeyAction("go_first", ("Home",), "Go to the start of the stage", STEPPING, "Step"),
+    KeyAction("go_last", ("End",), "Go to the end of the stage", STEPPING, "Step"),
+    KeyAction("toggle_play", ("Space",), "Play or pause", STEPPING, "Step"),
+    KeyAction("faster", ("+", "="), "Play faster", STEPPING),
+    KeyAction("slower", ("-",), "Play slower", STEPPING),
+    KeyAction("visited_back", ("Ctrl+[",), "Back to where the cursor was before the jump", STEPPING, "Step"),
+    KeyAction("visited_forward", ("Ctrl+]",), "Forward again", STEPPING, "Step"),
+    KeyAction("next_at_pin", ("J",), "Next step at the pinned pixel", RUNNING, "Step"),
+    KeyAction("previous_at_pin", ("K",), "Previous step at the pinned pixel", RUNNING, "Step"),
+    KeyAction("next_event", ("N",), "Next event of the chosen kind", RUNNING, "Step"),
+    KeyAction("previous_event", ("Shift+N",), "Previous event of the chosen kind", RUNNING, "Step"),
+    KeyAction("run_forward", ("F5",), "Run to the next breakpoint", RUNNING, "Step"),
+    KeyAction("run_back", ("Ctrl+F5",), "Run back to the last breakpoint", RUNNING, "Step"),
+    KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
+    KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
+    *(
+        KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
+        for k in range(10)
+    ),
+    *(
+        KeyAction(f"stage_{k}", (str((k + 1) % 10),), _STAGE_TITLES[k], STAGE_GROUP, "Stage")
+        for k in range(len(STAGES) - 1)
+    ),
+    KeyAction("stage_10", (), "Resolve", STAGE_GROUP, "Stage"),
+    KeyAction("next_stage", ("Ctrl+PgDown",), "Next stage", STAGE_GROUP, "Stage"),
+    KeyAction("previous_stage", ("Ctrl+PgUp",), "Previous stage", STAGE_GROUP, "Stage"),
+    KeyAction("pin_left", ("Alt+Left",), "Move the pin left", POINTING),
+    KeyAction("pin_right", ("Alt+Right",), "Move the pin right", POINTING),
+    KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
+    KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
+    KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
+    KeyAction("unpin", ("Escape",), "Take the pin away", POINTING),
+    KeyAction("fit_view", ("Ctrl+0",), "Show the whole raster", VIEWING),
+    KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
+    KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
+    KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
+    KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
+    KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
+    KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
+    KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
+    KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
+    KeyAction("toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True),
+    KeyAction("focus_all", ("A",), "Step all triangles", EDITING, "Raster"),
+    KeyAction("toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True),
+    KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
+    KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
+    KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),
+    KeyAction("copy_view", ("Ctrl+Shift+C",), "Copy view", FILES, "File"),
+    KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
+)
+
+
+def key_text(action: KeyAction) -> str:
+    """Return the keys of an action as they are shown."""
+    names = {"PgDown": "Page Down", "PgUp": "Page Up"}
+    texts = []
+    for key in action.keys:
+        for short, long in names.items():
+            key = key.replace(short, long)
+        texts.append(key)
+    return ", ".join(texts)
+
+
+def action_named(name: str) -> KeyAction:
+    """Return one action of the table."""
+    return next(action for action in ACTIONS if action.name == name)

@@ -1,0 +1,161 @@
+"""The left side: what is in the scene, and which method runs at each stage."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.document import Document, focus_on
+from app.scene_edits import outline, set_value
+from app.session import Session
+from core.methods import table
+from core.scene import ClipScene, Scene
+from core.settings import families
+from widgets.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
+from widgets.settings_panel import Setting, SettingChoice, SettingsPanel
+
+FAMILY_TITLES = {
+    "cull": ("Cull", "Geometry"),
+    "clipping": ("Clipping", "Geometry"),
+    "coverage": ("Corners", "Raster"),
+    "fill_rule": ("Fill rule", "Raster"),
+    "fill": ("Fill", "Raster"),
+    "block_size": ("Block size", "Raster"),
+    "polygon_mode": ("Polygons", "Raster"),
+    "line": ("Lines", "Raster"),
+    "pixel_center": ("Pixel centres", "Raster"),
+    "interpolation": ("Interpolation", "Fragments"),
+    "provoking": ("Flat takes", "Fragments"),
+    "texture_filter": ("Texture filter", "Fragments"),
+    "wrap": ("Texture wrap", "Fragments"),
+    "shading": ("Shading", "Fragments"),
+    "visibility": ("Visibility", "Framebuffer"),
+    "depth": ("Depth", "Framebuffer"),
+    "blend": ("Blending", "Framebuffer"),
+}
+BLOCK_SIZES = (1, 2, 4, 8, 16, 32)
+
+
+class ScenePresenter(QObject):
+    """Shows and edits scene values and settings."""
+
+    edit_refused = Signal(str)
+    """Why a typed value was not taken."""
+
+    def __init__(
+        self, session: Session, scene_outline: SceneOutline, panel: SettingsPanel, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._outline, self._panel = session, scene_outline, panel
+        session.document_changed.connect(self.refresh)
+        scene_outline.value_edited.connect(self._edit_value)
+        scene_outline.row_selected.connect(self._select_row)
+        panel.setting_chosen.connect(self._choose)
+        self.refresh()
+
+    @Slot()
+    def refresh(self) -> None:
+        """Show the document."""
+        document = self._session.document
+        size = document.traced_scene.size
+        groups = (_document_group(document), *outline(document.scene, document.triangle, size))
+        self._outline.show_groups(groups)
+        self._panel.show_settings(settings_records(document))
+
+    @Slot(str, float)
+    def _edit_value(self, path: str, value: float) -> None:
+        document = self._session.document
+        try:
+            if path == "document/focus/triangle":
+                edited = self._focus(document, value)
+            else:
+                scene = set_value(document.scene, path, value, document.traced_scene.size)
+                edited = replace(document, scene=scene)
+            self._session.edit(edited)
+        except ValueError as error:
+            self.edit_refused.emit(str(error))
+            self.refresh()
+
+    @staticmethod
+    def _focus(document: Document, value: float) -> Document:
+        count = document.triangle_count
+        if value != int(value) or not 0 <= value < count:
+            raise ValueError(f"triangle must be a whole number from 0 to {count - 1}, got {value:g}")
+        return focus_on(document, int(value))
+
+    @Slot(str)
+    def _select_row(self, path: str) -> None:
+        kind, *names = path.split("/")
+        if kind == "corner" and self._session.document.triangle is None:
+            return
+        self._outline.show_selection(path)
+
+    @Slot(str, str)
+    def _choose(self, family: str, value: str) -> None:
+        try:
+            self._session.set_setting(family, int(value) if family == "block_size" else value)
+        except ValueError as error:
+            self.edit_refused.emit(str(error))
+            self.refresh()
+
+
+def _document_group(document: Document) -> OutlineGroup:
+    count = document.triangle_count
+    rows = [OutlineRow("document/raster", document.raster.label)]
+    if document.triangle is None:
+        rows.append(OutlineRow("document/all", f"All {count:,} triangles are stepped"))
+    else:
+        value = OutlineValue("triangle", document.triangle, 0, count - 1)
+        rows.append(OutlineRow("document/focus", f"in focus, of {count:,}", (value,)))
+    return OutlineGroup("document", document.title or "Scene", tuple(rows))
+
+
+def settings_records(document: Document) -> list[Setting]:
+    """Return one record per family, with what does not matter now and why."""
+    records = []
+    last_group = ""
+    for family in (*families()[:5], "block_size", *families()[5:]):
+        title, group = FAMILY_TITLES[family]
+        heading = group if group != last_group else ""
+        last_group = group
+        if family == "block_size":
+            choices = tuple(SettingChoice(str(n), f"{n} × {n} pixels") for n in BLOCK_SIZES)
+            current = str(document.settings.block_size)
+            if current not in {choice.value for choice in choices}:
+                choices = (*choices, SettingChoice(current, f"{current} × {current} pixels"))
+        else:
+            choices = tuple(_choice(document, family, name) for name in table.names(family))
+            current = getattr(document.settings, family)
+        records.append(Setting(family, title, choices, current, _no_effect(document, family), heading))
+    return records
+
+
+def _choice(document: Document, family: str, name: str) -> SettingChoice:
+    found = table.get(family, name)
+    breaks = f"\nBreaks: {found.breaks_where}." if found.breaks_where else ""
+    tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
+    refusal = ""
+    if "perspective" in found.needs and isinstance(document.scene, Scene):
+        if document.scene.camera.projection == "orthographic":
+            refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
+    return SettingChoice(name, found.title, tooltip, refusal)
+
+
+def _no_effect(document: Document, family: str) -> str:
+    """Return why a family has no effect on this document, or nothing."""
+    settings, scene = document.settings, document.scene
+    wireframe = settings.polygon_mode == "wireframe"
+    if family == "block_size" and settings.fill not in ("hierarchy", "blocks"):
+        return "Only fills by blocks have a block size."
+    if family in ("fill", "fill_rule", "block_size") and wireframe:
+        return "Wireframes are not filled."
+    if family == "line" and not wireframe:
+        return "Lines are drawn where polygons are wireframes."
+    if family == "provoking" and settings.interpolation != "flat":
+        return "Only flat interpolation takes one corner's value."
+    if family in ("texture_filter", "wrap"):
+        textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+        if not any(texture is not None for texture in textures):
+            return "This scene has no texture."
+    if family == "shading" and isinstance(scene, ClipScene):
+        return "Typed triangles have no lights: they are unlit."
+    return ""

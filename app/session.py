@@ -1,0 +1,227 @@
+"""The only mutable state of the program: what is open, where the cursor is, what is pointed at. With signals."""
+
+from dataclasses import dataclass, replace
+
+from PySide6.QtCore import QObject, Signal
+
+from app.document import Document
+from app.history import History
+from core import STAGES, Settings, Trace
+from core.steps import Level
+from core.trace import Explanation, StageTrace
+
+Pixel = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Cursor:
+    """Where the stepping is: operations of a stage that are done, and how large a step is."""
+
+    stage: str = "raster"
+    position: int = 0
+    level: Level = Level.PIXEL
+
+
+class Session(QObject):
+    """Document, trace, cursor, pinned and hovered pixel. A value equal to the present one changes and emits nothing."""
+
+    document_changed = Signal()
+    """Another scene, other settings, focus or raster: the trace is a new one."""
+    cursor_changed = Signal()
+    pin_changed = Signal()
+    hover_changed = Signal()
+    history_changed = Signal()
+    """What can be undone, redone or gone back to."""
+
+    def __init__(self, document: Document, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._history = History(document)
+        self._cursor = Cursor()
+        self._visited = History(self._cursor)
+        self._pin: Pixel | None = None
+        self._hover: Pixel | None = None
+        self._trace = document.make_trace()
+
+    @property
+    def document(self) -> Document:
+        """What is open."""
+        return self._history.present
+
+    @property
+    def trace(self) -> Trace:
+        """Its trace."""
+        return self._trace
+
+    @property
+    def cursor(self) -> Cursor:
+        """Where the stepping is."""
+        return self._cursor
+
+    @property
+    def stage_trace(self) -> StageTrace:
+        """The trace of the stage at the cursor."""
+        return self._trace.stage(self._cursor.stage)
+
+    @property
+    def explanation(self) -> Explanation | None:
+        """What the step just done did."""
+        return self.stage_trace.explain(self._cursor.position)
+
+    @property
+    def pin(self) -> Pixel | None:
+        """The pinned pixel: column and row in the traced picture."""
+        return self._pin
+
+    @property
+    def hover(self) -> Pixel | None:
+        """The pixel under the pointer."""
+        return self._hover
+
+    # Editing.
+
+    def open(self, document: Document) -> None:
+        """Show another document; undo leads back to the one before."""
+        self._pin = None
+        self._hover = None
+        self._put(document)
+        self.pin_changed.emit()
+
+    def edit(self, document: Document, gesture: str = "") -> None:
+        """Take over an edited document; edits of one ``gesture`` are undone together."""
+        if document is not self.document:
+            self._put(document, gesture)
+
+    def end_gesture(self) -> None:
+        """Say that the next edit is one of its own."""
+        self._history.seal()
+
+    def set_setting(self, family: str, value: str | int) -> None:
+        """Choose a method (or the block size)."""
+        settings: Settings = replace(self.document.settings, **{family: value})  # type: ignore[arg-type]
+        if settings != self.document.settings:
+            self._put(replace(self.document, settings=settings))
+
+    def undo(self) -> None:
+        """Take the last edit back."""
+        if self._history.can_undo:
+            self._history.undo()
+            self._document_replaced()
+
+    def redo(self) -> None:
+        """Do it again."""
+        if self._history.can_redo:
+            self._history.redo()
+            self._document_replaced()
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether an edit can be taken back."""
+        return self._history.can_undo
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether one can be done again."""
+        return self._history.can_redo
+
+    def _put(self, document: Document, gesture: str = "") -> None:
+        trace = document.make_trace()
+        trace.stage(self._cursor.stage)
+        self._history.put(document, gesture)
+        self._document_replaced(trace)
+
+    def _document_replaced(self, trace: Trace | None = None) -> None:
+        was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
+        self._trace = trace or self.document.make_trace()
+        count = self.stage_trace.steps.count
+        position = count if was_at_end else min(self._cursor.position, count)
+        self._cursor = replace(self._cursor, position=position)
+        self.document_changed.emit()
+        self.cursor_changed.emit()
+        self.history_changed.emit()
+
+    # Stepping.
+
+    def step(self, direction: int, level: Level | None = None) -> None:
+        """Go one step forward (1) or back (-1), at the present level or another one."""
+        steps = self.stage_trace.steps
+        level = self._cursor.level if level is None else level
+        move = steps.forward if direction > 0 else steps.back
+        self._move(replace(self._cursor, position=move(self._cursor.position, level)))
+
+    def go_to(self, position: int) -> None:
+        """Go to a position of the present stage; the jump can be undone by ``go_back``."""
+        count = self.stage_trace.steps.count
+        self._jump(replace(self._cursor, position=min(max(position, 0), count)))
+
+    def scrub(self, position: int) -> None:
+        """Go to a position while a slider is dragged: not remembered."""
+        count = self.stage_trace.steps.count
+        self._move(replace(self._cursor, position=min(max(position, 0), count)))
+
+    def set_stage(self, stage: str, position: int | None = None) -> None:
+        """Go to another stage, to its end unless a position is given."""
+        count = self._trace.stage(stage).steps.count
+        self._jump(Cursor(stage, count if position is None else min(max(position, 0), count), self._cursor.level))
+
+    def next_stage(self, direction: int) -> None:
+        """Go to the neighbouring stage."""
+        index = STAGES.index(self._cursor.stage) + direction
+        if 0 <= index < len(STAGES):
+            self.set_stage(STAGES[index])
+
+    def set_level(self, level: Level) -> None:
+        """Choose how large a step is."""
+        self._move(replace(self._cursor, level=Level(level)))
+
+    def go_back(self) -> None:
+        """Undo the last jump exactly."""
+        if self._visited.can_undo:
+            self._restore(self._visited.undo())
+
+    def go_forward(self) -> None:
+        """Do it again."""
+        if self._visited.can_redo:
+            self._restore(self._visited.redo())
+
+    def _restore(self, cursor: Cursor) -> None:
+        count = self._trace.stage(cursor.stage).steps.count
+        self._move(replace(cursor, position=min(cursor.position, count)))
+
+    def _jump(self, cursor: Cursor) -> None:
+        if cursor == self._cursor:
+            return
+        if self._visited.present != self._cursor:
+            self._visited.put(self._cursor)
+        self._visited.put(cursor)
+        self._move(cursor)
+        self.history_changed.emit()
+
+    def _move(self, cursor: Cursor) -> None:
+        if cursor != self._cursor:
+            self._cursor = cursor
+            self.cursor_changed.emit()
+
+    # Pointing.
+
+    def set_pin(self, pixel: Pixel | None) -> None:
+        """Pin a pixel, or none."""
+        if pixel != self._pin and (pixel is None or self.has_pixel(pixel)):
+            self._pin = pixel
+            self.pin_changed.emit()
+
+    def nudge_pin(self, columns: int, rows: int) -> None:
+        """Move the pin; without one it appears in the middle."""
+        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
+        at = self._pin or ((first_column + end_column) // 2 - columns, (first_row + end_row) // 2 - rows)
+        self.set_pin((at[0] + columns, at[1] + rows))
+
+    def set_hover(self, pixel: Pixel | None) -> None:
+        """Say which pixel the pointer is on."""
+        if pixel != self._hover:
+            self._hover = pixel
+            self.hover_changed.emit()
+
+    def has_pixel(self, pixel: Pixel) -> bool:
+        """Return whether the traced raster has this pixel."""
+        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
+        return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row

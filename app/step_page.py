@@ -1,0 +1,244 @@
+"""The stepping page: rail, scene, grids, inspector and timeline around one session."""
+
+from PySide6.QtCore import QByteArray, Qt, Signal, Slot
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QSizePolicy,
+    QSplitter,
+    QStackedWidget,
+    QTabBar,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.compare_presenter import ComparePresenter
+from app.grid_presenter import GridPresenter
+from app.inspector_presenter import InspectorPresenter
+from app.prediction_presenter import PredictionPresenter
+from app.scene_presenter import ScenePresenter
+from app.session import Session
+from app.stepping_presenter import EVENT_TITLES, SteppingPresenter
+from app.views.stage_views import StageViews
+from widgets.buffer_strip import BufferStrip
+from widgets.compare_view import CompareView
+from widgets.formula import FormulaView
+from widgets.listing import ListingView
+from widgets.overlay_legend import OverlayLegend
+from widgets.pipeline_rail import PipelineRail
+from widgets.pixel_grid import PixelGrid
+from widgets.pixel_history import PixelHistory
+from widgets.prediction import PredictionView
+from widgets.range_control import RangeControl
+from widgets.scene_outline import SceneOutline
+from widgets.settings_panel import SettingsPanel
+from widgets.stage_card import StageCardView
+from widgets.timeline import Timeline
+from widgets.variables import VariablesView
+
+
+class StepPage(QWidget):
+    """All panes of the stepping page and their presenters."""
+
+    message_sent = Signal(str)
+    """Something to tell the user."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.session = session
+        self.rail, self.timeline = PipelineRail(self), Timeline(self)
+        self.outline, self.settings_panel = SceneOutline(self), SettingsPanel(self)
+        self.grid, self.strip = PixelGrid(self), BufferStrip(self)
+        self.legend, self.ranges = OverlayLegend(self), RangeControl(self)
+        self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
+        self.variables, self.history = VariablesView(self), PixelHistory(self)
+        self.prediction, self.compare_view = PredictionView(self), CompareView(self)
+        self.sentence = QLabel(self)
+        self.event_box = QComboBox(self)
+
+        self.stepping = SteppingPresenter(session, self.timeline, self.rail, self)
+        self.inspector = InspectorPresenter(
+            session,
+            self.stepping,
+            self.sentence,
+            self.card,
+            self.formula,
+            self.listing,
+            self.variables,
+            self.history,
+            self,
+        )
+        self.grids = GridPresenter(session, self.grid, self.strip, self.legend, self.ranges, self)
+        self.scene = ScenePresenter(session, self.outline, self.settings_panel, self)
+        self.views = StageViews(session, self)
+        self.comparing = ComparePresenter(session, self.compare_view, self)
+        self.predicting = PredictionPresenter(session, self.prediction, self.grid, self)
+        self.stepping.message_sent.connect(self.message_sent)
+        self.scene.edit_refused.connect(self.message_sent)
+        self._lay_out()
+
+    # Layout.
+
+    def _lay_out(self) -> None:
+        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
+        self.columns.addWidget(self._left())
+        self.columns.addWidget(self._middle())
+        self.columns.addWidget(self._right())
+        self.columns.setStretchFactor(1, 1)
+        self.columns.setSizes([268, 660, 340])
+        self.columns.setChildrenCollapsible(True)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(8, 4, 8, 8)
+        page.setSpacing(8)
+        page.addWidget(self.rail)
+        page.addWidget(self.columns, 1)
+        page.addWidget(self._bottom())
+
+    def _left(self) -> QWidget:
+        scroll = QScrollArea(self)
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+        scroll.setWidget(self.settings_panel)
+        self.left_tabs = QTabWidget(self)
+        self.left_tabs.setDocumentMode(True)
+        self.left_tabs.addTab(self.outline, "Scene")
+        self.left_tabs.addTab(scroll, "Methods")
+        self.left_tabs.addTab(self._overlay_pane(), "Overlays")
+        return self.left_tabs
+
+    def _overlay_pane(self) -> QWidget:
+        pane = QWidget(self)
+        layout = QVBoxLayout(pane)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.setSpacing(8)
+        layout.addWidget(self.legend)
+        layout.addSpacing(8)
+        title = QLabel("Range of the main grid", pane)
+        title.setProperty("role", "title")
+        layout.addWidget(title)
+        layout.addWidget(self.ranges)
+        layout.addStretch(1)
+        return pane
+
+    def _middle(self) -> QWidget:
+        self.view_bar = QTabBar(self)
+        self.view_bar.setDrawBase(False)
+        self.view_bar.setExpanding(False)
+        self.view_bar.setAccessibleName("Main view")
+        self.view_stack = QStackedWidget(self)
+        self._add_view("pixels", "Pixels", self.grid)
+        for name, title, widget in self.views.widgets:
+            self._add_view(name, title, widget)
+        self._add_view("compare", "A | B", self.compare_view)
+        self.view_bar.currentChanged.connect(self._show_view)
+        top = QWidget(self)
+        layout = QVBoxLayout(top)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self.view_bar)
+        layout.addWidget(self.view_stack, 1)
+        layout.addWidget(self.prediction)
+        self.prediction.hide()
+        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows.addWidget(top)
+        self.rows.addWidget(self.strip)
+        self.rows.setStretchFactor(0, 1)
+        self.rows.setSizes([420, 170])
+        return self.rows
+
+    def _add_view(self, name: str, title: str, widget: QWidget) -> None:
+        index = self.view_bar.addTab(title)
+        self.view_bar.setTabData(index, name)
+        self.view_stack.addWidget(widget)
+
+    def _right(self) -> QWidget:
+        self.sentence.setWordWrap(True)
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.sentence.setProperty("role", "sentence")
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        self.sentence.setMinimumHeight(58)
+        self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self.sentence.setAccessibleName("What the step did")
+        step = QWidget(self)
+        layout = QVBoxLayout(step)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self.card)
+        layout.addWidget(self.sentence)
+        layout.addWidget(self.formula)
+        self.inspector_rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.inspector_rows.addWidget(step)
+        self.inspector_rows.addWidget(self.listing)
+        self.inspector_rows.addWidget(self.variables)
+        self.inspector_rows.addWidget(self.history)
+        self.inspector_rows.setSizes([230, 130, 130, 160])
+        return self.inspector_rows
+
+    def _bottom(self) -> QWidget:
+        for name, title in EVENT_TITLES.items():
+            self.event_box.addItem(f"Run to: {title}", name)
+        self.event_box.setAccessibleName("Kind of event")
+        self.event_box.setToolTip("What N (next) and Shift+N (previous) run to")
+        self.event_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.event_box.activated.connect(self._choose_event)
+        bottom = QWidget(self)
+        layout = QHBoxLayout(bottom)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(8)
+        layout.addWidget(self.timeline, 1)
+        layout.addWidget(self.event_box, 0, Qt.AlignmentFlag.AlignTop)
+        return bottom
+
+    # Views.
+
+    @Slot(int)
+    def _show_view(self, index: int) -> None:
+        name = self.view_bar.tabData(index)
+        self.view_stack.setCurrentIndex(index)
+        self.views.show(name if name in {view[0] for view in self.views.widgets} else "")
+        self.comparing.set_active(name == "compare")
+
+    def view_names(self) -> list[str]:
+        """Return the names of the main views."""
+        return [self.view_bar.tabData(index) for index in range(self.view_bar.count())]
+
+    def current_view(self) -> str:
+        """Return the name of the main view that is shown."""
+        return str(self.view_bar.tabData(self.view_bar.currentIndex()))
+
+    def show_view(self, name: str) -> None:
+        """Show a main view by its name."""
+        if name in self.view_names():
+            self.view_bar.setCurrentIndex(self.view_names().index(name))
+
+    def next_view(self) -> None:
+        """Show the next main view."""
+        self.view_bar.setCurrentIndex((self.view_bar.currentIndex() + 1) % self.view_bar.count())
+
+    def set_predicting(self, is_on: bool) -> None:
+        """Hide what comes next until it has been predicted, or show everything."""
+        if is_on:
+            self.show_view("pixels")
+        self.prediction.setVisible(is_on)
+        self.predicting.set_active(is_on)
+
+    @Slot(int)
+    def _choose_event(self, index: int) -> None:
+        self.stepping.event = self.event_box.itemData(index)
+
+    # Remembered layout.
+
+    def layout_state(self) -> dict[str, str]:
+        """Return the splitters' positions as texts."""
+        splitters = {"columns": self.columns, "rows": self.rows, "inspector": self.inspector_rows}
+        return {name: splitter.saveState().toBase64().toStdString() for name, splitter in splitters.items()}
+
+    def restore_layout(self, state: dict[str, str]) -> None:
+        """Put the splitters where they were."""
+        splitters = {"columns": self.columns, "rows": self.rows, "inspector": self.inspector_rows}
+        for name, splitter in splitters.items():
+            if name in state:
+                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))

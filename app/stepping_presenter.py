@@ -1,0 +1,273 @@
+"""Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.session import Cursor, Session
+from core import STAGES
+from core.frame import StageCount
+from core.steps import Level
+from core.trace import StageTrace
+from widgets.marks import Mark
+from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
+from widgets.stage_texts import stage_text
+from widgets.timeline import Timeline
+from widgets.timeline_bar import TimelineRun
+
+MARKS = {
+    "covered": Mark.COVERED,
+    "rejected": Mark.REJECTED,
+    "tie": Mark.TIE,
+    "nan": Mark.NAN,
+    "depth-failed": Mark.DEPTH_FAILED,
+}
+EVENT_TITLES = {
+    "covered": "covered",
+    "rejected": "rejected",
+    "tie": "tie",
+    "nan": "NaN or infinity",
+    "depth-failed": "depth failed",
+}
+GROUP_NAMES = {
+    "transform": "Vertex",
+    "cull": "Test",
+    "clip": "Plane",
+    "edges": "Corner or edge",
+    "bin": "Block",
+    "raster": "Row or block",
+}
+
+
+@dataclass(frozen=True)
+class Bookmark:
+    """A remembered step."""
+
+    stage: str
+    position: int
+
+
+class SteppingPresenter(QObject):
+    """Shows where the cursor is and moves it."""
+
+    message_sent = Signal(str)
+    """Something to tell: there is no further event."""
+
+    def __init__(
+        self, session: Session, timeline: Timeline, rail: PipelineRail, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._timeline, self._rail = session, timeline, rail
+        self.event = "covered"
+        """Kind of event that N runs to."""
+        self.pixel_breakpoints: set[tuple[int, int]] = set()
+        self.line_breakpoints: set[tuple[str, int]] = set()
+        """Name of the listing's function and line."""
+        self.bookmarks: list[Bookmark] = []
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_cursor)
+        session.pin_changed.connect(self.refresh_marks)
+        timeline.position_requested.connect(session.scrub)
+        timeline.step_requested.connect(self.step)
+        timeline.ends_requested.connect(self.go_to_end)
+        timeline.level_chosen.connect(session.set_level)
+        rail.stage_chosen.connect(self.choose_stage)
+        self._stage = ""
+        self.refresh_run()
+
+    # Showing.
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another trace."""
+        self._stage = ""
+        self.refresh_cursor()
+
+    @Slot()
+    def refresh_cursor(self) -> None:
+        """Show where the cursor is."""
+        cursor = self._session.cursor
+        if cursor.stage != self._stage:
+            self._stage = cursor.stage
+            self._timeline.show_level_names({Level.GROUP: GROUP_NAMES.get(cursor.stage, "Row")})
+            self.refresh_marks()
+            self.show_rail()
+        self._timeline.show_level(cursor.level)
+        self._timeline.show_position(cursor.position)
+
+    @Slot()
+    def refresh_marks(self) -> None:
+        """Show the marks of the run, those of the pinned pixel, breakpoints and bookmarks."""
+        trace = self._session.stage_trace
+        starts = trace.steps.starts
+        marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
+        if self._session.pin is not None:
+            marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
+        marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
+        here = [mark.position - 1 for mark in self.bookmarks if mark.stage == trace.stage]
+        marks[Mark.BOOKMARK] = np.unique(np.array(here, np.int64))
+        self._timeline.show_run(TimelineRun(trace.steps.count, marks))
+        self._timeline.show_position(self._session.cursor.position)
+
+    def show_rail(self) -> None:
+        """Show what every stage took in, gave out, and how long it took for the whole raster."""
+        counts = self._session.trace.source.picture.statistics
+        entries = []
+        for index, stage in enumerate(STAGES):
+            state = StageState.CURRENT if stage == self._session.cursor.stage else StageState.DONE
+            entries.append(self._entry(index, stage, counts[stage], state))
+        self._rail.show_stages(entries)
+
+    def _entry(self, index: int, stage: str, count: StageCount, state: StageState) -> StageEntry:
+        text = stage_text(stage)
+        reason, inserted = "", False
+        if count.note == "not-chosen":
+            reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
+            state = StageState.SKIPPED if state is StageState.DONE else state
+        elif count.note:
+            inserted = True
+            reason = f"Inserted because {count.note} needs corners in front of the eye."
+        return StageEntry(
+            text.short_title,
+            str((index + 1) % 10) if index < 10 else "",
+            f"{count.incoming:,} → {count.outgoing:,}",
+            f"{count.seconds * 1000:.1f} ms",
+            state,
+            inserted,
+            reason,
+        )
+
+    # Moving.
+
+    @Slot(int)
+    def step(self, direction: int) -> None:
+        """Step once at the present level; playing stops at the end."""
+        before = self._session.cursor
+        self._session.step(direction)
+        if self._session.cursor == before and self._timeline.is_playing():
+            self._timeline.show_playing(False)
+
+    @Slot(int)
+    def go_to_end(self, direction: int) -> None:
+        """Go to the start (-1) or the end (1) of the stage."""
+        self._session.go_to(0 if direction < 0 else self._session.stage_trace.steps.count)
+
+    @Slot(int)
+    def choose_stage(self, index: int) -> None:
+        """Go to a stage by its place in the rail."""
+        self._session.set_stage(STAGES[index])
+
+    def toggle_play(self) -> None:
+        """Play or pause; at the end, play from the start."""
+        trace, cursor = self._session.stage_trace, self._session.cursor
+        if not self._timeline.is_playing() and cursor.position >= trace.steps.count:
+            self._session.go_to(0)
+        self._timeline.toggle_play()
+
+    def change_level(self, direction: int) -> None:
+        """Make steps smaller (1) or larger (-1)."""
+        level = self._session.cursor.level + direction
+        if Level.STAGE <= level <= Level.OPERATION:
+            self._session.set_level(Level(level))
+
+    def step_larger(self, direction: int) -> None:
+        """Step at the level above the present one."""
+        level = Level(max(self._session.cursor.level - 1, Level.STAGE))
+        self._session.step(direction, level)
+
+    def run_to_pin(self, direction: int) -> None:
+        """Go to the next or last step at the pinned pixel."""
+        pin = self._session.pin
+        if pin is None:
+            self.message_sent.emit("Pin a pixel first: click it.")
+            return
+        trace = self._session.stage_trace
+        rows = trace.rows_at_pixel(*pin)
+        self._run_to(trace.steps.starts[1:][rows], direction, f"at pixel ({pin[0]}, {pin[1]})")
+
+    def run_to_event(self, direction: int) -> None:
+        """Go to the next or last event of the chosen kind."""
+        trace = self._session.stage_trace
+        flags = trace.marks.get(self.event, np.zeros(trace.steps.row_count, bool))
+        self._run_to(trace.steps.starts[1:][flags], direction, f"of the kind “{EVENT_TITLES[self.event]}”")
+
+    def run_to_breakpoint(self, direction: int) -> None:
+        """Go to the next or last breakpoint, or else to the end."""
+        trace = self._session.stage_trace
+        positions = self._break_positions(trace)
+        beyond = positions > self._session.cursor.position if direction > 0 else positions < self._session.cursor.position
+        if beyond.any():
+            self._run_to(positions, direction, "")
+        else:
+            self.go_to_end(direction)
+
+    def _run_to(self, positions: np.ndarray, direction: int, what: str) -> None:
+        at = self._session.cursor.position
+        found = positions[positions > at] if direction > 0 else positions[positions < at]
+        if len(found):
+            self._session.go_to(int(found.min() if direction > 0 else found.max()))
+        else:
+            self.message_sent.emit(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
+
+    def toggle_pixel_breakpoint(self) -> None:
+        """Set or take away a breakpoint at the pinned pixel."""
+        if self._session.pin is None:
+            self.message_sent.emit("Pin a pixel first: click it.")
+            return
+        self.pixel_breakpoints ^= {self._session.pin}
+        self.refresh_marks()
+
+    def toggle_line_breakpoint(self, function: str, line: int) -> None:
+        """Set or take away a breakpoint on a line of a listing."""
+        self.line_breakpoints ^= {(function, line)}
+        self.refresh_marks()
+
+    def run_to_line(self, function: str, line: int) -> None:
+        """Go to the next step of a line of a listing."""
+        self._run_to(self._line_positions(self._session.stage_trace, function, line), 1, f"at line {line}")
+
+    def _break_positions(self, trace: StageTrace) -> np.ndarray:
+        """Return the positions, rising, just after a step that a breakpoint stands on."""
+        found = [np.empty(0, np.int64)]
+        for pixel in self.pixel_breakpoints:
+            found.append(trace.steps.starts[1:][trace.rows_at_pixel(*pixel)])
+        for function, line in self.line_breakpoints:
+            found.append(self._line_positions(trace, function, line))
+        return np.unique(np.concatenate(found))
+
+    def _line_positions(self, trace: StageTrace, function: str, line: int) -> np.ndarray:
+        steps = trace.steps
+        found = [np.empty(0, np.int64)]
+        for number, kind in enumerate(steps.kinds):
+            for place, operation in enumerate(steps.operations[kind]):
+                listing = trace.listings.get(f"{kind}.{operation.name}", trace.listings.get(kind))
+                if listing is None or listing.function.__name__ != function:
+                    continue
+                if listing.lines.get(operation.label) == line:
+                    found.append(steps.starts[:-1][steps.kind == number] + place + 1)
+        return np.unique(np.concatenate(found))
+
+    def toggle_bookmark(self) -> None:
+        """Remember this step, or forget it."""
+        cursor = self._session.cursor
+        mark = Bookmark(cursor.stage, cursor.position)
+        if mark in self.bookmarks:
+            self.bookmarks.remove(mark)
+        elif len(self.bookmarks) >= 10:
+            self.message_sent.emit("Ten bookmarks are set; take one away first.")
+        else:
+            self.bookmarks.append(mark)
+        self.refresh_marks()
+
+    def go_to_bookmark(self, index: int) -> None:
+        """Go to a bookmark by its number from 0."""
+        if index >= len(self.bookmarks):
+            self.message_sent.emit(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
+            return
+        mark = self.bookmarks[index]
+        self._session.set_stage(mark.stage, mark.position)
+
+    def cursor(self) -> Cursor:
+        """Return where the cursor is."""
+        return self._session.cursor

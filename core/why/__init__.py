@@ -1,0 +1,60 @@
+"""Why a pixel looks as it does: its history from the vertices to the blended colour, for every triangle.
+
+The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
+Triangles whose box does not contain the pixel are only counted.
+"""
+
+from core.framebuffer.depth import DepthFormat
+from core.methods import table
+from core.trace.source import TraceSource
+from core.why.candidates import PixelCandidates, whole_geometry
+from core.why.events import list_events
+from core.why.records import Link, PixelEvent, PixelHistory, PixelState
+from core.why.verdict import pixel_verdict, triangle_verdict
+
+
+def why(source: TraceSource, column: int, row: int, triangle: int | None = None) -> PixelHistory:
+    """Return the history of a pixel in the picture of the whole scene.
+
+    Parameters
+    ----------
+    source : TraceSource
+        Scene and settings; which triangle it traces and its region do not matter here.
+    column, row : int
+        The pixel, row 0 at the bottom.
+    triangle : int, optional
+        A triangle of the scene: it is listed even if it is far away, and the verdict is about it.
+
+    Raises
+    ------
+    ValueError
+        For a pixel outside the image, or a triangle that is not there.
+
+    Examples
+    --------
+    >>> from core import ClipScene, Settings
+    >>> scene = ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(4, 3))
+    >>> why(TraceSource(scene, Settings()), 0, 0).verdict.key
+    'seen'
+    >>> why(TraceSource(scene, Settings()), 3, 2).verdict.key
+    'all-missed'
+    """
+    scene, settings = source.scene, source.settings
+    width, height = scene.size
+    if not (0 <= column < width and 0 <= row < height):
+        raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
+    geometry = whole_geometry(source)
+    count = len(geometry.assembled)
+    if triangle is not None and not 0 <= triangle < count:
+        raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
+    candidates = PixelCandidates(scene, settings, geometry, column, row, triangle)
+    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+    events, counts, cover_count = list_events(candidates, depth_format)
+    if triangle is None:
+        verdict = pixel_verdict(events, counts, settings.blend)
+    else:
+        verdict = triangle_verdict(events, triangle)
+    return PixelHistory(column, row, triangle, verdict, events, counts, cover_count)
+
+
+__all__ = ["Link", "PixelEvent", "PixelHistory", "PixelState", "why"]

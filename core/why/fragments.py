@@ -1,0 +1,151 @@
+"""The fragments at one pixel through interpolation, shading, depth test and blending, one after the other."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, Singles, read_only
+from core.fragments.interpolation import interpolate, plane_value
+from core.framebuffer.depth import DepthFormat, run_depth_tests
+from core.methods import table
+from core.pipeline import fragment_depth
+from core.raster.coverage import Fragments
+from core.surface import shade_fragments
+from core.why.candidates import PixelCandidates
+from core.why.records import Link, PixelState
+
+
+@dataclass(frozen=True, eq=False)
+class PixelFragments:
+    """F fragments at one pixel in drawing order, with the numbers of every stage."""
+
+    primitive: Integers
+    """(F,) int64."""
+    triangle: Integers
+    """(F,) int64."""
+    weights: Floats
+    """(F, 3) float64."""
+    inverse_w: Floats
+    """(F,) float64."""
+    color: Floats
+    """(F, 4) float64."""
+    depth: Floats
+    """(F,) float64 window depth."""
+    keeps: Flags
+    """(F,) bool, in depth range."""
+    stored: Singles
+    """(F,) float32."""
+    before: Singles
+    """(F,) float32, what the depth buffer held; NaN where there was no test."""
+    passes: Flags
+    """(F,) bool."""
+
+
+def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
+    """Take the covering candidates through the stages behind the raster, by the rules of the picture."""
+    geometry, settings, raster = candidates.geometry, candidates.settings, candidates.raster
+    primitive = candidates.primitive[candidates.covering]
+    count = len(primitive)
+    fragments = Fragments(primitive, np.full(count, candidates.column), np.full(count, candidates.row))
+    x, y = (np.full(count, center) for center in candidates.center)
+    varyings = geometry.primitives.varyings
+    mode, provoking = settings.interpolation, settings.provoking
+    weights, values = interpolate(geometry.planes, varyings, primitive, x, y, mode, provoking)
+    mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
+    surface = shade_fragments(candidates.scene, settings, layout, mesh, values)
+
+    # Only what is in range gets to the depth test.
+    depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
+    index = np.flatnonzero(keeps)
+    cleared = np.full(1, depth_format.cleared, np.float32)
+    here = np.zeros(len(index), np.int64)
+    tests = run_depth_tests(stored[index], here, cleared, depth_format, geometry.uses_depth_test)
+    before, passes = np.full(count, np.nan, np.float32), np.zeros(count, bool)
+    before[index], passes[index] = tests.before, tests.passes
+    return PixelFragments(
+        primitive,
+        geometry.primitives.triangle[primitive],
+        weights,
+        plane_value(geometry.inverse_w_plane, primitive, x, y),
+        surface.color,
+        depth,
+        keeps,
+        stored,
+        before,
+        passes,
+    )
+
+
+def cleared_state(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelState:
+    """Return what clearing leaves."""
+    color = read_only(candidates.scene.background.astype(np.float32))
+    return PixelState(color, float(np.float32(depth_format.cleared)), -1)
+
+
+@dataclass(frozen=True, eq=False)
+class Passage:
+    """One fragment between two states of the buffers."""
+
+    before: PixelState
+    out: PixelState
+    after: PixelState
+    depth_link: Link
+    passes: bool
+
+
+def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
+    """Lay the fragments into the buffers one by one."""
+    rule = table.get("blend", candidates.settings.blend).function
+    tested = candidates.geometry.uses_depth_test
+    state = start
+    passages = []
+    for k in range(len(fragments.primitive)):
+        offered = fragments.color[k : k + 1]
+        with np.errstate(over="ignore", invalid="ignore"):
+            shown = read_only(offered[0].astype(np.float32))
+        out = PixelState(shown, float(fragments.stored[k]), int(fragments.triangle[k]))
+        after = state
+        if fragments.passes[k]:
+            blended = rule(offered, state.color[None])
+            after = PixelState(read_only(blended[0]), out.depth, out.triangle)
+        link = _depth_link(fragments, k, state.triangle, tested)
+        passages.append(Passage(state, out, after, link, bool(fragments.passes[k])))
+        state = after
+    return passages
+
+
+def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) -> Link:
+    """Return what the depth test said of fragment ``k``; ``holder`` is whose depth it met."""
+    depth, stored, before = fragments.depth[k], fragments.stored[k], fragments.before[k]
+    values = {
+        "depth": float(depth),
+        "stored": float(stored),
+        "before": float(before),
+        "against": holder,
+        "inverse_w": float(fragments.inverse_w[k]),
+    }
+    if not fragments.keeps[k]:
+        key = "before-near" if depth < 0 else "behind-far" if depth > 1 else "undefined"
+    elif not tested:
+        key = "not-tested"
+    elif fragments.passes[k]:
+        key = "passed"
+    else:
+        key = "tied" if stored == before else "undefined" if np.isnan(stored) else "failed"
+    return Link("depth", key, values)
+
+
+def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
+    """Return for every fragment the triangle that later hid its colour, -1 where none did or it was not kept.
+
+    Notes
+    -----
+    Opaque hides always; a blended fragment hides what is below it where its alpha is 1.
+    """
+    hides = fragments.passes & ((blend == "opaque") | (fragments.color[:, 3] == 1))
+    found = []
+    for k in range(len(hides)):
+        later = np.flatnonzero(hides[k + 1 :])
+        is_hidden = fragments.passes[k] and len(later)
+        found.append(int(fragments.triangle[k + 1 + later[0]]) if is_hidden else -1)
+    return found

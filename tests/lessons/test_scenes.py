@@ -1,0 +1,153 @@
+"""The built-in scenes: each shows what it is for; window coordinates go to clip space and back."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core import render
+from core.geometry.vertex_stage import transform_vertices
+from core.raster.snapping import SUBPIXELS, snap
+from core.scene import ClipScene, Scene
+from lessons.scenes import (
+    CATALOGUE,
+    TEACHING_SIZE,
+    built_in_scene,
+    make_scene,
+    scene_names,
+    window_corners,
+    window_triangle,
+)
+
+sizes = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
+weights = st.floats(1e-3, 1e3) | st.floats(-1e3, -1e-3)
+
+
+def lattice(limit):
+    """Three pixels on the lattice of 1/256."""
+    return st.lists(st.integers(-limit * SUBPIXELS, limit * SUBPIXELS), min_size=3, max_size=3).map(
+        lambda steps: np.array(steps) / SUBPIXELS
+    )
+
+
+@given(lattice(8192), lattice(8192), st.lists(st.floats(0, 1), min_size=3, max_size=3),
+       st.lists(weights, min_size=3, max_size=3), sizes)  # fmt: skip
+def test_window_to_clip_and_back_is_exact_on_the_lattice(x, y, depth, w, size):
+    clip = window_triangle(x, y, depth, w, size)
+    back_x, back_y, back_depth, back_w = window_corners(clip, size)
+    assert (np.rint(back_x * SUBPIXELS) / SUBPIXELS == x).all()
+    assert (np.rint(back_y * SUBPIXELS) / SUBPIXELS == y).all()
+    assert np.abs(back_depth - depth).max() < 1e-15
+    assert (back_w == w).all()
+
+
+@given(lattice(4096), lattice(4096), st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3), sizes)
+def test_the_pipeline_snaps_a_typed_corner_to_where_it_was_typed(x, y, w, size):
+    scene = ClipScene(window_triangle(x, y, np.full(3, 0.5), w, size)[None], size=size)
+    snapped, is_projected = snap(transform_vertices(scene).window[None, :, :2])
+    assert is_projected.all()
+    assert snapped[0].tolist() == np.stack([x, y], axis=1).tolist()
+
+
+def test_clip_coordinates_by_hand():
+    clip = window_triangle([0, 64, 32], [0, 48, 24], [0, 1, 0.5], [1, 2, 4], (64, 48))
+    assert clip.tolist() == [[-1, -1, -1, 1], [2, 2, 2, 2], [0, 0, 0, 4]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (([0, 1], [0, 1, 2], [0, 0, 0], [1, 1, 1]), r"x must be \(3,\), got \(2,\)"),
+        (([0, 1, 2], [0, 1, np.nan], [0, 0, 0], [1, 1, 1]), "y must be finite"),
+        (([0, 1, 2], [0, 1, 2], [0, 0, 0], [1, 0, 1]), "w must not be 0"),
+    ],
+)
+def test_bad_window_coordinates_are_refused(arguments, wanted):
+    with pytest.raises(ValueError, match=wanted):
+        window_triangle(*arguments, (64, 48))
+
+
+def test_corners_at_infinity_have_no_window_coordinates():
+    with pytest.raises(ValueError, match="w must not be 0"):
+        window_corners(np.zeros((3, 4)), (64, 48))
+
+
+def test_the_catalogue():
+    assert scene_names() == (
+        "single-triangle", "shared-edge", "near-plane", "intersecting", "textured-floor",
+        "cube", "sphere", "torus", "knot",
+    )  # fmt: skip
+    for scene in CATALOGUE:
+        assert scene.title[0].isupper()
+        assert scene.description.endswith(".")
+        assert scene.description.count(". ") == 0
+        assert built_in_scene(scene.name) is scene
+    with pytest.raises(ValueError, match=r"scene must be one of single-triangle, .*, got teapot"):
+        make_scene("teapot")
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_a_scene_is_made_anew_and_fills_a_good_part_of_its_picture(name):
+    scene = make_scene(name)
+    assert isinstance(scene, Scene | ClipScene)
+    assert make_scene(name) is not scene
+    assert 0.2 < (render(scene).primitive >= 0).mean() < 0.8
+    is_small = name in ("single-triangle", "shared-edge", "near-plane", "intersecting")
+    assert (scene.size == TEACHING_SIZE) == is_small
+
+
+@pytest.mark.parametrize("name", ["single-triangle", "shared-edge", "intersecting"])
+def test_typed_triangles_face_the_viewer_on_the_lattice(name):
+    scene = make_scene(name)
+    for clip in scene.clip:
+        x, y, depth, w = window_corners(clip, scene.size)
+        assert (x[1] - x[0]) * (y[2] - y[0]) > (y[1] - y[0]) * (x[2] - x[0])
+        assert x * SUBPIXELS == pytest.approx(np.rint(x * SUBPIXELS))
+        assert ((depth >= 0) & (depth <= 1)).all()
+        assert (w > 0).all()
+
+
+def test_the_single_triangle_has_red_green_and_blue_corners():
+    scene = make_scene("single-triangle")
+    assert scene.attributes[0].tolist() == [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]
+
+
+def test_the_shared_edge_is_shared_and_runs_through_pixel_centres():
+    scene = make_scene("shared-edge")
+    common = set(scene.shared[0].tolist()) & set(scene.shared[1].tolist())
+    assert len(common) == 2
+    places = [
+        {name: corner.tolist() for name, corner in zip(names, corners, strict=True)}
+        for names, corners in zip(scene.shared.tolist(), scene.clip, strict=True)
+    ]
+    for name in common:
+        assert places[0][name] == places[1][name]
+    ends = [window_corners(scene.clip[0], scene.size)[axis][[0, 2]] for axis in (0, 1)]
+    (x0, x1), (y0, y1) = np.rint(np.array(ends) * 2) / 2
+    columns = np.arange(64) + 0.5
+    rows = y0 + (columns - x0) * (y1 - y0) / (x1 - x0)
+    on_edge = (columns >= min(x0, x1)) & (columns <= max(x0, x1))
+    assert (np.abs(rows[on_edge] - np.floor(rows[on_edge]) - 0.5) < 1e-9).sum() >= 4
+
+
+def test_the_crosser_has_a_vertex_behind_the_eye_and_others_in_the_view_volume():
+    scene = make_scene("near-plane")
+    clip = transform_vertices(scene).clip
+    assert (clip[:, 3] < 0).sum() == 1
+    in_front = clip[clip[:, 3] > 0]
+    assert (np.abs(in_front[:, :3]) <= in_front[:, 3:]).all()
+
+
+def test_the_intersecting_triangles_swap_places():
+    scene = make_scene("intersecting")
+    # Depth is linear in the window: compare both at two pixels that both cover.
+    nearer = []
+    for place in ([20, 20], [46, 20]):
+        depths = []
+        for clip in scene.clip:
+            x, y, depth, _ = window_corners(clip, scene.size)
+            weights = np.linalg.solve(np.array([x, y, np.ones(3)]), np.array([*place, 1.0]))
+            assert (weights > 0).all()
+            depths.append(float(weights @ depth))
+        nearer.append(int(np.argmin(depths)))
+    assert nearer == [0, 1]

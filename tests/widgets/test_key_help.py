@@ -1,0 +1,60 @@
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+
+from widgets.key_help import KeyEntry, KeyHelp
+
+KEYS = [
+    KeyEntry("Stepping", "Left, Right", "Step back, forward"),
+    KeyEntry("Stepping", "Space", "Play or pause"),
+    KeyEntry("Pixel", "Ctrl+G", "Go to a pixel"),
+]
+
+
+@pytest.fixture
+def page(qtbot) -> KeyHelp:
+    result = KeyHelp()
+    qtbot.addWidget(result)
+    result.resize(900, 400)
+    result.show_keys(KEYS)
+    result.show()
+    qtbot.waitExposed(result)
+    return result
+
+
+def shown_texts(page: KeyHelp) -> list[str]:
+    return [label.text() for label in page._scroll.widget().findChildren(QLabel)]
+
+
+def test_every_key_of_the_table_is_shown_under_its_group(page) -> None:
+    texts = shown_texts(page)
+    for text in ("Stepping", "Left", "Right", "Space", "Play or pause", "Pixel", "Ctrl+G", "Go to a pixel"):
+        assert text in texts
+    assert texts.count("Stepping") == 1
+
+
+def test_typing_narrows_the_page(qtbot, page) -> None:
+    assert page.search.hasFocus()
+    qtbot.keyClicks(page.search, "pixel go")
+    assert page.shown_entries() == (KEYS[2],)
+    assert "Space" not in shown_texts(page)
+    qtbot.keyClicks(page.search, "zzz")
+    assert page.none_found.isVisible()
+
+
+def test_escape_clears_then_closes(qtbot, page) -> None:
+    seen = []
+    page.closed.connect(lambda: seen.append("closed"))
+    qtbot.keyClicks(page.search, "x")
+    qtbot.keyClick(page.search, Qt.Key.Key_Escape)
+    assert page.search.text() == ""
+    assert seen == []
+    qtbot.keyClick(page.search, Qt.Key.Key_Escape)
+    qtbot.mouseClick(page.close_button, Qt.MouseButton.LeftButton)
+    assert seen == ["closed", "closed"]
+
+
+def test_columns_follow_the_width(page) -> None:
+    assert page._columns == 2
+    page.resize(400, 400)
+    assert page._columns == 1

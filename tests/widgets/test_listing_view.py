@@ -1,0 +1,122 @@
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
+
+from widgets.listing import ListingText, ListingView, token_formats
+from widgets.theme import current_theme
+
+SOURCE = '''def inside(a0, x, y):
+    """Decide."""
+    value = a0 * x  # signed
+    if value > 0:
+        return True
+    return "no"
+'''
+
+
+@pytest.fixture
+def view(qtbot) -> ListingView:
+    result = ListingView()
+    qtbot.addWidget(result)
+    result.resize(420, 240)
+    result.show_listing(ListingText("inside", SOURCE))
+    result.show()
+    qtbot.waitExposed(result)
+    return result
+
+
+def line_middle(view: ListingView, line: int) -> int:
+    block = view.document().findBlockByNumber(line - 1)
+    return round(view.blockBoundingGeometry(block).translated(view.contentOffset()).center().y())
+
+
+def test_tokens_have_their_kinds() -> None:
+    kinds = {(line, column): kind for line, column, _, _, kind in token_formats(SOURCE)}
+    assert kinds[1, 0] == "keyword"
+    assert kinds[1, 11] == "vertex0"
+    assert kinds[2, 4] == "string"
+    assert kinds[3, 20] == "comment"
+    assert kinds[4, 15] == "number"
+    assert (1, 15) not in kinds
+
+
+def test_source_that_does_not_parse_is_shown_plainly(view) -> None:
+    assert list(token_formats('x = """never closed')) == []
+    view.show_listing(ListingText("broken", 'x = """never closed'))
+    assert view.toPlainText() == 'x = """never closed'
+
+
+def test_a_click_on_a_line_asks_to_run_to_it(qtbot, view) -> None:
+    seen = []
+    view.line_clicked.connect(seen.append)
+    qtbot.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(60, line_middle(view, 4)))
+    assert seen == [4]
+    qtbot.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(60, 230))
+    assert seen == [4]
+
+
+def test_dragging_selects_and_asks_for_nothing(qtbot, view) -> None:
+    seen = []
+    view.line_clicked.connect(seen.append)
+    start, end = QPoint(4, line_middle(view, 1)), QPoint(120, line_middle(view, 3))
+    qtbot.mousePress(view.viewport(), Qt.MouseButton.LeftButton, pos=start)
+    qtbot.mouseMove(view.viewport(), end)
+    qtbot.mouseRelease(view.viewport(), Qt.MouseButton.LeftButton, pos=end)
+    assert seen == []
+
+
+def test_the_whole_margin_toggles_breakpoints(qtbot, view) -> None:
+    seen = []
+    view.breakpoint_toggled.connect(seen.append)
+    for x in (2, view.margin_width() - 3):
+        qtbot.mouseClick(view._margin, Qt.MouseButton.LeftButton, pos=QPoint(x, line_middle(view, 5)))
+    assert seen == [5, 5]
+    assert view.margin_width() >= 30
+
+
+def test_keys_choose_a_line_run_to_it_and_break_on_it(qtbot, view) -> None:
+    runs, breaks = [], []
+    view.line_clicked.connect(runs.append)
+    view.breakpoint_toggled.connect(breaks.append)
+    view.setFocus()
+    qtbot.keyClick(view, Qt.Key.Key_Down)
+    qtbot.keyClick(view, Qt.Key.Key_Down)
+    qtbot.keyClick(view, Qt.Key.Key_Return)
+    qtbot.keyClick(view, Qt.Key.Key_Return, Qt.KeyboardModifier.ShiftModifier)
+    assert (runs, breaks) == ([3], [3])
+
+
+def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(qtbot, view) -> None:
+    seen = []
+    view.line_clicked.connect(seen.append)
+    view.breakpoint_toggled.connect(seen.append)
+    accent = QColor(current_theme().accent)
+    margin = view._margin
+
+    def accent_columns() -> int:
+        row = margin.grab().toImage()
+        y = line_middle(view, 3)
+        return sum(row.pixelColor(x, y) == accent for x in range(row.width()))
+
+    assert accent_columns() == 0
+    view.show_line(3)
+    view.show_breakpoints({4})
+    assert accent_columns() >= 8
+    assert "3" in view.accessibleDescription()
+    view.show_line(None)
+    assert accent_columns() == 0
+    assert seen == []
+
+
+def test_a_line_far_down_is_brought_into_view(qtbot, view) -> None:
+    view.show_listing(ListingText("long", "\n".join(f"x = {k}" for k in range(200))))
+    view.show_line(180)
+    top = view.firstVisibleBlock().blockNumber() + 1
+    assert top <= 180 <= top + 40
+
+
+def test_an_empty_pane_says_what_it_is_for(view) -> None:
+    view.show_listing(None)
+    assert view.toPlainText() == ""
+    assert "algorithm" in view.placeholderText()
+    assert view.line_at(5) is None

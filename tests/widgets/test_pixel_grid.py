@@ -1,0 +1,487 @@
+import gc
+import weakref
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QBuffer, QEvent, QIODevice, QObject, QPoint, QPointF, QSize, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QWidget
+
+from widgets.grid_buffer import GridBuffer
+from widgets.grid_geometry import GridGeometry
+from widgets.grid_overlay import Mark, MaskOverlay
+from widgets.grid_view import FIT, GridView
+from widgets.pixel_grid import PixelGrid
+from widgets.theme import current_theme
+
+LEFT = Qt.MouseButton.LeftButton
+TRIANGLE = GridGeometry(np.array([[2.0, 2.0], [20.0, 3.0], [8.0, 13.0]]), np.array([[0, 1, 2]]))
+
+
+@pytest.fixture
+def grid(qtbot) -> PixelGrid:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(800, 560)
+    widget.show_buffer(GridBuffer("z", np.linspace(0, 1, 24 * 16).reshape(16, 24).astype(np.float32)))
+    widget.show()
+    qtbot.waitExposed(widget)
+    return widget
+
+
+def at(grid: PixelGrid, x: float, y: float) -> QPoint:
+    return grid.placement().to_widget(x, y).toPoint()
+
+
+def wheel(grid: PixelGrid, position: QPoint, notches: int) -> None:
+    event = QWheelEvent(
+        QPointF(position),
+        QPointF(grid.mapToGlobal(position)),
+        QPoint(),
+        QPoint(0, 120 * notches),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    QApplication.sendEvent(grid, event)
+
+
+def drag(grid: PixelGrid, start: QPoint, end: QPoint, button: Qt.MouseButton = LEFT) -> None:
+    QTest.mousePress(grid, button, Qt.KeyboardModifier.NoModifier, start)
+    QTest.mouseMove(grid, (start + end) / 2)
+    QTest.mouseMove(grid, end)
+    QTest.mouseRelease(grid, button, Qt.KeyboardModifier.NoModifier, end)
+
+
+def picture(widget: QWidget) -> QImage:
+    return widget.grab().toImage()
+
+
+def color_at(grid: PixelGrid, column: int, row: int) -> str:
+    rect = grid.placement().cells_rect(column, row)
+    return (
+        picture(grid)
+        .pixelColor((rect.topLeft() + QPointF(rect.width() * 0.25, rect.height() * 0.25)).toPoint())
+        .name()
+    )
+
+
+class Painted(QObject):
+    count = 0
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        self.count += event.type() == QEvent.Type.Paint
+        return False
+
+
+def test_row_0_is_drawn_at_the_bottom(grid: PixelGrid) -> None:
+    mask = np.zeros((16, 24), np.bool_)
+    mask[0, 0] = True
+    grid.show_buffer(GridBuffer("c", mask, "bool"))
+    assert color_at(grid, 0, 0) == current_theme().covered
+    assert color_at(grid, 0, 15) == current_theme().empty
+    rect = grid.placement().cells_rect(0, 0)
+    assert rect.center().y() > grid.height() / 2
+    assert rect.center().x() < grid.width() / 2
+
+
+def test_hover_and_click_name_the_pixel(grid: PixelGrid, qtbot) -> None:
+    with qtbot.waitSignal(grid.pixel_hovered) as hovered:
+        QTest.mouseMove(grid, at(grid, 5.5, 3.5))
+    assert hovered.args == [5, 3]
+    with qtbot.waitSignal(grid.pixel_clicked) as clicked:
+        QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 23.5, 15.5))
+    assert clicked.args == [23, 15]
+    with qtbot.waitSignal(grid.pixel_left):
+        QTest.mouseMove(grid, QPoint(2, 2))
+    with qtbot.assertNotEmitted(grid.pixel_clicked):
+        QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, QPoint(2, 2))
+
+
+def test_hover_is_told_once_per_pixel(grid: PixelGrid) -> None:
+    heard: list[tuple[int, int]] = []
+    grid.pixel_hovered.connect(lambda column, row: heard.append((column, row)))
+    for x in (5.2, 5.4, 5.6, 6.2):
+        QTest.mouseMove(grid, at(grid, x, 3.5))
+    assert heard == [(5, 3), (6, 3)]
+
+
+def test_slots_emit_nothing(grid: PixelGrid, qtbot) -> None:
+    signals = [
+        grid.pixel_hovered,
+        grid.pixel_left,
+        grid.pixel_clicked,
+        grid.view_changed,
+        grid.vertex_dragged,
+    ]
+    for signal in signals:
+        with qtbot.assertNotEmitted(signal):
+            grid.show_hover((1, 1))
+            grid.show_pin((2, 2))
+            grid.show_geometry(TRIANGLE)
+            grid.show_step(np.array([[3, 3]]))
+            grid.set_view(GridView(0.3, 0.3, 2.0))
+
+
+def test_wheel_zooms_about_the_pointer(grid: PixelGrid, qtbot) -> None:
+    position = at(grid, 20.5, 12.5)
+    before = grid.placement()
+    with qtbot.waitSignal(grid.view_changed) as changed:
+        wheel(grid, position, 2)
+    assert changed.args == [grid.view()]
+    assert grid.placement().cell > before.cell
+    assert grid.placement().pixel_at(QPointF(position)) == (20, 12)
+    grid.fit()
+    assert grid.view() == FIT
+
+
+@pytest.mark.parametrize("button", [Qt.MouseButton.MiddleButton, Qt.MouseButton.RightButton])
+def test_drag_pans(grid: PixelGrid, button: Qt.MouseButton) -> None:
+    grid.set_view(GridView(0.5, 0.5, 3.0))
+    before = grid.placement()
+    drag(grid, QPoint(300, 300), QPoint(340, 270), button)
+    assert grid.placement().left == pytest.approx(before.left + 40, abs=1)
+    assert grid.placement().bottom == pytest.approx(before.bottom - 30, abs=1)
+
+
+def test_space_pans_instead_of_clicking(grid: PixelGrid, qtbot) -> None:
+    grid.set_view(GridView(0.5, 0.5, 3.0))
+    QTest.keyPress(grid, Qt.Key.Key_Space)
+    with qtbot.assertNotEmitted(grid.pixel_clicked), qtbot.waitSignal(grid.view_changed):
+        drag(grid, QPoint(300, 300), QPoint(340, 270))
+    QTest.keyRelease(grid, Qt.Key.Key_Space)
+    with qtbot.waitSignal(grid.pixel_clicked):
+        QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, QPoint(300, 300))
+
+
+def test_an_unmoved_right_click_asks_for_a_menu(grid: PixelGrid, qtbot) -> None:
+    with qtbot.waitSignal(grid.pixel_menu_requested) as asked:
+        QTest.mouseClick(grid, Qt.MouseButton.RightButton, Qt.KeyboardModifier.NoModifier, at(grid, 4.5, 4.5))
+    assert asked.args[:2] == [4, 4]
+
+
+def test_a_vertex_is_dragged(grid: PixelGrid, qtbot) -> None:
+    grid.show_geometry(TRIANGLE)
+    heard: list[tuple[str, tuple[float, ...]]] = []
+    grid.vertex_drag_started.connect(lambda *args: heard.append(("started", args)))
+    grid.vertex_dragged.connect(lambda *args: heard.append(("dragged", args)))
+    grid.vertex_drag_finished.connect(lambda *args: heard.append(("finished", args)))
+    with qtbot.assertNotEmitted(grid.pixel_clicked):
+        drag(grid, at(grid, 20.0, 3.0), at(grid, 22.0, 6.0))
+    assert [name for name, _ in heard] == ["started", "dragged", "dragged", "finished"]
+    vertex, x, y = heard[-2][1]
+    assert vertex == 1
+    assert (x, y) == pytest.approx((22.0, 6.0), abs=0.05)
+
+
+def test_shift_rounds_a_dragged_vertex(grid: PixelGrid) -> None:
+    grid.show_geometry(TRIANGLE)
+    places: list[tuple[float, float]] = []
+    grid.vertex_dragged.connect(lambda _, x, y: places.append((x, y)))
+    shift = Qt.KeyboardModifier.ShiftModifier
+    QTest.mousePress(grid, LEFT, shift, at(grid, 8.0, 13.0))
+    end = at(grid, 10.7, 9.1)
+    place, everywhere = QPointF(end), QPointF(grid.mapToGlobal(end))
+    move = QMouseEvent(QEvent.Type.MouseMove, place, everywhere, LEFT, LEFT, shift)
+    QApplication.sendEvent(grid, move)
+    QTest.mouseRelease(grid, LEFT, shift, end)
+    assert places[-1] == (10.5, 9.0)
+
+
+def test_escape_takes_a_drag_back(grid: PixelGrid) -> None:
+    grid.show_geometry(TRIANGLE)
+    places: list[tuple[int, float, float]] = []
+    finished: list[int] = []
+    grid.vertex_dragged.connect(lambda *args: places.append(args))
+    grid.vertex_drag_finished.connect(finished.append)
+    QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 8.0, 13.0))
+    QTest.mouseMove(grid, at(grid, 12.0, 9.0))
+    QTest.keyClick(grid, Qt.Key.Key_Escape)
+    assert places[-1] == (2, 8.0, 13.0)
+    assert finished == [2]
+    QTest.mouseRelease(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 12.0, 9.0))
+    assert finished == [2]
+
+
+def test_a_click_on_a_vertex_is_a_click_on_its_pixel(grid: PixelGrid, qtbot) -> None:
+    grid.show_geometry(TRIANGLE)
+    with qtbot.assertNotEmitted(grid.vertex_drag_started), qtbot.waitSignal(grid.pixel_clicked) as clicked:
+        QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 20.2, 3.2))
+    assert clicked.args == [20, 3]
+
+
+def test_a_brush_clicks_every_pixel_once(grid: PixelGrid) -> None:
+    heard: list[tuple[int, int]] = []
+    grid.pixel_clicked.connect(lambda column, row: heard.append((column, row)))
+    grid.set_brush(True)
+    QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 3.5, 3.5))
+    for x in (3.8, 4.5, 4.9, 5.5):
+        QTest.mouseMove(grid, at(grid, x, 3.5))
+    QTest.mouseRelease(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 5.5, 3.5))
+    assert heard == [(3, 3), (4, 3), (5, 3)]
+
+
+@pytest.mark.parametrize(("zoom", "shown"), [(1.0, False), (1.25, False), (2.0, True), (8.0, True)])
+def test_numbers_appear_only_in_large_cells(grid: PixelGrid, zoom: float, shown: bool) -> None:
+    grid.set_view(GridView(0.5, 0.5, zoom))
+    assert grid.has_numbers() == shown == (grid.placement().cell >= 40)
+    rect = grid.placement().cells_rect(12, 8)
+    below = picture(grid).copy(rect.adjusted(3, rect.height() / 2 + 4, -3, -3).toRect())
+    kinds = {below.pixel(x, y) for x in range(below.width()) for y in range(below.height())}
+    assert (len(kinds) > 1) == shown
+
+
+@pytest.mark.parametrize(
+    "vertices",
+    [
+        [[1e9, 2e9], [-1e9, 5.0], [8.0, -3e9]],
+        [[np.nan, np.nan], [4.0, 4.0], [8.0, 9.0]],
+        [[np.inf, 0.0], [-np.inf, 4.0], [8.0, 9.0]],
+        [[1e308, -1e308], [-1e308, 1e308], [1e-308, 0.0]],
+        [[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]],
+    ],
+)
+def test_far_away_geometry_does_no_harm(grid: PixelGrid, vertices: list[list[float]]) -> None:
+    places = np.array(vertices)
+    grid.show_geometry(GridGeometry(places, np.array([[0, 1, 2], [2, 1, 0]]), snapped=places))
+    for zoom in (1.0, 30.0):
+        grid.set_view(GridView(0.5, 0.5, zoom))
+        assert not picture(grid).isNull()
+    QTest.mouseMove(grid, at(grid, 5.5, 5.5))
+
+
+def test_an_edge_through_far_vertices_is_where_it_belongs(grid: PixelGrid) -> None:
+    plain = picture(grid)
+    far = np.array([[5.0, 1e9], [-1e9, 8.5], [1e9, 8.5]])
+    grid.show_geometry(GridGeometry(far, np.array([[0, 1, 2]])))
+    drawn = picture(grid)
+    rect = grid.placement().cells_rect(3, 8).toRect()
+    middle, top = rect.center(), QPoint(rect.center().x() + 7, rect.top() + 5)
+    assert drawn.pixel(middle + QPoint(7, 0)) != plain.pixel(middle + QPoint(7, 0))
+    assert drawn.pixel(top) == plain.pixel(top)
+
+
+def test_lines_stay_thin_at_every_zoom(grid: PixelGrid) -> None:
+    grid.show_buffer(GridBuffer("c", np.zeros((16, 24), np.bool_), "bool"))
+    flat = np.array([[12.0, 400.0], [-400.0, 8.25], [400.0, 8.25]])
+    for zoom in (1.0, 6.0, 13.0):
+        grid.show_geometry(None)
+        grid.set_view(GridView(0.5, 0.5, zoom))
+        before = picture(grid)
+        grid.show_geometry(GridGeometry(flat, np.array([[0, 1, 2]])))
+        after = picture(grid)
+        x = int(grid.placement().to_widget(12.6, 0).x())
+        changed = sum(before.pixel(x, y) != after.pixel(x, y) for y in range(10, grid.height() - 30))
+        assert 2 <= changed <= 6
+
+
+def test_marks_change_only_their_surroundings(grid: PixelGrid) -> None:
+    plain = picture(grid)
+    for show in (grid.show_hover, grid.show_pin):
+        show((10, 7))
+        marked = picture(grid)
+        assert marked != plain
+        far = grid.placement().cells_rect(14, 2, 6, 4).toRect()
+        assert marked.copy(far) == plain.copy(far)
+        show(None)
+        assert picture(grid) == plain
+    grid.show_step(np.array([[10, 7], [11, 7]]))
+    accent = QColor(current_theme().accent)
+    stepped = picture(grid)
+    edge = grid.placement().cells_rect(10, 7).topLeft().toPoint() + QPoint(8, 0)
+    assert stepped.pixelColor(edge) == accent
+    # The two pixels are outlined as one region: nothing between them.
+    between = grid.placement().cells_rect(11, 7)
+    inside = QPoint(int(between.left()), int(between.center().y()) + 5)
+    assert stepped.pixelColor(inside) == plain.pixelColor(inside)
+    grid.show_step(None)
+    assert picture(grid) == plain
+
+
+def test_a_step_outside_of_the_raster_does_no_harm(grid: PixelGrid) -> None:
+    plain = picture(grid)
+    grid.show_step(np.array([[-5, 3], [400, 2]]))
+    assert picture(grid) == plain
+    grid.show_step(np.zeros((0, 2), np.int64))
+    assert picture(grid) == plain
+    with pytest.raises(ValueError, match="pixels must be"):
+        grid.show_step(np.zeros(3, np.int64))
+
+
+@pytest.mark.parametrize("zoom", [1.0, 2.5])
+def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoom: float) -> None:
+    random = np.random.default_rng(5)
+    values = random.random((16, 24)).astype(np.float32)
+    mask = random.random((16, 24)) < 0.3
+    grid.set_view(GridView(0.5, 0.5, zoom))
+    fresh = PixelGrid()
+    qtbot.addWidget(fresh)
+    fresh.resize(grid.size())
+    fresh.set_view(grid.view())
+    grid.show_geometry(TRIANGLE)
+    for index in range(12):
+        values, mask = values.copy(), mask.copy()
+        column, row = random.integers(0, 24), random.integers(0, 16)
+        values[row, column] = np.nan if index % 4 == 3 else random.random()
+        mask[row, column] ^= True
+        marks = (Mark.REJECTED, Mark.TIE, Mark.DEPTH_FAILED, Mark.COVERED)
+        overlays = [MaskOverlay(mark.name, mark, mask) for mark in marks]
+        buffer = GridBuffer("z", values, range=(0, 1))
+        step = np.array([[column, row]])
+        for widget in (grid, fresh):
+            if widget is fresh:
+                widget.show_buffer(None)
+            widget.show_geometry(TRIANGLE)
+            widget.show_buffer(buffer)
+            widget.show_overlays(overlays)
+            widget.show_step(step)
+        QApplication.processEvents()
+        assert picture(grid) == picture(fresh), index
+
+
+def test_the_same_again_paints_nothing(grid: PixelGrid, qtbot) -> None:
+    values = np.arange(384.0).reshape(16, 24)
+    mask = values > 100
+    step = np.array([[1, 1]])
+
+    def show() -> None:
+        grid.show_buffer(GridBuffer("z", values.copy()))
+        grid.show_overlays([MaskOverlay("c", Mark.COVERED, mask.copy())])
+        grid.show_step(step.copy())
+        grid.show_pin((2, 2))
+        grid.show_hover((3, 3))
+        grid.set_view(GridView(0.5, 0.5, 1.5))
+
+    show()
+    QApplication.processEvents()
+    watcher = Painted()
+    grid.installEventFilter(watcher)
+    show()
+    QApplication.processEvents()
+    assert watcher.count == 0
+    grid.show_hover((4, 4))
+    qtbot.waitUntil(lambda: watcher.count == 1)
+
+
+def test_hidden_cells_do_not_tell_their_values(grid: PixelGrid) -> None:
+    grid.set_view(GridView(0.5, 0.5, 3.0))
+    hidden = np.zeros((16, 24), np.bool_)
+    hidden[8, 12] = True
+    grid.show_hidden(hidden)
+    assert grid.value_text((12, 8)) == "?"
+    assert grid.value_text((12, 8), digits=0) == "?"
+    covered = picture(grid)
+    buffer = grid.buffer()
+    assert buffer is not None
+    values = np.array(buffer.values)
+    values[8, 12] = 0.123
+    grid.show_buffer(GridBuffer("z", values))
+    rect = grid.placement().cells_rect(12, 8).adjusted(2, 2, -2, -2).toRect()
+    assert picture(grid).copy(rect) == covered.copy(rect)
+    grid.show_hidden(None)
+    assert grid.value_text((12, 8)) == "0.123"
+    assert picture(grid).copy(rect) != covered.copy(rect)
+    with pytest.raises(ValueError, match="hidden must have the shape"):
+        grid.show_hidden(np.zeros((2, 2), np.bool_))
+
+
+def test_copy_takes_the_pinned_value_in_full(grid: PixelGrid) -> None:
+    values = np.full((16, 24), -1 / 3)
+    grid.show_buffer(GridBuffer("z", values))
+    grid.show_pin((3, 3))
+    QTest.keyClick(grid, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert float(QGuiApplication.clipboard().text()) == -1 / 3
+
+
+def test_focus_is_shown_for_the_keyboard_only(grid: PixelGrid) -> None:
+    def corner() -> QColor:
+        return picture(grid).pixelColor(1, 1)
+
+    grid.clearFocus()
+    plain = corner()
+    grid.setFocus(Qt.FocusReason.MouseFocusReason)
+    assert corner() == plain
+    grid.clearFocus()
+    grid.setFocus(Qt.FocusReason.TabFocusReason)
+    assert corner() == QColor(current_theme().focus)
+
+
+def test_names_for_those_who_do_not_see(grid: PixelGrid) -> None:
+    grid.show_buffer(GridBuffer("depth", np.full((16, 24), 0.5), title="depth z"))
+    grid.show_pin((2, 3))
+    assert "depth z" in grid.accessibleName()
+    assert grid.accessibleDescription() == "Pinned pixel 2, 3: 0.5"
+
+
+def test_an_empty_grid_says_so(qtbot) -> None:
+    grid = PixelGrid()
+    qtbot.addWidget(grid)
+    grid.resize(300, 200)
+    grid.show()
+    silent = PixelGrid()
+    silent.empty_text = ""
+    qtbot.addWidget(silent)
+    silent.resize(300, 200)
+    assert picture(grid) != picture(silent)
+    QTest.mouseMove(grid, QPoint(50, 50))
+    QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, QPoint(50, 50))
+    wheel(grid, QPoint(50, 50), 1)
+    assert grid.view() == FIT
+
+
+def test_another_size_of_raster_drops_what_belonged_to_the_old(grid: PixelGrid) -> None:
+    hidden = np.ones((16, 24), np.bool_)
+    grid.show_hidden(hidden)
+    grid.show_overlays([MaskOverlay("c", Mark.COVERED, hidden)])
+    grid.show_pin((23, 15))
+    grid.show_buffer(GridBuffer("z", np.zeros((4, 5))))
+    assert not picture(grid).isNull()
+    assert grid.value_text((4, 3)) == "0"
+    assert grid.value_text((23, 15)) == ""
+
+
+def test_integer_centres_move_the_triangle(grid: PixelGrid) -> None:
+    half = grid.placement().to_widget(2.5, 2.5)
+    grid.set_pixel_center("integer")
+    assert grid.placement().to_widget(2.0, 2.0) == half
+    with pytest.raises(ValueError, match="got 'corner'"):
+        grid.set_pixel_center("corner")
+
+
+def test_several_samples_are_drawn(grid: PixelGrid) -> None:
+    plain = picture(grid)
+    grid.show_samples(np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]))
+    assert picture(grid) != plain
+
+
+def test_the_view_is_written_as_vectors(grid: PixelGrid) -> None:
+    grid.show_geometry(TRIANGLE)
+    target = QBuffer()
+    target.open(QIODevice.OpenModeFlag.WriteOnly)
+    generator = QSvgGenerator()
+    generator.setOutputDevice(target)
+    generator.setSize(QSize(800, 560))
+    painter = QPainter(generator)
+    grid.paint_to(painter)
+    painter.end()
+    text = bytes(target.data().data()).decode()
+    assert text.count("<polyline") + text.count("<path") > 5
+    assert "#0072b2" in text.lower()
+
+
+def test_a_grid_goes_away_cleanly(qtbot) -> None:
+    grid = PixelGrid()
+    grid.show_buffer(GridBuffer("z", np.zeros((4, 4))))
+    grid.show()
+    QApplication.processEvents()
+    gone = weakref.ref(grid)
+    grid.close()
+    grid.deleteLater()
+    del grid
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    QApplication.processEvents()
+    gc.collect()
+    assert gone() is None

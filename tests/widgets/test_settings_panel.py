@@ -1,0 +1,90 @@
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from widgets.settings_panel import Setting, SettingChoice, SettingsPanel
+
+
+def settings(fill: str = "blocks", line_refusal: str = "polygons are filled") -> list[Setting]:
+    fills = (
+        SettingChoice("spans", "Spans", "all triangles at once"),
+        SettingChoice("blocks", "Blocks"),
+        SettingChoice("scanline", "Scanline", refusal="some w <= 0"),
+    )
+    lines = (SettingChoice("bresenham", "Bresenham"), SettingChoice("dda", "DDA"))
+    return [
+        Setting("fill", "Fill", fills, fill, group="Raster"),
+        Setting("line", "Lines", lines, "bresenham", line_refusal),
+    ]
+
+
+@pytest.fixture
+def panel(qtbot) -> SettingsPanel:
+    result = SettingsPanel()
+    qtbot.addWidget(result)
+    result.show_settings(settings())
+    result.show()
+    qtbot.waitExposed(result)
+    return result
+
+
+def test_a_choice_by_key_is_handed_on_once(qtbot, panel) -> None:
+    seen = []
+    panel.setting_chosen.connect(lambda family, value: seen.append((family, value)))
+    combo = panel.combo("fill")
+    combo.setFocus()
+    qtbot.keyClick(combo, Qt.Key.Key_Up)
+    assert seen == [("fill", "spans")]
+
+
+def test_setting_by_code_emits_nothing(panel) -> None:
+    seen = []
+    panel.setting_chosen.connect(lambda family, value: seen.append((family, value)))
+    panel.show_settings(settings("spans"))
+    assert panel.combo("fill").currentText() == "Spans"
+    assert seen == []
+
+
+def test_what_cannot_be_chosen_is_off_and_says_why(qtbot, panel) -> None:
+    model = panel.combo("fill").model()
+    item = model.item(2)
+    assert not item.isEnabled()
+    assert "some w <= 0" in item.toolTip()
+    assert not panel.combo("line").isEnabled()
+    assert "polygons are filled" in panel.combo("line").toolTip()
+    combo = panel.combo("fill")
+    combo.setFocus()
+    qtbot.keyClick(combo, Qt.Key.Key_Down)
+    assert combo.currentText() == "Blocks"
+
+
+def test_a_wheel_over_the_panel_changes_nothing(panel) -> None:
+    combo = panel.combo("fill")
+    place = QPointF(5.0, 5.0)
+    event = QWheelEvent(
+        place,
+        QPointF(combo.mapToGlobal(place.toPoint())),
+        QPoint(),
+        QPoint(0, 120),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    QApplication.sendEvent(combo, event)
+    assert combo.currentText() == "Blocks"
+
+
+def test_controls_stay_while_the_families_stay(panel) -> None:
+    combo = panel.combo("fill")
+    panel.show_settings(settings("spans", ""))
+    assert panel.combo("fill") is combo
+    assert panel.combo("line").isEnabled()
+    panel.show_settings(settings()[:1])
+    with pytest.raises(KeyError):
+        panel.combo("line")
+
+
+def test_names_for_screen_readers(panel) -> None:
+    assert panel.combo("fill").accessibleName() == "Fill"

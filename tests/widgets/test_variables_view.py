@@ -1,0 +1,107 @@
+import math
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication
+
+from widgets.theme import current_theme
+from widgets.variables import Variable, VariablesView, value_text
+
+
+@pytest.fixture
+def view(qtbot) -> VariablesView:
+    result = VariablesView()
+    qtbot.addWidget(result)
+    result.resize(360, 260)
+    result.show()
+    qtbot.waitExposed(result)
+    return result
+
+
+STEP = (
+    Variable("x", 13, 13),
+    Variable("centre", (13.5, 7.5), (12.5, 7.5)),
+    Variable("alpha", 1 / 3, 0.25, "weight of vertex 0", 0),
+    Variable("depth", math.nan, math.nan),
+    Variable("is_inside", True, None),
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(None, "–"), (True, "yes"), ("tie", "tie"), ((1.0, 0.5), "(1, 0.5)"), (1 / 3, "0.3333"), (7, "7")],
+)
+def test_values_as_text(value: object, text: str) -> None:
+    assert value_text(value) == text
+
+
+def test_nan_that_stays_nan_has_not_changed() -> None:
+    assert not Variable("depth", math.nan, math.nan).is_changed()
+    assert Variable("depth", math.nan, 1.0).is_changed()
+    assert not Variable("p", (math.nan, 1.0), (math.nan, 1.0)).is_changed()
+
+
+def test_changed_values_stand_out_by_weight_mark_and_colour_for_one_step(view) -> None:
+    view.show_variables(STEP)
+    changed, same = view.topLevelItem(2), view.topLevelItem(0)
+    assert changed.font(1).bold()
+    assert not same.font(1).bold()
+    assert changed.foreground(1).color() == QColor(current_theme().accent_text)
+    accent = QColor(current_theme().accent)
+
+    def has_mark(row: int) -> bool:
+        box = view.visualItemRect(view.topLevelItem(row))
+        picture = view.viewport().grab(box).toImage()
+        return any(picture.pixelColor(x, picture.height() // 2) == accent for x in range(picture.width()))
+
+    assert has_mark(2)
+    assert not has_mark(0)
+    view.show_variables(tuple(Variable(v.name, v.now, v.now, v.meaning, v.vertex) for v in STEP))
+    assert not has_mark(2)
+    assert not changed.font(1).bold()
+
+
+def test_a_vector_opens_and_stays_open_while_stepping(view) -> None:
+    view.show_variables(STEP)
+    centre = view.topLevelItem(1)
+    centre.setExpanded(True)
+    assert [centre.child(k).text(0) for k in range(2)] == ["x", "y"]
+    assert centre.child(0).font(1).bold()
+    assert not centre.child(1).font(1).bold()
+    view.show_variables((Variable("x", 14, 13), Variable("centre", (14.5, 7.5), (13.5, 7.5)), *STEP[2:]))
+    assert view.topLevelItem(1) is centre
+    assert centre.isExpanded()
+    assert centre.child(0).text(1) == "14.5"
+
+
+def test_full_precision_on_hover_and_copy(qtbot, view) -> None:
+    seen = []
+    view.values_copied.connect(seen.append)
+    view.show_variables(STEP)
+    item = view.topLevelItem(2)
+    assert item.text(1) == "0.3333"
+    assert "0.3333333333333333" in item.toolTip(1)
+    view.setCurrentItem(item)
+    qtbot.keyClick(view, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert QGuiApplication.clipboard().text() == "alpha = 0.3333333333333333"
+    assert seen == ["alpha = 0.3333333333333333"]
+
+
+def test_exact_fractions_on_demand(view) -> None:
+    view.show_variables((Variable("a", 1 + 3 / 256, 0.1),))
+    view.show_fractions(True)
+    assert view.topLevelItem(0).text(1) == "1 3/256"
+    assert view.topLevelItem(0).text(2) == "~0.1"
+
+
+def test_other_names_give_other_rows_and_none_gives_an_empty_pane(view) -> None:
+    view.show_variables(STEP)
+    view.show_variables((Variable("t", 0.5),))
+    assert view.topLevelItemCount() == 1
+    view.show_variables(())
+    assert view.topLevelItemCount() == 0
+
+
+def test_vertex_colours_name_the_vertex(view) -> None:
+    view.show_variables(STEP)
+    assert view.topLevelItem(2).foreground(0).color() == QColor(current_theme().vertex_text[0])

@@ -1,0 +1,40 @@
+"""Who gets a key: a pane that Tab reached keeps the few it needs, a clicked one leaves stepping alone."""
+
+from collections.abc import Collection
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QFocusEvent, QKeyEvent
+from PySide6.QtWidgets import QWidget
+
+_NO_MOVE = (Qt.FocusReason.ActiveWindowFocusReason, Qt.FocusReason.PopupFocusReason)
+"""Focus that comes back rather than moves."""
+
+
+class KeyClaim(QObject):
+    """Keeps keys of a widget from window-wide shortcuts while the keyboard has brought the focus there.
+
+    A click on a code line or a table row gives it the focus too, but the arrows must go on stepping then.
+    """
+
+    def __init__(self, widget: QWidget, keys: Collection[Qt.Key]) -> None:
+        super().__init__(widget)
+        self._keys = frozenset(keys)
+        self._is_by_keyboard = True
+        widget.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Accept claimed keys, and leave every other key to the shortcuts of the window."""
+        if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
+            if event.reason() not in (
+                Qt.FocusReason.ActiveWindowFocusReason,
+                Qt.FocusReason.PopupFocusReason,
+            ):
+                self._is_by_keyboard = event.reason() != Qt.FocusReason.MouseFocusReason
+        elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
+            is_plain = not event.modifiers() & ~(
+                Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
+            )
+            is_claimed = is_plain and self._is_by_keyboard and event.key() in self._keys
+            event.setAccepted(is_claimed)
+            return True
+        return False

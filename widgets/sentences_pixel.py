@@ -1,0 +1,318 @@
+"""What is said from interpolation to display bytes: one sentence for every key."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from widgets.number_text import joined, pair_text, vector_text
+from widgets.sentences_raster import pixel_name
+from widgets.step_values import StepValues
+from widgets.typed_value import number_text
+
+ATTRIBUTE_NAMES = {
+    "color": "colour",
+    "uv": "texture coordinates",
+    "position": "world position",
+    "normal": "normal",
+    "diffuse_light": "diffuse light",
+    "specular_light": "specular light",
+}
+TEXEL_NAMES = ("bottom left", "bottom right", "top left", "top right")
+
+
+def _listed(step: StepValues, name: str) -> str:
+    return joined([number_text(value) for value in step.vector(name)])
+
+
+def numerators(step: StepValues) -> str:
+    """The unsnapped edge functions at the pixel."""
+    text = (
+        f"{pixel_name(step)}: the edge functions of the unsnapped corners are {_listed(step, 'numerators')}"
+    )
+    if step.kind == "affine":
+        return f"{text}, each multiplied by the w of its corner to leave perspective out."
+    return f"{text} there, each the determinant times weight / w."
+
+
+def total(step: StepValues) -> str:
+    """Their sum."""
+    text = f"{pixel_name(step)}: together they are {number_text(step.number('total'))}"
+    inverse_w = number_text(step.number("inverse_w"))
+    if step.kind == "affine":
+        return f"{text}, the whole that the three parts are shares of (1/w is {inverse_w} here)."
+    return f"{text}, the determinant times 1/w, and 1/w is {inverse_w} here."
+
+
+def weights(step: StepValues) -> str:
+    """The weights of the corners."""
+    values = step.vector("weights")
+    if step.kind == "flat":
+        corner = max(range(3), key=lambda k: values[k])
+        return f"{pixel_name(step)}: corner {corner} alone counts, the others have weight 0."
+    text = f"{pixel_name(step)}: corners 0, 1 and 2 weigh {_listed(step, 'weights')}, their shares of the sum"
+    below = [str(k) for k in range(3) if values[k] < 0]
+    if below:
+        return (
+            f"{text}; weight {joined(below)} is below 0, as coverage was decided on moved corners and "
+            "weights come from the corners as they are."
+        )
+    if any(map(math.isnan, values)):
+        return f"{text}; NaN means that the sum is 0."
+    return text + "."
+
+
+def attribute(step: StepValues) -> str:
+    """An interpolated value."""
+    name = step.operation.removeprefix("value-")
+    values = step.vector(name)
+    shown = number_text(values[0]) if len(values) == 1 else vector_text(values)
+    title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
+    how = "as at that one corner" if step.kind == "flat" else "the corners' values mixed by the weights"
+    verb = "are" if name == "uv" else "is"
+    return f"{pixel_name(step)}: its {title} {verb} {shown}, {how}."
+
+
+def plain(step: StepValues) -> str:
+    """Colour without texture and light."""
+    return f"{pixel_name(step)}: its colour is {vector_text(step.vector('color'))}, as interpolated."
+
+
+def texel_position(step: StepValues) -> str:
+    """Texture coordinates in texels."""
+    position = vector_text(step.vector("texel_position"))
+    if step.has("uv", "texture_size"):
+        width, height = step.vector("texture_size")
+        uv = vector_text(step.vector("uv"))
+        return (
+            f"{pixel_name(step)}: (u, v) = {uv} is the place {position} "
+            f"in the texture of {number_text(width)} × {number_text(height)} texels."
+        )
+    return f"{pixel_name(step)}: counted in texels, its place in the texture is {position}."
+
+
+def texels(step: StepValues) -> str:
+    """Which texels are read."""
+    found = [f"({number_text(column)}, {number_text(row)})" for column, row in step.rows("texels")]
+    if len(found) == 1:
+        color = vector_text(step.rows("texel_colors")[0])
+        return f"{pixel_name(step)}: the place is in texel {found[0]}, whose colour is {color}."
+    return f"{pixel_name(step)}: the centres of texels {joined(found)} surround the place."
+
+
+def filtered(step: StepValues) -> str:
+    """The mix of the texels."""
+    color, shares = vector_text(step.vector("texture_color")), step.vector("shares")
+    if len(shares) == 1:
+        return f"{pixel_name(step)}: the nearest texel alone gives the texture's colour, {color}."
+    listed = joined([f"{number_text(share)} ({TEXEL_NAMES[k]})" for k, share in enumerate(shares)])
+    return f"{pixel_name(step)}: the texture's colour is {color}, with the shares {listed}."
+
+
+def albedo(step: StepValues) -> str:
+    """The colour before lighting."""
+    color = vector_text(step.vector("albedo"))
+    if step.kind.startswith("textured"):
+        return f"{pixel_name(step)}: its albedo is {color}, the texture's colour times the interpolated one."
+    return f"{pixel_name(step)}: its albedo is {color}, the interpolated colour."
+
+
+def interpolated_light(step: StepValues) -> str:
+    """Light that was computed at the corners or for the face."""
+    diffuse, specular = (vector_text(step.vector(name)) for name in ("diffuse_light", "specular_light"))
+    return (
+        f"{pixel_name(step)}: diffuse light {diffuse} and specular light {specular} "
+        "were computed before, at the corners or for the whole face."
+    )
+
+
+def normal(step: StepValues) -> str:
+    """The unit normal."""
+    n, to_eye = (vector_text(step.vector(name)) for name in ("normal", "to_eye"))
+    return f"{pixel_name(step)}: made unit length, the normal N is {n} and the way to the eye V is {to_eye}."
+
+
+def cosines(step: StepValues) -> str:
+    """The cosines of every light."""
+    if not step.vector("n_dot_l"):
+        return f"{pixel_name(step)}: there is no light, so no cosine to compute."
+    texts = []
+    for number, (n_dot_l, n_dot_h) in enumerate(
+        zip(step.vector("n_dot_l"), step.vector("n_dot_h"), strict=True)
+    ):
+        side = "" if n_dot_l > 0 else ", so it does not reach this side"
+        texts.append(
+            f"light {number} has N·L = {number_text(n_dot_l)} and N·H = {number_text(n_dot_h)}{side}"
+        )
+    return f"{pixel_name(step)}: {'; '.join(texts)}."
+
+
+def light_sums(step: StepValues) -> str:
+    """The two sums over the lights."""
+    diffuse, specular = (vector_text(step.vector(name)) for name in ("diffuse_light", "specular_light"))
+    powers = [f"{number_text(power)} (light {k})" for k, power in enumerate(step.vector("power"))]
+    if not powers:
+        return f"{pixel_name(step)}: without lights, the ambient light {diffuse} is all there is."
+    highlight = f"highlight power{'s' if len(powers) > 1 else ''} {joined(powers)}"
+    return (
+        f"{pixel_name(step)}: over all lights the diffuse light is {diffuse}, ambient included, "
+        f"and the specular light {specular}, from {highlight}."
+    )
+
+
+def product(step: StepValues) -> str:
+    """Albedo times diffuse light plus specular light."""
+    return (
+        f"{pixel_name(step)}: its colour is {vector_text(step.vector('color'))}, "
+        "albedo times diffuse light plus specular light."
+    )
+
+
+def shaded(step: StepValues) -> str:
+    """Colour of an unlit textured fragment."""
+    return f"{pixel_name(step)}: its colour is {vector_text(step.vector('color'))}, as no light is computed."
+
+
+def depth_stored(step: StepValues) -> str:
+    """What the depth method stores of a fragment."""
+    stored = number_text(step.number("stored"))
+    if step.stores_inverse_w():
+        return (
+            f"{pixel_name(step)}: 1/w is {number_text(step.number('inverse_w'))}, to be stored as {stored}."
+        )
+    return (
+        f"{pixel_name(step)}: its depth z is {number_text(step.number('depth'))}, to be stored as {stored}."
+    )
+
+
+def compared(step: StepValues) -> str:
+    """The depth test."""
+    stored, before = step.number("stored"), step.number("before")
+    new, old = pair_text(stored, before)
+    name, quantity = pixel_name(step), "1/w" if step.stores_inverse_w() else "z"
+    if math.isnan(stored) or math.isnan(before):
+        return f"{name} fails: its {quantity}, {new}, cannot be compared with the buffer's {old}."
+    if stored == before:
+        return f"{name} fails: its {quantity}, {new}, equals the buffer's: a tie keeps what is there."
+    verdict, outcome = ("passes", "nearer") if step.flag("passes") else ("fails", "hidden")
+    relation = "larger" if stored > before else "smaller"
+    return f"{name} {verdict}: its {quantity}, {new}, is {relation} than the buffer's {old}: it is {outcome}."
+
+
+def depth_written(step: StepValues) -> str:
+    """What the depth buffer holds after the test."""
+    after, before = pair_text(step.number("after"), step.number("before"))
+    triangle = f"triangle {step.triangle}"
+    if step.flag("passes"):
+        return f"{pixel_name(step)}: the depth buffer now holds {after}, of {triangle}, instead of {before}."
+    return f"{pixel_name(step)}: the depth buffer keeps {before}, and {triangle} is not seen here."
+
+
+def out_of_range(step: StepValues) -> str:
+    """A fragment before the near or behind the far plane."""
+    depth = step.number("depth")
+    text = f"{pixel_name(step)} is dropped: its depth z is {number_text(depth)}"
+    if math.isnan(depth):
+        return f"{text}, which is no number."
+    return f"{text}, " + (
+        "below 0: before the near plane." if depth < 0 else "above 1: behind the far plane."
+    )
+
+
+def untested(step: StepValues) -> str:
+    """A fragment written without a test."""
+    after, before = pair_text(step.number("after"), step.number("before"))
+    return f"{pixel_name(step)}: without a depth test {after} simply replaces {before} in the depth buffer."
+
+
+def opaque(step: StepValues) -> str:
+    """A colour that replaces another."""
+    after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
+    return f"{pixel_name(step)}: the fragment's colour {after} replaces {before}."
+
+
+def over_source(step: StepValues) -> str:
+    """The alpha of a fragment."""
+    alpha = step.vector("source")[3]
+    before = vector_text(step.vector("before"))
+    return (
+        f"{pixel_name(step)}: the fragment's alpha is {number_text(alpha)}, "
+        f"so {number_text(1 - alpha)} of what is there, {before}, shows through."
+    )
+
+
+def over_color(step: StepValues) -> str:
+    """The mix of fragment and buffer."""
+    return f"{pixel_name(step)}: fragment over buffer gives {vector_text(step.vector('after'))}."
+
+
+def over_written(step: StepValues) -> str:
+    """The mix in the buffer."""
+    after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
+    return f"{pixel_name(step)}: the colour buffer now holds {after} instead of {before}."
+
+
+def display_clipped(step: StepValues) -> str:
+    """Colours cut off at 0 and 1."""
+    linear, clipped = step.vector("linear"), vector_text(step.vector("clipped"))
+    if any(map(math.isnan, linear)):
+        return (
+            f"{pixel_name(step)}: the colour {vector_text(linear)} has a NaN, which is shown as 0: {clipped}."
+        )
+    if min(linear[:3]) < 0 or max(linear[:3]) > 1:
+        return f"{pixel_name(step)}: the colour {vector_text(linear)} is cut off at 0 and 1: {clipped}."
+    return f"{pixel_name(step)}: the linear colour {clipped} is between 0 and 1 already."
+
+
+def encoded(step: StepValues) -> str:
+    """The sRGB curve."""
+    color = vector_text(step.vector("encoded"))
+    return f"{pixel_name(step)}: the sRGB curve turns the linear colour into {color}."
+
+
+def rounded(step: StepValues) -> str:
+    """Display bytes."""
+    *color, alpha = step.vector("bytes")
+    return (
+        f"{pixel_name(step)} is displayed as the bytes {vector_text(color)}, with alpha {number_text(alpha)}."
+    )
+
+
+_TEXTURE: Mapping[str, Callable[[StepValues], str]] = {
+    "position": texel_position,
+    "texels": texels,
+    "filter": filtered,
+    "albedo": albedo,
+}
+_LIGHT: Mapping[str, Callable[[StepValues], str]] = {
+    "interpolated": interpolated_light,
+    "normal": normal,
+    "cosines": cosines,
+    "sums": light_sums,
+    "product": product,
+}
+
+SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
+    **{f"interpolate.{kind}.numerators": numerators for kind in ("perspective", "affine")},
+    **{f"interpolate.{kind}.total": total for kind in ("perspective", "affine")},
+    **{f"interpolate.{kind}.weights": weights for kind in ("perspective", "affine", "flat")},
+    **{f"interpolate.{kind}.value": attribute for kind in ("perspective", "affine", "flat")},
+    "shade.plain.color": plain,
+    "shade.textured.color": shaded,
+    **{
+        f"shade.{kind}.{name}": say for kind in ("textured", "textured-lit") for name, say in _TEXTURE.items()
+    },
+    "shade.lit.albedo": albedo,
+    **{f"shade.{kind}.{name}": say for kind in ("lit", "textured-lit") for name, say in _LIGHT.items()},
+    "depth.test.depth": depth_stored,
+    "depth.test.compare": compared,
+    "depth.test.write": depth_written,
+    "depth.out-of-range.range": out_of_range,
+    "depth.store.depth": depth_stored,
+    "depth.store.write": untested,
+    "blend.opaque.write": opaque,
+    "blend.over.source": over_source,
+    "blend.over.color": over_color,
+    "blend.over.write": over_written,
+    "resolve.encode.clip": display_clipped,
+    "resolve.encode.encode": encoded,
+    "resolve.encode.round": rounded,
+}

@@ -1,0 +1,113 @@
+"""The numbers of one step by name and type, as sentences, formulas and tables read them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.trace import Explanation
+
+AXES = ("x", "y", "z", "w")
+CHANNELS = ("red", "green", "blue", "alpha")
+ATTRIBUTES = ("color", "uv", "position", "normal", "diffuse_light", "specular_light")
+"""What may be interpolated, by the names of core."""
+PLANE_SIGNS = {
+    "near": ("z", 1),
+    "far": ("z", -1),
+    "left": ("x", 1),
+    "right": ("x", -1),
+    "bottom": ("y", 1),
+    "top": ("y", -1),
+}
+"""Clip planes: the signed distance is w plus or minus one coordinate."""
+
+
+class StepValues:
+    """An explanation with typed access to its values."""
+
+    def __init__(
+        self, explanation: Explanation, triangle: int = -1, pixel: tuple[int, int] | None = None
+    ) -> None:
+        self.explanation = explanation
+        self.triangle = triangle
+        self.stage, self.kind, self.operation = explanation.key.split(".", 2)
+        self._pixel = pixel
+
+    @property
+    def key(self) -> str:
+        """The key under which sentence and formula stand: one for all interpolated values."""
+        operation = "value" if self.operation.startswith("value-") else self.operation
+        return f"{self.stage}.{self.kind}.{operation}"
+
+    @property
+    def pixel(self) -> tuple[int, int]:
+        """Column and row that the step is about."""
+        if self._pixel is not None and min(self._pixel) >= 0:
+            return self._pixel
+        return self.whole("column"), self.whole("row")
+
+    def has(self, *names: str) -> bool:
+        """Tell whether the step has all of these numbers."""
+        return all(name in self.explanation.values for name in names)
+
+    def number(self, name: str) -> float:
+        """Return a real number."""
+        return float(np.asarray(self.explanation.values[name]).item())
+
+    def whole(self, name: str) -> int:
+        """Return a whole number."""
+        return int(np.asarray(self.explanation.values[name]).item())
+
+    def flag(self, name: str) -> bool:
+        """Return yes or no."""
+        return bool(np.asarray(self.explanation.values[name]).item())
+
+    def text(self, name: str) -> str:
+        """Return a word."""
+        return str(self.explanation.values[name])
+
+    def vector(self, name: str) -> list[float]:
+        """Return a list of numbers."""
+        return [float(value) for value in np.asarray(self.explanation.values[name], float).ravel()]
+
+    def flags(self, name: str) -> list[bool]:
+        """Return a list of yes and no."""
+        return [bool(value) for value in np.asarray(self.explanation.values[name]).ravel()]
+
+    def rows(self, name: str) -> list[list[float]]:
+        """Return a list of lists of numbers."""
+        return [[float(value) for value in row] for row in np.asarray(self.explanation.values[name], float)]
+
+    def corner_values(self, attribute: str) -> list[list[float]]:
+        """Return the values of an interpolated attribute at the three corners."""
+        first = 0
+        for name in self.explanation.values:
+            if name == attribute:
+                break
+            first += len(self.vector(name)) if name in ATTRIBUTES else 0
+        return [row[first : first + len(self.vector(attribute))] for row in self.rows("corner_values")]
+
+    def stores_inverse_w(self) -> bool:
+        """Tell whether the depth buffer holds 1/w instead of z."""
+        return self.text("quantity") == "inverse-w" if self.has("quantity") else self.flag("larger_is_nearer")
+
+    def fill_rule(self, edge: int) -> str:
+        """Return the rule for ties: the one that is named, or else the one that the answers agree with."""
+        if self.has("fill_rule"):
+            return self.text("fill_rule")
+        a, b, owns = self.vector("a"), self.vector("b"), self.flags("owns_tie")
+        by_side = [is_left_or_bottom(x, y) for x, y in zip(a, b, strict=True)]
+        if by_side == owns:
+            return "shared-edge"
+        return "inclusive" if owns[min(edge, len(owns) - 1)] else "exclusive"
+
+
+def is_left_or_bottom(a: float, b: float) -> bool:
+    """Tell whether an edge with these inward coefficients is a left edge or a level bottom edge."""
+    return a > 0 or (a == 0 and b > 0)
+
+
+def component_names(attribute: str, count: int) -> Sequence[str]:
+    """Return what the components of an interpolated attribute are called."""
+    if attribute == "uv":
+        return ("u", "v")
+    return AXES[:count] if attribute in ("position", "normal") else CHANNELS[:count]
