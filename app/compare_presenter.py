@@ -62,7 +62,8 @@ class ComparePresenter(QObject):
         except ValueError as error:
             self.edit_refused.emit(str(error))
             return
-        self._view.show_comparison(compare(first, second, self._buffer, document.settings, self.other))
+        comparison = compare(first, second, self._buffer, document.settings, self.other, source.raster.bounds[:2])
+        self._view.show_comparison(comparison)
         self.refresh_pointing()
 
     @Slot()
@@ -116,7 +117,9 @@ class ComparePresenter(QObject):
         self._session.set_pin((column + first_column, row + first_row))
 
 
-def compare(first: Frame, second: Frame, buffer: str, mine: Settings, other: Settings) -> Comparison:
+def compare(
+    first: Frame, second: Frame, buffer: str, mine: Settings, other: Settings, origin: tuple[int, int]
+) -> Comparison:
     """Return both buffers, their difference (B minus A; colours: the largest channel) and how many pixels differ."""
     a, b = getattr(first, buffer), getattr(second, buffer)
     differs = (a != b).any(axis=2) if a.ndim == 3 else a != b
@@ -136,9 +139,9 @@ def compare(first: Frame, second: Frame, buffer: str, mine: Settings, other: Set
     elif count:
         summary += f"; largest difference {number_text(float(np.abs(amount).max()))}"
     return Comparison(
-        GridBuffer("A", a, kind, range=scale),
-        GridBuffer("B", b, kind, range=scale),
-        GridBuffer("difference", differs, "bool") if buffer == "primitive" else GridBuffer("difference", amount, "signed"),
+        GridBuffer("A", a, kind, range=scale, origin=origin),
+        GridBuffer("B", b, kind, range=scale, origin=origin),
+        GridBuffer("difference", amount, "bool" if buffer == "primitive" else "signed", origin=origin),
         "A, the page's settings",
         "B, " + (settings_difference(mine, other) or "the same settings"),
         summary + ".",

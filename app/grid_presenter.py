@@ -18,7 +18,8 @@ from widgets.range_control import RangeControl
 
 HIGHLIGHT_LIMIT = 4096
 """Pixels of a step that are outlined."""
-DEFAULT_OVERLAYS = frozenset({"tie", "nan", "blocks"})
+DEFAULT_OVERLAYS = {"bin": frozenset({"blocks"}), "raster": frozenset({"tie", "nan", "spans"})}
+"""Overlays that are on at first, by stage."""
 
 
 class GridPresenter(QObject):
@@ -38,7 +39,7 @@ class GridPresenter(QObject):
         self._grid, self._strip, self._legend, self._ranges = grid, strip, legend, ranges
         self._chosen: dict[str, str] = {}
         self._own_ranges: dict[str, tuple[float, float]] = {}
-        self._shown_overlays = DEFAULT_OVERLAYS
+        self._shown_overlays = dict(DEFAULT_OVERLAYS)
         self._drags = 0
         self.drag_error = ""
         """Why the last drag did nothing."""
@@ -89,8 +90,9 @@ class GridPresenter(QObject):
         self._grid.show_buffer(main)
         self._ranges.show_buffer(main)
         overlays = self._overlays()
-        self._legend.show_overlays(overlays, self._shown_overlays)
-        self._grid.show_overlays([overlay for overlay in overlays if overlay.key in self._shown_overlays])
+        shown = self._shown_overlays.get(stage, frozenset({"nan"}))
+        self._legend.show_overlays(overlays, shown)
+        self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
         pixels = self._step_pixels()
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
@@ -174,8 +176,7 @@ class GridPresenter(QObject):
 
     @Slot(object)
     def _choose_overlays(self, keys: frozenset[str]) -> None:
-        offered = {overlay.key for overlay in self._overlays()}
-        self._shown_overlays = (self._shown_overlays - offered) | keys
+        self._shown_overlays[self._session.cursor.stage] = keys
         self.refresh_step()
 
     @Slot(float, float)

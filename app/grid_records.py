@@ -43,22 +43,23 @@ STATES = {
 def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffer]:
     """Return the buffers of a stage at a position, then the finished picture and its triangles."""
     done = stage.steps.rows_done(position)
-    buffers = [grid_buffer(track, done) for track in stage.buffers]
-    picture = trace.source.picture
-    buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", title="picture"))
+    picture, origin = trace.source.picture, trace.source.raster.bounds[:2]
+    buffers = [grid_buffer(track, done, origin) for track in stage.buffers]
+    buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", origin=origin))
     if not any(track.name == "primitive" for track in stage.buffers):
-        buffers.append(GridBuffer("triangles", picture.primitive, "ids", title="triangles"))
+        buffers.append(GridBuffer("triangles", picture.primitive, "ids", origin=origin))
     return buffers
 
 
-def grid_buffer(track: BufferTrack, rows_done: int) -> GridBuffer:
-    """Return one buffer after ``rows_done`` rows."""
+def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> GridBuffer:
+    """Return one buffer after ``rows_done`` rows; ``origin`` is the place of its lower left pixel in the picture."""
     values, known = track.at(rows_done), track.known_at(rows_done)
     if track.kind == "flags":
         values = np.nan_to_num(values) > 0
     if track.kind == "color":
         values = np.where(known[..., None], values, 0.0)
-    return GridBuffer(track.name, values, KINDS[track.kind], known=known)
+    scale = track.value_range if track.kind in ("scalar", "signed", "count") else None
+    return GridBuffer(track.name, values, KINDS[track.kind], range=scale, origin=origin, known=known)
 
 
 def geometry_of(document: Document, trace: Trace) -> GridGeometry:
@@ -97,23 +98,16 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
         return None
     bins = trace.stage("bin")
     done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
-    first_column, first_row, _, _ = trace.source.raster.bounds
+    first_column, first_row, end_column, end_row = trace.source.raster.bounds
     columns = bins.columns
-    boxes = np.stack(
-        [
-            columns["column"] - first_column,
-            columns["row"] - first_row,
-            columns["column_end"] - columns["column"],
-            columns["row_end"] - columns["row"],
-        ],
-        axis=1,
-    )[:done]
+    left, bottom = np.maximum(columns["column"], first_column), np.maximum(columns["row"], first_row)
+    right, top = np.minimum(columns["column_end"], end_column), np.minimum(columns["row_end"], end_row)
+    boxes = np.stack([left - first_column, bottom - first_row, right - left, top - bottom], axis=1)[:done]
     blocks = trace.source.runs.blocks
-    states, labels = [], []
-    for node in columns["node"][:done]:
-        is_block = node >= 0 and blocks is not None
-        states.append(STATES[int(blocks.verdict[node])] if is_block and blocks is not None else BlockState.SPLIT)
-        labels.append("")
+    states = [
+        STATES[int(blocks.verdict[node])] if blocks is not None and node >= 0 else BlockState.SPLIT
+        for node in columns["node"][:done]
+    ]
     keep = (boxes[:, 2:] > 0).all(axis=1)
     if stage.stage == "raster":
         keep &= columns["node"][:done] >= 0
@@ -124,8 +118,7 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
         "blocks",
         boxes[chosen],
         tuple(states[k] for k in chosen),
-        tuple(labels[k] for k in chosen),
-        tuple(int(k) for k in columns["rejected_by"][chosen]),
+        edges=tuple(int(k) for k in columns["rejected_by"][chosen]),
         title="blocks",
     )
 

@@ -75,7 +75,7 @@ class InspectorPresenter(QObject):
             return
         before = trace.explain(trace.steps.back(cursor.position, cursor.level))
         self._formula.show_formula(formula(explanation))
-        self._variables.show_variables(step_variables(explanation, before))
+        self._variables.show_variables(step_variables(explanation))
         self._show_listing(explanation.listing.function.__name__ if explanation.listing else "", explanation)
         self._listing.show_line(explanation.line or None)
 

@@ -1,7 +1,8 @@
 """Drawing cases with the OpenGL of this machine, off screen, through moderngl.
 
-The picture goes to float32 colour, float32 depth and 32-bit primitive numbers: no blending, no dithering, one sample a
-pixel. moderngl makes 24-bit depth textures; the storage is therefore given anew as float32, with OpenGL's own call.
+The picture goes to float32 colour, float32 depth and 32-bit primitive numbers: no blending, no dithering, one
+sample a pixel. moderngl makes 24-bit depth textures; their storage is given anew as float32, with OpenGL's own
+call.
 """
 
 import ctypes
@@ -12,26 +13,32 @@ from types import TracebackType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.opengl_cases import Case
-from core.arrays import Integers, Singles
+from app.opengl_case import Case
+from core.arrays import Singles
 
 SHADER_VERSION = 330
 TEXTURE_2D, DEPTH_COMPONENT, DEPTH_COMPONENT_32F, FLOAT = 0x0DE1, 0x1902, 0x8CAC, 0x1406
 QUALIFIERS = {"perspective": "smooth", "affine": "noperspective", "flat": "flat"}
 
+VERTEX = np.dtype([("position", np.float32, 4), ("value", np.float32, 4), ("number", np.int32)])
+
 VERTEX_SHADER = """#version 330
 in vec4 position;
 in vec4 value;
+in int number;
 {qualifier} out vec4 interpolated;
-void main() {{ gl_Position = position; interpolated = value; }}
+flat out int owner;
+void main() {{ gl_Position = position; interpolated = value; owner = number; }}
 """
 FRAGMENT_SHADER = """#version 330
 {qualifier} in vec4 interpolated;
+flat in int owner;
 uniform sampler2D image;
 layout(location = 0) out vec4 color;
 layout(location = 1) out int primitive;
-void main() {{ color = {color}; primitive = gl_PrimitiveID; }}
+void main() {{ color = {color}; primitive = owner; }}
 """
 
 
@@ -47,7 +54,7 @@ class Picture:
     """(H, W, 4) float32; 0 where nothing was drawn."""
     depth: Singles
     """(H, W) float32; 1 where nothing was drawn."""
-    primitive: Integers
+    primitive: NDArray[np.int32]
     """(H, W) int32 triangle or segment seen, -1 for none."""
 
 
@@ -89,7 +96,6 @@ class OpenGLRenderer:
             ) from error
         self._stack.callback(self._context.release)
         self._resting = _owned(self._stack, self._context.simple_framebuffer((1, 1)))
-        self._flags = (moderngl.FIRST_VERTEX_CONVENTION, moderngl.LAST_VERTEX_CONVENTION)
         self.name = f"{self._context.info['GL_RENDERER']}, OpenGL {self._context.info['GL_VERSION']}"
         convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
         integers = [ctypes.c_int] * 5
@@ -120,7 +126,7 @@ class OpenGLRenderer:
             primitive = _owned(stack, context.texture(case.size, 1, dtype="i4"))
             depth = _owned(stack, self._depth_texture(case.size))
             frame = _owned(stack, context.framebuffer([color, primitive], depth))
-            # moderngl goes back to the framebuffer in use when it makes another: it must not be a released one.
+            # moderngl goes back to the framebuffer in use when it makes another: not to a released one.
             stack.callback(self._resting.use)
             frame.use()
             frame.clear(0, 0, 0, 0, depth=1)
@@ -134,30 +140,31 @@ class OpenGLRenderer:
                 guard * width,
                 guard * height,
             )
-            import moderngl
-
-            context.enable_only(
-                moderngl.DEPTH_TEST | (moderngl.CULL_FACE if case.cull != "none" else moderngl.NOTHING)
-            )
+            context.enable_only(context.DEPTH_TEST | (context.CULL_FACE if case.cull != "none" else 0))
             context.depth_func = "<" if case.depth_test else "1"
             context.cull_face = case.cull if case.cull != "none" else "back"
             context.front_face = "ccw"
-            context.provoking_vertex = self._flags[case.provoking == "last"]
+            context.provoking_vertex = (
+                context.FIRST_VERTEX_CONVENTION
+                if case.provoking == "first"
+                else context.LAST_VERTEX_CONVENTION
+            )
             if case.texture is not None:
                 self._use_image(stack, case)
 
-            # Vertices: position and value, the missing components of a colour 0, 0, 0, 1.
-            vertices = np.zeros((*case.clip.shape[:2], 8), np.float32)
-            vertices[..., :4] = case.clip
-            vertices[..., :2] /= np.float32(guard)
-            vertices[..., 7] = 1
-            vertices[..., 4 : 4 + case.attributes.shape[2]] = case.attributes
+            # Vertices: position, value (missing components of a colour are 0, 0, 0, 1), and whose corner it is
+            # (instead of gl_PrimitiveID, which softpipe for one does not have in fragment shaders).
+            vertices = np.zeros(case.clip.shape[:2], VERTEX)
+            vertices["position"] = case.clip
+            vertices["position"][..., :2] /= np.float32(guard)
+            vertices["value"][..., 3] = 1
+            vertices["value"][..., : case.attributes.shape[2]] = case.attributes
+            vertices["number"] = np.arange(len(case.clip))[:, None]
             program = self._program(case.interpolation, case.texture is not None)
             buffer = _owned(stack, context.buffer(vertices.tobytes()))
-            array = _owned(
-                stack, context.vertex_array(program, [(buffer, "4f 4f", "position", "value")])
-            )
-            array.render(moderngl.LINES if case.is_lines else moderngl.TRIANGLES)
+            layout = (buffer, "4f 4f 1i", "position", "value", "number")
+            array = _owned(stack, context.vertex_array(program, [layout]))
+            array.render(context.LINES if case.is_lines else context.TRIANGLES)
 
             problem = context.error
             if problem != "GL_NO_ERROR":
@@ -171,9 +178,7 @@ class OpenGLRenderer:
     def _depth_texture(self, size: tuple[int, int]) -> Any:
         texture = self._context.depth_texture(size)
         self._bind_texture(TEXTURE_2D, texture.glo)
-        self._define_texture(
-            TEXTURE_2D, 0, DEPTH_COMPONENT_32F, *size, 0, DEPTH_COMPONENT, FLOAT, None
-        )
+        self._define_texture(TEXTURE_2D, 0, DEPTH_COMPONENT_32F, *size, 0, DEPTH_COMPONENT, FLOAT, None)
         return texture
 
     def _use_image(self, stack: ExitStack, case: Case) -> None:
@@ -185,7 +190,7 @@ class OpenGLRenderer:
         if channels == 4:
             image[..., 3] = texels[..., 3]
         texture = _owned(stack, self._context.texture((columns, rows), 4, image.tobytes(), dtype="f4"))
-        gl_filter = 0x2600 if case.texture_filter == "nearest" else 0x2601
+        gl_filter = self._context.NEAREST if case.texture_filter == "nearest" else self._context.LINEAR
         texture.filter = (gl_filter, gl_filter)
         texture.repeat_x = texture.repeat_y = case.wrap == "repeat"
         texture.use(0)

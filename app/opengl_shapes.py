@@ -1,4 +1,4 @@
-"""Random corners, meshes, matrices and values that the cases of `app.opengl_cases` are put together from."""
+"""Random corners, meshes, matrices and values that the cases of `app.opengl_families` are made of."""
 
 import numpy as np
 
@@ -6,13 +6,13 @@ from core.arrays import Floats, Integers, Singles
 
 
 def lattice_corners(rng: np.random.Generator, size: tuple[int, int], count: int) -> Floats:
-    """Return ``count`` window positions (count, 2): all on pixel centres, corners, half pixels, 1/256, or beside."""
+    """Return random window positions (count, 2) in pixels, put on one of the lattices of `put_on_lattice`."""
     points = rng.uniform(0, 1, (count, 2)) * size
     return put_on_lattice(rng, points)
 
 
 def put_on_lattice(rng: np.random.Generator, points: Floats) -> Floats:
-    """Move window positions (N, 2) to pixel centres, corners, half pixels, 1/256 pixel, or up to 0.3/256 beside."""
+    """Move window positions (N, 2) to pixel centres, corners, half pixels, 1/256 pixel, or 0.3/256 beside."""
     kind = rng.integers(5)
     if kind == 0:
         return np.floor(points) + 0.5
@@ -41,7 +41,7 @@ def fan(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, Intege
 
 
 def grid_mesh(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, Integers]:
-    """Return a grid that may be jittered, each cell cut along any diagonal: (N, 2) positions, (T, 3) triangles."""
+    """Return a grid, jittered or not, each cell cut along any diagonal: positions (N, 2), triangles (T, 3)."""
     columns, rows = (int(n) for n in rng.integers(2, 7, 2))
     x, y = np.meshgrid(np.linspace(0.06, 0.94, columns + 1), np.linspace(0.06, 0.94, rows + 1))
     points = np.stack([x.ravel(), y.ravel()], axis=1) * size
@@ -60,11 +60,12 @@ def turned(rng: np.random.Generator, triangles: Integers) -> Integers:
     triangles = triangles[rng.permutation(len(triangles))]
     first = rng.integers(0, 3, (len(triangles), 1))
     step = np.where(rng.random((len(triangles), 1)) < 0.5, 1, -1)
-    return np.take_along_axis(triangles, (first + step * np.arange(3)) % 3, axis=1)
+    corner = (first + step * np.arange(3)) % 3
+    return np.take_along_axis(triangles, corner.astype(np.int64), axis=1)
 
 
 def perspective_matrix(field_of_view: float, aspect: float, near: float, far: float) -> Floats:
-    """Return the (4, 4) matrix from camera space, looking along -z, to clip space; the angle is in radians."""
+    """Return the (4, 4) matrix from camera space, looking along -z, to clip space; the angle in radians."""
     scale = 1 / np.tan(field_of_view / 2)
     depth, offset = (far + near) / (near - far), 2 * far * near / (near - far)
     return np.array([[scale / aspect, 0, 0, 0], [0, scale, 0, 0], [0, 0, depth, offset], [0, 0, -1, 0]])
@@ -117,12 +118,11 @@ def icosphere(subdivisions: int) -> tuple[Floats, Floats, Integers]:
 
 
 def torus(around: int, across: int) -> tuple[Floats, Floats, Integers]:
-    """Return a torus of radii 0.8 and 0.35: points (N, 3), normals (N, 3), triangles (2 * around * across, 3)."""
-    u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across)
-    u, v = u.T.ravel(), v.T.ravel()
+    """Return a torus of radii 0.8 and 0.35: points and normals (N, 3), 2 * around * across triangles (T, 3)."""
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(around), np.arange(across), indexing="ij"))
+    u, v = i * 2 * np.pi / around, j * 2 * np.pi / across
     normals = np.stack([np.cos(u) * np.cos(v), np.sin(u) * np.cos(v), np.sin(v)], axis=1)
     points = 0.8 * np.stack([np.cos(u), np.sin(u), np.zeros_like(u)], axis=1) + 0.35 * normals
-    i, j = (index.ravel() for index in np.meshgrid(np.arange(around), np.arange(across), indexing="ij"))
     ni, nj = (i + 1) % around, (j + 1) % across
     a, b, c, d = i * across + j, ni * across + j, ni * across + nj, i * across + nj
     return points, normals, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])

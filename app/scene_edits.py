@@ -176,7 +176,7 @@ def _camera_outline(camera: Camera) -> OutlineGroup:
         _vector_row("camera/up", "up", camera.up),
         OutlineRow(
             "camera",
-            "field of view, degrees" if is_perspective else "view height",
+            "view angle, °" if is_perspective else "view height",
             (angle if is_perspective else height,),
         ),
         OutlineRow("camera", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))),

@@ -1,6 +1,6 @@
 """The stepping page: rail, scene, grids, inspector and timeline around one session."""
 
-from PySide6.QtCore import QByteArray, Qt, Signal, Slot
+from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -88,7 +88,7 @@ class StepPage(QWidget):
         self.columns.addWidget(self._middle())
         self.columns.addWidget(self._right())
         self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([268, 660, 340])
+        self.columns.setSizes([296, 640, 328])
         self.columns.setChildrenCollapsible(True)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
@@ -115,11 +115,6 @@ class StepPage(QWidget):
         layout.setContentsMargins(8, 8, 8, 8)
         layout.setSpacing(8)
         layout.addWidget(self.legend)
-        layout.addSpacing(8)
-        title = QLabel("Range of the main grid", pane)
-        title.setProperty("role", "title")
-        layout.addWidget(title)
-        layout.addWidget(self.ranges)
         layout.addStretch(1)
         return pane
 
@@ -129,7 +124,13 @@ class StepPage(QWidget):
         self.view_bar.setExpanding(False)
         self.view_bar.setAccessibleName("Main view")
         self.view_stack = QStackedWidget(self)
-        self._add_view("pixels", "Pixels", self.grid)
+        pixels = QWidget(self)
+        under = QVBoxLayout(pixels)
+        under.setContentsMargins(0, 0, 0, 0)
+        under.setSpacing(4)
+        under.addWidget(self.grid, 1)
+        under.addWidget(self.ranges)
+        self._add_view("pixels", "Pixels", pixels)
         for name, title, widget in self.views.widgets:
             self._add_view(name, title, widget)
         self._add_view("compare", "A | B", self.compare_view)
@@ -146,7 +147,7 @@ class StepPage(QWidget):
         self.rows.addWidget(top)
         self.rows.addWidget(self.strip)
         self.rows.setStretchFactor(0, 1)
-        self.rows.setSizes([420, 170])
+        self.rows.setSizes([430, 150])
         return self.rows
 
     def _add_view(self, name: str, title: str, widget: QWidget) -> None:
@@ -169,12 +170,20 @@ class StepPage(QWidget):
         layout.addWidget(self.card)
         layout.addWidget(self.sentence)
         layout.addWidget(self.formula)
+        layout.addStretch(1)
+        self.card.show_folded(True)
+        self.detail_tabs = QTabWidget(self)
+        self.detail_tabs.setDocumentMode(True)
+        self.detail_tabs.addTab(self.variables, "Variables")
+        self.detail_tabs.addTab(self.history, "Pixel history")
+        self.session.pin_changed.connect(self._show_history)
         self.inspector_rows = QSplitter(Qt.Orientation.Vertical, self)
         self.inspector_rows.addWidget(step)
         self.inspector_rows.addWidget(self.listing)
-        self.inspector_rows.addWidget(self.variables)
-        self.inspector_rows.addWidget(self.history)
-        self.inspector_rows.setSizes([230, 130, 130, 160])
+        self.inspector_rows.addWidget(self.detail_tabs)
+        self.inspector_rows.setStretchFactor(1, 1)
+        self.inspector_rows.setStretchFactor(2, 2)
+        self.inspector_rows.setSizes([190, 170, 210])
         return self.inspector_rows
 
     def _bottom(self) -> QWidget:
@@ -193,6 +202,12 @@ class StepPage(QWidget):
         return bottom
 
     # Views.
+
+    @Slot()
+    def _show_history(self) -> None:
+        """Bring the history of a pixel forward when one is pinned."""
+        if self.session.pin is not None:
+            self.detail_tabs.setCurrentWidget(self.history)
 
     @Slot(int)
     def _show_view(self, index: int) -> None:
@@ -214,6 +229,14 @@ class StepPage(QWidget):
         if name in self.view_names():
             self.view_bar.setCurrentIndex(self.view_names().index(name))
 
+    def pointed_text(self, pixel: tuple[int, int]) -> str:
+        """Return the value of the main grid at a pixel of the traced picture."""
+        buffer = self.grid.buffer()
+        if buffer is None or not self.session.has_pixel(pixel):
+            return ""
+        first_column, first_row, _, _ = self.session.trace.source.raster.bounds
+        return f"{buffer.label}: {self.grid.value_text((pixel[0] - first_column, pixel[1] - first_row))}"
+
     def next_view(self) -> None:
         """Show the next main view."""
         self.view_bar.setCurrentIndex((self.view_bar.currentIndex() + 1) % self.view_bar.count())
@@ -228,6 +251,14 @@ class StepPage(QWidget):
     @Slot(int)
     def _choose_event(self, index: int) -> None:
         self.stepping.event = self.event_box.itemData(index)
+
+    def settle(self) -> None:
+        """Wait until everything that is drawn a moment later (formulas) is there."""
+        for _ in range(100):
+            QCoreApplication.processEvents()
+            if self.formula.is_complete():
+                return
+            QThread.msleep(10)
 
     # Remembered layout.
 

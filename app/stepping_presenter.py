@@ -12,7 +12,7 @@ from core.steps import Level
 from core.trace import StageTrace
 from widgets.marks import Mark
 from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
-from widgets.stage_texts import stage_text
+from widgets.stage_texts import SHORT_TITLES
 from widgets.timeline import Timeline
 from widgets.timeline_bar import TimelineRun
 
@@ -120,7 +120,6 @@ class SteppingPresenter(QObject):
         self._rail.show_stages(entries)
 
     def _entry(self, index: int, stage: str, count: StageCount, state: StageState) -> StageEntry:
-        text = stage_text(stage)
         reason, inserted = "", False
         if count.note == "not-chosen":
             reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
@@ -129,7 +128,7 @@ class SteppingPresenter(QObject):
             inserted = True
             reason = f"Inserted because {count.note} needs corners in front of the eye."
         return StageEntry(
-            text.short_title,
+            SHORT_TITLES[stage],
             str((index + 1) % 10) if index < 10 else "",
             f"{count.incoming:,} → {count.outgoing:,}",
             f"{count.seconds * 1000:.1f} ms",

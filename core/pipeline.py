@@ -269,7 +269,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
             if not keeps.all():
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
-            np.add.at(cover_count, pixel, 1)
+            np.add.at(cover_count, pixel, np.int32(1))
             nearest.add(pixel, fragments.primitive, stored)
             counts["depth"].incoming += len(pixel)
             if settings.blend != "opaque":

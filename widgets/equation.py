@@ -1,7 +1,8 @@
 r"""Formulas cell by cell: every symbol has its number, so that the number stands under it.
 
-A part of an equation is an operator, the same in both lines, or a pair of symbol and number. Symbols of corners and
-edges 0, 1, 2 get their colours from `FormulaView`, which knows them by their subscript or by ``\vertex{k}{...}``.
+A part of an equation is an operator, the same in both lines, or a pair of symbol and number. Symbols of
+corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them by their subscript or by
+``\vertex{k}{...}``.
 """
 
 import math
@@ -24,7 +25,7 @@ def number_latex(value: float) -> str:
         return r"\mathrm{NaN}"
     if math.isinf(value):
         return r"\infty" if value > 0 else r"-\infty"
-    text = repr(float(value)).removesuffix(".0")
+    text = repr(float(value) + 0.0).removesuffix(".0")
     if "e" in text or len(text.replace(".", "").lstrip("-0")) > EXACT_DIGITS:
         text = number_text(value).replace("−", "-")
     if "e" in text:
@@ -75,7 +76,9 @@ def equation(*parts: Part) -> Formula:
     return Formula(" & ".join(symbols), " & ".join(numbers))
 
 
-def linear(symbol: str, value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]) -> Formula:
+def linear(
+    symbol: str, value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]
+) -> Formula:
     """Return ``value = first * unit + second * unit + ...``; a coefficient without a unit stands alone."""
     return equation(*linear_parts(symbol, value, coefficients, *units))
 

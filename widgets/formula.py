@@ -1,5 +1,6 @@
 """A typeset formula with the present numbers under its symbols."""
 
+import math
 import time
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal, Slot
@@ -34,11 +35,14 @@ class FormulaView(QWidget):
     """Size of a formula relative to the widget's text."""
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
+    HURRY_SECONDS = 0.05
+    """Formulas that follow each other faster than this (scrubbing, playing) are typeset only now and then."""
 
     def __init__(self, parent: QWidget | None = None, typesetter: Typesetter | None = None) -> None:
         super().__init__(parent)
         self._typesetter = typesetter or _SHARED
         self._formula: Formula | None = None
+        self._shown_at = -math.inf
         self._lines: tuple[Line, ...] = ()
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
@@ -65,6 +69,7 @@ class FormulaView(QWidget):
             return
         self._formula = formula
         self._rebuild()
+        self._shown_at = time.perf_counter()
 
     def is_complete(self) -> bool:
         """Whether everything shown is typeset (nothing waits for the event loop)."""
@@ -177,7 +182,8 @@ class FormulaView(QWidget):
     def _typeset_within(self, seconds: float, *, is_catching_up: bool = False) -> None:
         # Typeset at least one cell a turn, so that a slow machine gets there too.
         start = time.perf_counter()
-        can_start = is_catching_up or is_typesetter_loaded()
+        is_hurried = start - self._shown_at < self.HURRY_SECONDS and not is_catching_up
+        can_start = is_catching_up or (is_typesetter_loaded() and not is_hurried)
         setter = self._setter()
         missing = [cell for cell in setter.cells_needed(self._formula) if not setter.is_ready(cell)]
         while missing and can_start:
@@ -185,7 +191,8 @@ class FormulaView(QWidget):
             if time.perf_counter() - start > seconds:
                 break
         if missing:
-            self._catch_up_timer.start(0)
+            if not self._catch_up_timer.isActive():
+                self._catch_up_timer.start(round(1000 * self.HURRY_SECONDS) if is_hurried else 0)
         else:
             self._catch_up_timer.stop()
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
-from widgets import formulas_pixel, formulas_raster, formulas_vertex
+from widgets import formulas_frame, formulas_pixel, formulas_raster, formulas_vertex
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -11,6 +11,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
     **formulas_raster.FORMULAS,
     **formulas_pixel.FORMULAS,
+    **formulas_frame.FORMULAS,
 }
 """``stage.kind.operation`` to the maker of its formula; all interpolated values share one, ``value``."""
 

@@ -11,7 +11,6 @@ from widgets.equation import (
     conclusion,
     equation,
     linear,
-    linear_parts,
     number_latex,
     relation,
     signed_latex,
@@ -118,7 +117,9 @@ def tie(step: StepValues) -> Formula:
     k, a, b = step.whole("edge"), step.number("a"), step.number("b")
     rule, found = step.fill_rule(0), "inside" if step.flag("owns_tie") else "outside"
     if rule != "shared-edge":
-        return equation(f"E_{k}", r"\ge" if rule == "inclusive" else ">", "0", *conclusion("inside", "inside"))
+        return equation(
+            f"E_{k}", r"\ge" if rule == "inclusive" else ">", "0", *conclusion("inside", "inside")
+        )
     if a != 0:
         return equation(*comparison(f"a_{k}", ">", a), *conclusion("inside", found))
     parts = [comparison(f"a_{k}", "=", a), comparison(f"b_{k}", ">", b)]
@@ -137,7 +138,13 @@ def box_high(step: StepValues) -> Formula:
         first, end = step.whole(name), step.whole(f"{name}_end")
         parts += [r"\quad"] if parts else []
         end_symbol, first_symbol = rf"\mathrm{{{name}}}_{{\mathrm{{end}}}}", rf"\mathrm{{{name}}}"
-        parts += [(axis, float(end - first)), "=", (end_symbol, float(end)), "-", (first_symbol, float(first))]
+        parts += [
+            (axis, float(end - first)),
+            "=",
+            (end_symbol, float(end)),
+            "-",
+            (first_symbol, float(first)),
+        ]
     return equation(*parts)
 
 
@@ -245,12 +252,9 @@ def span(step: StepValues) -> Formula:
 
 
 def line_ends(step: StepValues) -> Formula:
-    """The two sides of a row by accumulated inverse slopes."""
-    ends = [step.number(f"crossing_{k}") for k in range(2)]
-    step_symbol = r"x' + \frac{\Delta x}{\Delta y}"
-    return equation(
-        (r"x_{\mathrm{first}}", ends[0]), r"\quad", (r"x_{\mathrm{second}}", ends[1]), r"\quad", f"x = {step_symbol}"
-    )
+    """The two sides of a row, made by adding up inverse slopes."""
+    first, second = (step.number(f"crossing_{k}") for k in range(2))
+    return equation((r"x_{\mathrm{first}}", first), r"\quad", (r"x_{\mathrm{second}}", second))
 
 
 def line_rounded(step: StepValues) -> Formula:
@@ -285,5 +289,3 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "raster.line.ends": line_ends,
     "raster.line.round": line_rounded,
 }
-
-__all__ = ["FORMULAS", "linear_parts"]

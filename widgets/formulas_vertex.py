@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from widgets.equation import all_of, comparison, conclusion, equation, linear, number_latex, signed_latex
 from widgets.formula import Formula
+from widgets.sentences_vertex import has_area
 from widgets.step_values import AXES, PLANE_SIGNS, StepValues
 
 
@@ -41,9 +42,8 @@ def placed(step: StepValues) -> Formula:
     if axis != "z":
         name, size = ("W", step.whole("width")) if axis == "x" else ("H", step.whole("height"))
         half = (rf"\frac{{{name}}}{{2}}", rf"\frac{{{size}}}{{2}}")
-    symbol = r"\vertex{k}{z}".replace("k", str(step.whole("corner"))) if axis == "z" else ""
     return equation(
-        (symbol or _of_corner(step, axis, "window"), step.number(f"after_{axis}")),
+        (_of_corner(step, axis, "window"), step.number(f"after_{axis}")),
         "=",
         (
             rf"({_of_corner(step, axis, 'ndc')} + 1)",
@@ -66,16 +66,21 @@ def plane(step: StepValues) -> Formula:
     return all_of(compared, *conclusion("dropped", "dropped" if step.flag("applies") else "stays"))
 
 
+def _area(step: StepValues) -> str:
+    return "2A" if has_area(step) else "D"
+
+
 def degenerate(step: StepValues) -> Formula:
     """No area."""
     found = "dropped" if step.flag("applies") else "stays"
-    return equation(*comparison("2A", "=", step.number("facing")), *conclusion("dropped", found))
+    return equation(*comparison(_area(step), "=", step.number("facing")), *conclusion("dropped", found))
 
 
 def facing(step: StepValues) -> Formula:
     """The sign of the area."""
     value = step.number("facing")
-    return equation(*comparison("2A", ">", value), *conclusion("front", "front" if value > 0 else "back"))
+    found = "front" if value > 0 else "back"
+    return equation(*comparison(_area(step), ">", value), *conclusion("front", found))
 
 
 def distances(step: StepValues) -> Formula:

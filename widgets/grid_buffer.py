@@ -36,6 +36,10 @@ class GridBuffer:
     """Name in :mod:`widgets.colormaps`; empty: viridis for scalars, diverging for signed."""
     description: str = ""
     """One sentence for the tooltip."""
+    origin: tuple[int, int] = (0, 0)
+    """Column and row in the picture of the lower left pixel: the rulers count from there."""
+    known: NDArray[np.bool_] | None = field(default=None, repr=False)
+    """(H, W) bool, where there is a value yet; other cells are empty. None: everywhere."""
 
     def __post_init__(self) -> None:
         shape = self.values.shape
@@ -51,6 +55,8 @@ class GridBuffer:
         if wanted and self.channels not in wanted:
             counts = " or ".join(str(count) for count in wanted)
             raise ValueError(f"{self.kind} values must have {counts} channels, got {self.channels}")
+        if self.known is not None and self.known.shape != shape[:2]:
+            raise ValueError(f"known must be {shape[:2]}, got {self.known.shape}")
         if self.kind == "ids" and self.values.dtype.kind not in "ui":
             raise ValueError(f"ids must be integers, got {self.values.dtype}")
 
@@ -74,8 +80,14 @@ class GridBuffer:
         """The title, or else the name."""
         return self.title or self.name
 
+    def is_known(self, column: int, row: int) -> bool:
+        """Return whether the pixel has a value yet."""
+        return self.known is None or bool(self.known[row, column])
+
     def lines_at(self, column: int, row: int, digits: int = 4, width: int | None = None) -> list[str]:
         """Return the value of a pixel as text, one line per channel; see :func:`number_text`."""
+        if not self.is_known(column, row):
+            return []
         value = self.values[row, column]
         if self.kind == "ids" and int(value.item() if value.ndim == 0 else value.flat[0].item()) < 0:
             return [MINUS]
@@ -84,6 +96,8 @@ class GridBuffer:
     def text_at(self, column: int, row: int, digits: int = 4) -> str:
         """Return the value of a pixel on one line, with its unit; ``digits`` 0 gives full precision."""
         lines = self.lines_at(column, row, digits)
+        if not lines:
+            return "\u2013"
         text = lines[0] if len(lines) == 1 else "(" + ", ".join(lines) + ")"
         return f"{text} {self.unit}" if self.unit else text
 
@@ -94,6 +108,10 @@ class GridBuffer:
             other.range,
             other.colormap,
         ):
+            return False
+        if (self.known is None) != (other.known is None):
+            return False
+        if self.known is not None and other.known is not None and not np.array_equal(self.known, other.known):
             return False
         if self.values is other.values:
             return True

@@ -79,10 +79,11 @@ class GridCanvas:
             return False
         if before.values.shape != buffer.values.shape:
             self._hidden = None
-        alike = (before.kind, before.colormap, before.values.dtype) == (
+        alike = (before.kind, before.colormap, before.values.dtype, before.known is None) == (
             buffer.kind,
             buffer.colormap,
             buffer.values.dtype,
+            buffer.known is None,
         )
         if (
             not alike
@@ -94,8 +95,11 @@ class GridCanvas:
             differs = before.values != buffer.values
         if buffer.values.dtype.kind == "f":
             differs &= ~(np.isnan(before.values) & np.isnan(buffer.values))
+        changed = differs.any(axis=2) if differs.ndim == 3 else differs
+        if before.known is not None and buffer.known is not None:
+            changed = changed | (before.known != buffer.known)
         self._image = None
-        return self._add_dirty(bounds(differs.any(axis=2) if differs.ndim == 3 else differs))
+        return self._add_dirty(bounds(changed))
 
     def set_overlays(self, overlays: tuple[Overlay, ...]) -> bool:
         """Lay overlays over the cells, the first lowest."""

@@ -1,5 +1,7 @@
 """What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
@@ -56,7 +58,9 @@ class GridDisplay(QWidget):
         """Return where the cells stand in the widget now."""
         buffer = self._canvas.buffer
         columns, rows = (buffer.columns, buffer.rows) if buffer else (1, 1)
-        return place(columns, rows, self._viewport(rows), self._view, self.devicePixelRatioF(), self._corner)
+        origin = buffer.origin if buffer else (0, 0)
+        viewport, ratio = self._viewport(rows + origin[1]), self.devicePixelRatioF()
+        return replace(place(columns, rows, viewport, self._view, ratio, self._corner), origin=origin)
 
     def show_buffer(self, buffer: GridBuffer | None) -> None:
         """Show a buffer; only pixels that differ are painted again."""

@@ -94,10 +94,11 @@ def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, t
     """Paint a fine checker over NaN pixels."""
     if buffer.values.dtype.kind == "f" and placement.cell >= LINE_CELL:
         is_nan = np.isnan(buffer.values)
+        is_nan = is_nan.any(axis=2) if is_nan.ndim == 3 else is_nan
+        if buffer.known is not None:
+            is_nan = is_nan & buffer.known
         if is_nan.any():
-            paint_pattern(
-                painter, placement, is_nan.any(axis=2) if is_nan.ndim == 3 else is_nan, Mark.NAN, theme
-            )
+            paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
 
 
 def has_numbers(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
@@ -151,7 +152,7 @@ def paint_numbers(
     flags = Qt.AlignmentFlag.AlignCenter
     for row in range(cells[1], cells[3]):
         for column in range(cells[0], cells[2]):
-            if hidden is not None and hidden[row, column]:
+            if (hidden is not None and hidden[row, column]) or not buffer.is_known(column, row):
                 continue
             color = image.pixelColor(column, placement.rows - 1 - row)
             painter.setPen(dark if _is_light(color, backdrop) else light)
@@ -227,21 +228,27 @@ def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme
     metrics = QFontMetricsF(font)
     column0, row0, column1, row1 = placement.visible_cells()
     viewport = placement.viewport
-    widest = metrics.horizontalAdvance(str(placement.columns - 1))
+    first_column, first_row = placement.origin
+    widest = metrics.horizontalAdvance(str(first_column + placement.columns - 1))
     every_column = _ruler_step(placement.cell, widest + 8)
     every_row = _ruler_step(placement.cell, metrics.height() + 2)
     center = Qt.AlignmentFlag.AlignCenter
     painter.setFont(font)
     painter.setPen(QColor(theme.muted_text))
-    for column in range(-(-column0 // every_column) * every_column, column1, every_column):
+    for column in _ruler_numbers(column0, column1, first_column, every_column):
         x = placement.cells_rect(column, 0).center().x()
         if viewport.left() <= x <= viewport.right():
-            painter.drawText(_below(placement, area, x, 80), center, str(column))
-    for row in range(-(-row0 // every_row) * every_row, row1, every_row):
+            painter.drawText(_below(placement, area, x, 80), center, str(column + first_column))
+    for row in _ruler_numbers(row0, row1, first_row, every_row):
         y = placement.cells_rect(0, row).center().y()
         if viewport.top() <= y <= viewport.bottom():
-            painter.drawText(_beside(placement, area, y, 40), center, str(row))
+            painter.drawText(_beside(placement, area, y, 40), center, str(row + first_row))
     painter.restore()
+
+
+def _ruler_numbers(first: int, end: int, origin: int, step: int) -> range:
+    """Return the cells from ``first`` to ``end`` whose number, counted from ``origin``, is a multiple of ``step``."""
+    return range(-(-(first + origin) // step) * step - origin, end, step)
 
 
 def paint_ruler_pixel(
@@ -254,12 +261,13 @@ def paint_ruler_pixel(
     painter.setFont(font)
     middle = placement.cells_rect(*pixel).center()
     metrics = QFontMetricsF(font)
-    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(str(pixel[0])) + 8)
+    number_x, number_y = pixel[0] + placement.origin[0], pixel[1] + placement.origin[1]
+    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(str(number_x)) + 8)
     beside = _beside(placement, area, middle.y(), metrics.height() + 2)
     viewport = placement.viewport
     for box, number, is_shown in (
-        (below.adjusted(0, 2, 0, -2), pixel[0], viewport.left() <= middle.x() <= viewport.right()),
-        (beside.adjusted(2, 0, -2, 0), pixel[1], viewport.top() <= middle.y() <= viewport.bottom()),
+        (below.adjusted(0, 2, 0, -2), number_x, viewport.left() <= middle.x() <= viewport.right()),
+        (beside.adjusted(2, 0, -2, 0), number_y, viewport.top() <= middle.y() <= viewport.bottom()),
     ):
         if is_shown:
             painter.fillRect(box, QColor(theme.text))

@@ -46,6 +46,8 @@ class GridPlacement:
     """Side of a cell in logical pixels; a whole number of device pixels where it has six or more."""
     corner: float = 0.0
     """Window coordinate of the corner of cell (0, 0): 0 for centres at halves, -0.5 on integers."""
+    origin: tuple[int, int] = (0, 0)
+    """What the rulers call column 0 and row 0."""
 
     def to_widget(self, x: float, y: float) -> QPointF:
         """Return the widget position of a window position."""

@@ -119,10 +119,10 @@ class KeyHelp(QWidget):
         width = round(_COLUMN_WIDTH * current_theme().text_px / 13)
         return max(1, self.width() // width)
 
-    def _key_width(self) -> int:
-        """Return one width for the keys of every group, so that what they do lines up."""
+    def _key_width(self, entries: Sequence[KeyEntry]) -> int:
+        """Return one width for the keys of a column, so that what they do lines up."""
         metrics = self.fontMetrics()
-        rows = [entry.keys.split(", ") for entry in self._entries]
+        rows = [entry.keys.split(", ") for entry in entries]
         widths = [sum(metrics.horizontalAdvance(key) + 16 for key in row) for row in rows]
         return min(max(widths, default=0), round(200 * current_theme().text_px / 13))
 
@@ -144,13 +144,16 @@ class KeyHelp(QWidget):
         row.setSpacing(32)
         stacks = [QVBoxLayout() for _ in range(self._columns)]
         heights = [0] * self._columns
+        placed: list[list[tuple[str, list[KeyEntry]]]] = [[] for _ in stacks]
         for name, members in groups.items():
             # The shortest column so far takes the next group.
             place = heights.index(min(heights))
             heights[place] += len(members) + 2
-            box = _group(name, members, self._key_width())
-            stacks[place].addWidget(box)
-        for stack in stacks:
+            placed[place].append((name, members))
+        for stack, boxes in zip(stacks, placed, strict=True):
+            key_width = self._key_width([entry for _, members in boxes for entry in members])
+            for name, members in boxes:
+                stack.addWidget(_group(name, members, key_width))
             stack.setSpacing(16)
             stack.addStretch(1)
             row.addLayout(stack, 1)

@@ -58,6 +58,8 @@ def clip_segments(
         ends = np.stack((enter, leave), axis=1)[:, :, None]
         cut = start[:, None, :] + ends * direction[:, None, :]
         keep &= np.isfinite(cut).all(axis=(1, 2))
+        # Ends of 1e300 leave rounding errors far larger than the box.
+        cut = np.clip(cut, box[:2], box[2:])
     source = np.flatnonzero(keep)
     return cut[source], source
 

@@ -9,6 +9,8 @@ from widgets.typed_value import number_text
 
 SNAP_LIMIT = 2**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
+ROUNDING = 1e-9
+"""Pixels below which a corner that moves is said to stay."""
 
 
 def projected(step: StepValues) -> str:
@@ -26,9 +28,9 @@ def snapped(step: StepValues) -> str:
     window, lattice = step.vector("window"), step.vector("snapped")
     name = f"Corner {step.whole('corner')} of triangle {step.triangle}"
     place = position_text(lattice)
-    if window == lattice:
-        return f"{name} stays at {place}: that is on the lattice of 1/256 pixel."
     moved = math.hypot(*(a - b for a, b in zip(lattice, window, strict=True)))
+    if moved < ROUNDING:
+        return f"{name} stays at {place}: that is on the lattice of 1/256 pixel."
     return (
         f"{name} is snapped to the nearest 1/256 pixel, {place}, which moves it by {number_text(moved)} px."
     )

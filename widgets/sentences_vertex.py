@@ -62,11 +62,11 @@ def placed(step: StepValues) -> str:
     axis = step.operation
     before, after = number_text(step.number(f"before_{axis}")), number_text(step.number(f"after_{axis}"))
     if axis == "z":
-        return f"{_corner(step)}: its depth is {after}, as NDC z = {before} goes from [−1, 1] to [0, 1]."
+        return f"{_corner(step)}: its depth is {after}: NDC z is {before}, and −1 to 1 becomes 0 to 1."
     side, pixels = ("the left", step.whole("width")) if axis == "x" else ("the bottom", step.whole("height"))
     return (
-        f"{_corner(step)}: its window {axis} is {after} pixels from {side}, "
-        f"as NDC {axis} = {before} goes from [−1, 1] to [0, {pixels}]."
+        f"{_corner(step)}: its window {axis} is {after} pixels from {side}: "
+        f"NDC {axis} is {before}, and −1 to 1 becomes 0 to {pixels}."
     )
 
 
@@ -103,13 +103,16 @@ def plane(step: StepValues) -> str:
     )
 
 
-def area_name(step: StepValues) -> str:
-    """Say what decides the facing: twice the area, or the determinant where a corner is not projected."""
+def has_area(step: StepValues) -> bool:
+    """Tell whether twice the area decides the facing, or else the determinant of the (x, y, w) matrix."""
     if step.has("is_projected"):
-        has_area = all(step.flags("is_projected"))
-    else:
-        has_area = all(value > 0 for value in step.vector("w"))
-    return "twice its signed area" if has_area else "the determinant of its (x, y, w) matrix"
+        return all(step.flags("is_projected"))
+    return all(value > 0 for value in step.vector("w"))
+
+
+def area_name(step: StepValues) -> str:
+    """Say what decides the facing."""
+    return "twice its signed area" if has_area(step) else "the determinant of its (x, y, w) matrix"
 
 
 def degenerate(step: StepValues) -> str:
@@ -123,14 +126,14 @@ def degenerate(step: StepValues) -> str:
 def facing(step: StepValues) -> str:
     """Which side is seen, and whether that side is dropped."""
     value = step.number("facing")
-    side, turn = ("front", "counter-clockwise") if value > 0 else ("back", "clockwise")
+    side = "front" if value > 0 else "back"
     sign = "above" if value > 0 else "below"
     is_dropped = step.flag("applies")
     verdict = "is culled" if is_dropped else "may stay"
     which = "drops" if is_dropped else "keeps"
     return (
         f"Triangle {step.triangle} {verdict}: {area_name(step)} is {number_text(value)}, {sign} 0, "
-        f"so we see its {side} ({turn}), which the cull setting {which}."
+        f"so we see its {side}, which the cull setting {which}."
     )
 
 

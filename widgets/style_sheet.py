@@ -45,7 +45,6 @@ QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
     background: $panel; color: $text; border: 1px solid $outline; border-radius: 3px; padding: 3px ${u}px;
     selection-background-color: $selection; selection-color: $text;
 }
-QAbstractSpinBox > QLineEdit { border: none; padding: 0 0 0 ${u}px; }
 QLineEdit:disabled { color: $outline; }
 QTextBrowser, QTextEdit[readOnly="true"], QPlainTextEdit[readOnly="true"] { border: 1px solid transparent; }
 

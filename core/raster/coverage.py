@@ -9,7 +9,7 @@ from core.arrays import Flags, Floats, Integers
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
 from core.raster.schedule import Raster, Runs, expand
 
-BATCH = 1 << 19
+BATCH = 1 << 17
 """Pixels looked at in one go: large enough to hide call overhead, small enough to stay in the cache."""
 
 

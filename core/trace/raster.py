@@ -127,7 +127,12 @@ def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]
     place = source.raster.index(columns["column"][rows], columns["row"][rows])
     unknown = np.full(shape, np.nan)
     covered = columns["covered"][rows]
-    tracks = [BufferTrack("coverage", unknown, rows, place, covered.astype(float), "flags")]
+
+    # A pixel that one triangle covers stays covered when the next one misses it.
+    first = np.full(shape[0] * shape[1], len(rows))
+    np.minimum.at(first, place[covered], np.flatnonzero(covered))
+    by_now = np.arange(len(rows)) >= first[place]
+    tracks = [BufferTrack("coverage", unknown, rows, place, by_now.astype(float), "flags")]
     for name, column in (("edge", "values"), ("weight", "weights")):
         tracks += [
             BufferTrack(f"{name} {k}", unknown, rows, place, columns[column][rows, k], "signed")

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,14 @@ class BufferTrack:
         flat = buffer.reshape(-1, *buffer.shape[2:])
         flat[self.places[:done]] = self.values[:done]
         return read_only(buffer)
+
+    @cached_property
+    def value_range(self) -> tuple[float, float]:
+        """Least and greatest finite value that the buffer ever holds; (0, 1) where there is none."""
+        held = [self.values.ravel()] + ([self.initial.ravel()] if self.starts_known else [])
+        values = np.concatenate(held).astype(float)
+        values = values[np.isfinite(values)]
+        return (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
 
     def known_at(self, rows_done: int) -> Flags:
         """Return (h, w) bool, where the buffer holds something after ``rows_done`` rows."""

@@ -52,7 +52,7 @@ def signed_cover(clip, size, fill: str = "hierarchy") -> np.ndarray:
 
 
 def text(values) -> list[str]:
-    """Return rows of a small array from the top: ``.`` for 0 or False, ``#`` for True, else the digit; ``-`` for -1."""
+    """Return the rows from the top: ``.`` for 0 or False, ``#`` for True, ``-`` for -1, else the digit."""
     symbols = np.asarray(values)
     if symbols.dtype == bool:
         return ["".join(".#"[int(v)] for v in row) for row in symbols[::-1]]

@@ -1,8 +1,8 @@
-"""Which pixels a triangle covers, in exact rational arithmetic, one pixel at a time, from the definition alone.
+"""Which pixels a triangle covers, in rational arithmetic, one pixel at a time, from the definition alone.
 
-Nothing of the program is used here: a window position is a fraction, snapping is Python's ``round`` (half to even),
-an edge function is a determinant of fractions, and the tie rule moves the point by writing down what the determinant
-gains by the move.
+Nothing of the program is used here: a window position is a fraction, snapping is Python's ``round`` (half to
+even), an edge function is a determinant of fractions, and the tie rule moves the point by writing down what
+the determinant gains by the move.
 """
 
 from fractions import Fraction
@@ -51,7 +51,7 @@ def facing(clip, size: tuple[int, int], snaps: bool = True) -> int:
 
 
 def line_through(first: Point, second: Point) -> tuple[int, int, int]:
-    """Return integers a, b, c of the same sign and proportion as the determinant of (first, second, pixel)."""
+    """Return integers a, b, c in proportion to the determinant of (first, second, pixel)."""
     (x1, y1, w1), (x2, y2, w2) = first, second
     a, b, c = y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
     scale = lcm(a.denominator, b.denominator, c.denominator)

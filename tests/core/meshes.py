@@ -10,7 +10,16 @@ def icosphere(subdivisions: int) -> tuple[np.ndarray, np.ndarray]:
     corners += [(0, -1, golden), (0, 1, golden), (0, -1, -golden), (0, 1, -golden)]
     corners += [(golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)]
     positions = [np.array(corner) / np.linalg.norm(corner) for corner in corners]
-    triangles = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2)]
+    triangles = [
+        (0, 11, 5),
+        (0, 5, 1),
+        (0, 1, 7),
+        (0, 7, 10),
+        (0, 10, 11),
+        (1, 5, 9),
+        (5, 11, 4),
+        (11, 10, 2),
+    ]
     triangles += [(10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5)]
     triangles += [(2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
     for _ in range(subdivisions):
@@ -61,14 +70,16 @@ def random_rotation(generator: np.random.Generator) -> np.ndarray:
 def fan(hub, rim) -> np.ndarray:
     """Return (T, 3, k) triangles of a closed fan: hub (k,), rim (T, k) in counter-clockwise order."""
     rim = np.asarray(rim, float)
-    return np.stack([np.broadcast_to(np.asarray(hub, float), rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
+    return np.stack(
+        [np.broadcast_to(np.asarray(hub, float), rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1
+    )
 
 
 def tiling(generator: np.random.Generator, size: tuple[int, int], steps: int, points: int) -> np.ndarray:
     """Return window triangles (T, 3, 2) on the lattice of 1/steps pixel that tile a square around the window.
 
-    Points are put into the triangle they lie in, or onto its side, one after the other, and diagonals are turned
-    at random: many slivers, many corners on pixel centres, no T-junction.
+    Points are put into the triangle they lie in, one after the other, and diagonals are turned at random:
+    many slivers, many corners on pixel centres, no T-junction.
     """
     low, high = -2 * steps, (max(size) + 2) * steps
     corners = [(low, low), (high, low), (high, high), (low, high)]

@@ -26,7 +26,7 @@ def window_points(size: tuple[int, int], steps: int, margin: int = 4):
 
 @st.composite
 def lattice_triangles(draw, count: int = 3):
-    """Draw (clip (T, 3, 4), size): corners on pixel centres, half pixels, 1/256 or 1/512 pixel, some far away."""
+    """Draw (clip (T, 3, 4), size): corners on pixel centres, half pixels, 1/256 or 1/512 pixel."""
     size = draw(SIZES)
     steps = draw(st.sampled_from([1, 2, 16, 256, 512]))
     points = window_points(size, steps, draw(st.sampled_from([0, 4, 3000])))

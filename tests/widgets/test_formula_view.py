@@ -173,6 +173,18 @@ def test_showing_a_formula_does_not_wait_for_a_slow_typesetter(qtbot, view) -> N
     assert all(setter.is_ready(cell) for cell in setter.cells_needed(EDGE))
 
 
+def test_a_hurried_run_of_formulas_is_typeset_when_it_pauses(qtbot, view) -> None:
+    view.show_formula(MATRIX)
+    wait_for_typesetting(qtbot, view)
+    known = len(view._typesetter._cells)
+    for number in range(5):
+        view.show_formula(Formula(rf"\begin{{bmatrix}} {number} & x \end{{bmatrix}}"))
+    assert len(view._typesetter._cells) <= known + 1
+    assert not view.is_complete()
+    wait_for_typesetting(qtbot, view)
+    assert "Shown as plain text" not in view.toolTip()
+
+
 def test_a_formula_that_cannot_be_typeset_is_shown_as_text_with_the_reason(qtbot, view) -> None:
     view.show_formula(Formula(r"\frac{a}{"))
     wait_for_typesetting(qtbot, view)

@@ -110,6 +110,7 @@ def test_fronts_and_backs_make_up_the_whole(case, faces: str) -> None:
     scene = ClipScene(clip, size=size)
     other = {"back": "front", "front": "back"}[faces]
     whole, part, rest = (
-        render(scene, Settings(cull=name, visibility="last-drawn")).cover_count for name in ("none", faces, other)
+        render(scene, Settings(cull=name, visibility="last-drawn")).cover_count
+        for name in ("none", faces, other)
     )
     assert np.array_equal(whole, part + rest)

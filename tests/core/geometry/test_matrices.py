@@ -62,7 +62,10 @@ def test_a_quarter_turn_is_counter_clockwise(axis, start: int, end: int) -> None
     assert np.allclose(turned, np.eye(3)[end])
 
 
-@given(st.lists(st.floats(-1, 1), min_size=3, max_size=3).filter(lambda axis: np.linalg.norm(axis) > 0.1), NUMBERS)
+@given(
+    st.lists(st.floats(-1, 1), min_size=3, max_size=3).filter(lambda axis: np.linalg.norm(axis) > 0.1),
+    NUMBERS,
+)
 def test_a_rotation_keeps_lengths_and_handedness(axis: list[float], angle: float) -> None:
     R = rotation(np.array(axis), angle)[:3, :3]
     assert np.allclose(R @ R.T, np.eye(3), atol=1e-9)

@@ -37,7 +37,9 @@ def test_centres_on_integers_move_the_box() -> None:
     assert box_of(clip, center="integer") == (PROJECTED, 2, 2, 6, 7)
 
 
-@pytest.mark.parametrize("corners", [[(20, 2), (25, 2), (20, 6)], [(2.6, 2), (3.4, 2), (3, 6)], [(2, 2), (5, 2), (8, 2)]])
+@pytest.mark.parametrize(
+    "corners", [[(20, 2), (25, 2), (20, 6)], [(2.6, 2), (3.4, 2), (3, 6)], [(2, 2), (5, 2), (8, 2)]]
+)
 def test_nothing_is_looked_at_outside_between_centres_or_without_area(corners) -> None:
     _, column, row, column_end, row_end = box_of(clip_of_window([corners], SIZE))
     assert (column_end - column) * (row_end - row) == 0
@@ -45,7 +47,13 @@ def test_nothing_is_looked_at_outside_between_centres_or_without_area(corners) -
 
 @pytest.mark.parametrize(
     ("w", "case"),
-    [((1, 1, 1), PROJECTED), ((-1, -1, -1), BEHIND), ((0, -1, 0), BEHIND), ((1, -1, 1), MIXED), ((1, 0, 1), MIXED)],
+    [
+        ((1, 1, 1), PROJECTED),
+        ((-1, -1, -1), BEHIND),
+        ((0, -1, 0), BEHIND),
+        ((1, -1, 1), MIXED),
+        ((1, 0, 1), MIXED),
+    ],
 )
 def test_the_three_cases(w: tuple[float, float, float], case: int) -> None:
     clip = np.array([[[-0.5, -0.5, 0, w[0]], [0.5, -0.5, 0, w[1]], [0, 0.5, 0, w[2]]]])
@@ -79,7 +87,9 @@ def test_listing_of_the_block_test(case, block_size: int, column: int, row: int)
     edges, raster = edges_of(clip, size), make_raster(size, "half")
     count = len(edges)
     at = np.arange(count)
-    _, _, verdict, rejected_by = classify(edges, raster, at, np.full(count, column), np.full(count, row), block_size)
+    _, _, verdict, rejected_by = classify(
+        edges, raster, at, np.full(count, column), np.full(count, row), block_size
+    )
     for t in range(count):
         coefficients = list(zip(edges.a[t], edges.b[t], edges.c[t], edges.owns_tie[t], strict=True))
         left, bottom = column + 0.5, row + 0.5
@@ -94,7 +104,10 @@ def test_nodes_are_in_pre_order_and_say_the_truth(case, block_size: int, factor:
     edges, raster = edges_of(clip, size), make_raster(size, "half")
     boxes = bound(edges, raster)
     covered = cover_each(clip, size, "brute-force") > 0
-    for blocks in (one_level(edges, boxes, raster, block_size), two_levels(edges, boxes, raster, block_size, factor)):
+    for blocks in (
+        one_level(edges, boxes, raster, block_size),
+        two_levels(edges, boxes, raster, block_size, factor),
+    ):
         count = len(blocks.triangle)
         assert (np.diff(blocks.triangle) >= 0).all()
         assert (blocks.subtree_end > np.arange(count)).all()

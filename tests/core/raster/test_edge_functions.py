@@ -17,7 +17,20 @@ from tests.core.drawing import edges_of, facing_of, runs_of
 from tests.core.exact_reference import determinant, facing, homogeneous_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles, lattice_triangles
 
-DIRECTIONS = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (3, 1), (-1, 3), (-3, -1), (1, -3)]
+DIRECTIONS = [
+    (1, 0),
+    (1, 1),
+    (0, 1),
+    (-1, 1),
+    (-1, 0),
+    (-1, -1),
+    (0, -1),
+    (1, -1),
+    (3, 1),
+    (-1, 3),
+    (-3, -1),
+    (1, -3),
+]
 
 
 @given(lattice_triangles(), st.integers(0, 15), st.integers(0, 15))
@@ -32,7 +45,9 @@ def test_values_are_exact_for_projected_corners(case, column: int, row: int) -> 
         for k in range(3):
             (x1, y1), (x2, y2) = corner[k - 2], corner[k - 1]
             expected = turn * ((x2 - x1) * (Fraction(y) - y1) - (y2 - y1) * (Fraction(x) - x1))
-            assert edge_value(edges.a[t, k], edges.b[t, k], edges.c[t, k], x, y) == float(expected) == expected
+            assert (
+                edge_value(edges.a[t, k], edges.b[t, k], edges.c[t, k], x, y) == float(expected) == expected
+            )
 
 
 @given(lattice_triangles())
@@ -73,8 +88,8 @@ def test_edge_k_is_zero_at_its_ends_and_positive_at_corner_k(case) -> None:
 
 @pytest.mark.parametrize("direction", DIRECTIONS)
 def test_tie_rule_on_an_edge_of_every_direction(direction: tuple[int, int]) -> None:
-    # The edge runs through the centre (8.5, 8.5); its inside lies to the left of its direction. The point moved a
-    # step right, then a far smaller step up, lies on the left of the edge or on the right.
+    # The edge runs through the centre (8.5, 8.5); its inside lies to the left of its direction. The point
+    # moved a step right, then a far smaller step up, lies on the left of the edge or on the right.
     dx, dy = direction
     center = np.array([8.5, 8.5])
     start, end = center - 3 * np.array(direction), center + 3 * np.array(direction)
@@ -98,7 +113,10 @@ def test_tie_rule_on_an_edge_of_every_direction(direction: tuple[int, int]) -> N
         ([(-2.5, -2.5), (2.5, -2.5), (2.5, 2.5)], False),  # the top corner of a right edge
         ([(2.5, 2.5), (6.5, 0.5), (6.5, 4.5)], True),  # a corner that points left
         ([(-2.5, 0.5), (2.5, 2.5), (-2.5, 4.5)], False),  # a corner that points right
-        ([(2.5, 2.5), (4.5, 6.5), (0.5, 6.5)], False),  # a corner that points down: the point moves out to the right
+        (
+            [(2.5, 2.5), (4.5, 6.5), (0.5, 6.5)],
+            False,
+        ),  # a corner that points down: the point moves out to the right
         ([(2.5, 2.5), (0.5, -1.5), (4.5, -1.5)], False),  # a corner that points up
     ],
 )

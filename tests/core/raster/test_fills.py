@@ -50,8 +50,8 @@ def test_triangle_on_pixel_centres(fill: str) -> None:
 
 @pytest.mark.parametrize("fill", TESTING_FILLS)
 def test_triangle_with_a_corner_behind_the_eye_runs_off_the_window(fill: str) -> None:
-    # Two corners in front at (2, 1) and (6, 1); the third, at w = -1, projects to (4, -1): the sides open upwards.
-    # The left side meets the centres (1.5, 1.5) and (0.5, 2.5) and owns them, the right side does not.
+    # Two corners in front at (2, 1) and (6, 1); the third, at w = -1, projects to (4, -1): the sides open
+    # upwards. The left one meets the centres (1.5, 1.5) and (0.5, 2.5) and owns them, the right one does not.
     size = (8, 4)
     clip = clip_of_window([[(2, 1), (6, 1), (4, -1)]], size, [[1.0, 1.0, -1.0]])
     drawing = [
@@ -132,10 +132,14 @@ def test_fills_agree_on_any_numbers(numbers: list[float], size: tuple[int, int],
         assert np.array_equal(cover_each(clip, size, fill, block_size=block_size), expected), fill
 
 
-@pytest.mark.parametrize("reach", [2.0**16 - 16, 2.0**16 - 1 / 256, 2.0**16, 2.0**16 + 1 / 256, 2.0**16 + 16, 2.0**40])
+@pytest.mark.parametrize(
+    "reach", [2.0**16 - 16, 2.0**16 - 1 / 256, 2.0**16, 2.0**16 + 1 / 256, 2.0**16 + 16, 2.0**40]
+)
 def test_corners_at_and_past_the_snapping_limit(reach: float) -> None:
     size = (16, 12)
-    clip = clip_of_window([[(reach, 5.5), (3.5, reach), (-reach, 5.5)], [(2.5, 2.5), (reach, 2.5), (2.5, reach)]], size)
+    clip = clip_of_window(
+        [[(reach, 5.5), (3.5, reach), (-reach, 5.5)], [(2.5, 2.5), (reach, 2.5), (2.5, reach)]], size
+    )
     expected = exact_each(clip, size)
     for fill in TESTING_FILLS:
         assert np.array_equal(cover_each(clip, size, fill) > 0, expected), fill
@@ -144,11 +148,13 @@ def test_corners_at_and_past_the_snapping_limit(reach: float) -> None:
 @pytest.mark.parametrize("fill", ["hierarchy", "blocks", "bounding-box", "scanline"])
 @pytest.mark.parametrize("corner", [(0, 0), (8191, 8191), (8192, 8191), (16381, 16380), (16382, 16382)])
 def test_a_raster_of_16384_pixels_is_exact(fill: str, corner: tuple[int, int]) -> None:
-    # The flattest diagonal of the lattice passes some centres by 2^-9 pixel, and corners lie at the snapping limit.
+    # A diagonal that passes centres closely, and corners at the snapping limit.
     size = (16384, 16384)
     region = (*corner, 2, 2)
     end = 16383.5 - 1 / 256
-    clip = clip_of_window([[(0.5, 0.5), (16383.5, end), (0.5, 16383.5)], [(0.5, 0.5), (65536, 65536), (-65536, 0)]], size)
+    clip = clip_of_window(
+        [[(0.5, 0.5), (16383.5, end), (0.5, 16383.5)], [(0.5, 0.5), (65536, 65536), (-65536, 0)]], size
+    )
     for triangle in clip:
         drawn = cover_region(triangle[None], size, fill, region)
         assert np.array_equal(drawn, exact_coverage(triangle, size, region=region))

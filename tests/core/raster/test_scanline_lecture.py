@@ -1,4 +1,4 @@
-"""The lecture's scanline fill: it draws what the printed program draws, and that is wrong where the lecture slips."""
+"""The lecture's scanline fill draws what the printed program draws, and is wrong where the lecture slips."""
 
 import numpy as np
 import pytest
@@ -6,8 +6,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
-from core.raster.schedule import make_raster
 from core.raster.scanline_lecture import draw_triangle, halves, round_half_up, sort_corners
+from core.raster.schedule import make_raster
 from core.raster.snapping import place_corners
 from tests.core.drawing import cover_each, edges_of, facing_of, runs_of, text
 from tests.core.strategies import clip_of_window, window_points

@@ -18,7 +18,18 @@ def snapped(point: tuple[float, float], size: tuple[int, int] = (8, 8), w: float
 
 @pytest.mark.parametrize(
     ("subpixels", "expected"),
-    [(0.5, 0), (1.5, 2), (2.5, 2), (3.5, 4), (-0.5, 0), (-1.5, -2), (0.49, 0), (0.51, 1), (255.5, 256), (256.5, 256)],
+    [
+        (0.5, 0),
+        (1.5, 2),
+        (2.5, 2),
+        (3.5, 4),
+        (-0.5, 0),
+        (-1.5, -2),
+        (0.49, 0),
+        (0.51, 1),
+        (255.5, 256),
+        (256.5, 256),
+    ],
 )
 def test_half_a_subpixel_rounds_to_even(subpixels: float, expected: int) -> None:
     position, _ = snapped((subpixels / 256, 1.0))

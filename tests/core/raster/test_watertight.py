@@ -1,4 +1,4 @@
-"""The watertight law: the signed cover of every pixel is right, and it is drawn once where no triangle turns over."""
+"""Watertight: the signed cover of every pixel is right; it is drawn once where no triangle turns over."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,16 @@ def round_rim(center, radius: float, count: int, turn: float = 0.0) -> np.ndarra
 def test_fan_around_a_pixel_centre(fill: str) -> None:
     # Its 8 triangles share the centre (4.5, 3.5) and have centres on their sides in all 8 directions.
     size = (9, 7)
-    rim = [(9.5, 3.5), (9.5, 8.5), (4.5, 8.5), (-0.5, 8.5), (-0.5, 3.5), (-0.5, -1.5), (4.5, -1.5), (9.5, -1.5)]
+    rim = [
+        (9.5, 3.5),
+        (9.5, 8.5),
+        (4.5, 8.5),
+        (-0.5, 8.5),
+        (-0.5, 3.5),
+        (-0.5, -1.5),
+        (4.5, -1.5),
+        (9.5, -1.5),
+    ]
     each = cover_each(clip_of_window(fan((4.5, 3.5), rim), size), size, fill)
     owner = each.argmax(axis=0) + 1
     assert (each.sum(axis=0) == 1).all()
@@ -45,7 +54,10 @@ def test_fans_with_hubs_on_centres_edges_and_corners_of_pixels(seed: int, steps:
     generator = np.random.default_rng(seed)
     size = (12, 10)
     hub = np.array([5, 4]) + offset
-    rim = np.round(round_rim(hub, 40, int(generator.integers(3, 24)), generator.uniform(0, 6.3)) * steps) / steps
+    rim = (
+        np.round(round_rim(hub, 40, int(generator.integers(3, 24)), generator.uniform(0, 6.3)) * steps)
+        / steps
+    )
     assert (cover_each(clip_of_window(fan(hub, rim), size), size).sum(axis=0) == 1).all()
 
 
@@ -80,7 +92,7 @@ def test_jittered_grids(seed: int, cell: float) -> None:
 
 @given(SEEDS, st.sampled_from(TESTING_FILLS))
 def test_sphere_from_inside_covers_every_pixel_once(seed: int, fill: str) -> None:
-    # From inside a closed surface every ray leaves once, through a back face; many triangles cross the eye plane.
+    # From inside a closed surface every ray leaves once, through a back face; many triangles cross the eye.
     generator = np.random.default_rng(seed)
     positions, triangles = icosphere(int(generator.integers(0, 3)))
     eye = generator.normal(size=3)
@@ -113,7 +125,9 @@ def test_torus_from_inside_its_tube_and_from_outside(seed: int) -> None:
 def test_a_mesh_drawn_by_the_pipeline_is_watertight_with_the_depth_test_off(seed: int) -> None:
     generator = np.random.default_rng(seed)
     positions, triangles = icosphere(1)
-    clip = clip_of_view(positions, triangles, generator.uniform(-0.4, 0.4, 3), random_rotation(generator), near=0.01)
+    clip = clip_of_view(
+        positions, triangles, generator.uniform(-0.4, 0.4, 3), random_rotation(generator), near=0.01
+    )
     frame = render(ClipScene(clip, size=(20, 20)), Settings(visibility="last-drawn"))
     assert (frame.cover_count == 1).all()
     assert (frame.primitive >= 0).all()
@@ -126,7 +140,9 @@ def test_clipped_meshes_stay_watertight(seed: int, planes: tuple[int, ...]) -> N
     eye = generator.normal(size=3)
     eye *= generator.uniform(0, 0.7) / np.linalg.norm(eye)
     clip = clip_of_view(positions, triangles, eye, random_rotation(generator), near=0.02)
-    primitives = Primitives(clip, np.zeros((len(clip), 3, 0)), np.arange(len(clip)), np.zeros(len(clip), int), {})
+    primitives = Primitives(
+        clip, np.zeros((len(clip), 3, 0)), np.arange(len(clip)), np.zeros(len(clip), int), {}
+    )
     pieces = clip_primitives(primitives, plane_distances(clip), planes).primitives.clip
     size = (19, 13)
     assert (pieces[..., 3] >= 0).all()
@@ -135,7 +151,7 @@ def test_clipped_meshes_stay_watertight(seed: int, planes: tuple[int, ...]) -> N
 
 @given(SEEDS, st.integers(1, 3))
 def test_the_sides_of_an_edge_decide_alike_whatever_lies_behind_the_eye(seed: int, unprojected: int) -> None:
-    # Two triangles on one edge: neither both nor none draw a pixel near it. The third corners may lie anywhere.
+    # Two triangles on one edge: not both and not none draw a pixel near it; third corners lie anywhere.
     generator = np.random.default_rng(seed)
     size = (16, 16)
     start, end = generator.integers(-2, 36, (2, 2)) / 2

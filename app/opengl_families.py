@@ -1,18 +1,17 @@
-"""Cases for the comparison with OpenGL: triangles and lines in clip space, made afresh from a seed, by family.
+"""Families of random cases for the comparison with OpenGL, made afresh from a seed.
 
-OpenGL leaves three things to an implementation, and most cases keep clear of them, so that a picture has only one
-right answer. Window positions are computed in float32, so corners stand near the middle of a step of the 1/256
-pixel lattice, never where a rounding error would snap them to the neighbouring step. Triangles that reach out of
-the window may be clipped there and snapped again, so the clip planes are moved out (``guard``) where the outcome
-shall be exact. Attributes are evaluated with float32 planes, so the families have tolerances.
+OpenGL leaves three things to an implementation, and most cases keep clear of them, so that a picture has only
+one right answer. Window positions are computed in float32: corners stand near the middle of a step of the
+1/256 pixel lattice, never where a rounding error would snap them to the next one. Triangles that reach out of
+the window may be clipped there and snapped again: the clip planes are moved out (``guard``), except in the
+families that are about clipping. Values are evaluated in float32: see `app.opengl_compare`.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from app.opengl_case import STEP, Case, clip_positions, settle
 from app.opengl_shapes import (
     fan,
     gradual_values,
@@ -24,75 +23,8 @@ from app.opengl_shapes import (
     torus,
     turned,
 )
-from core.arrays import Floats, Singles
+from core.arrays import Floats
 from core.scene import Texture
-from core.settings import Settings
-
-STEP = 1 / 256
-"""Pixels between two places of the lattice that coverage is decided on."""
-
-
-@dataclass(frozen=True, eq=False)
-class Case:
-    """Triangles or lines in clip space, and how to draw them; nothing else takes part in the picture."""
-
-    family: str
-    clip: Singles
-    """(T, 3, 4) or, for lines, (L, 2, 4) float32 clip x, y, z, w."""
-    attributes: Singles
-    """(T, 3, K) or (L, 2, K) float32; the colour, or the first two texture coordinates."""
-    size: tuple[int, int]
-    """(width, height) in pixels."""
-    texture: Texture | None = None
-    cull: str = "none"
-    depth_test: bool = False
-    """Nearer wins and a tie keeps what is there; else what is drawn last wins, and its depth is stored."""
-    interpolation: str = "perspective"
-    provoking: str = "last"
-    texture_filter: str = "nearest"
-    wrap: str = "clamp"
-    guard: int = 1
-    """The clip planes in x and y are moved out this many times (a power of two; sides of the raster must then be
-    even): nothing within is clipped."""
-
-    def __post_init__(self) -> None:
-        if self.guard > 1 and (self.size[0] % 2 or self.size[1] % 2):
-            raise ValueError(f"size must be even for a guard of {self.guard}, got {self.size}")
-
-    @property
-    def is_lines(self) -> bool:
-        """Whether the primitives are line segments."""
-        return self.clip.shape[1] == 2
-
-    def settings(self, fill: str = "hierarchy") -> Settings:
-        """Return how the core draws the triangles of this case, with one of the fills."""
-        return Settings(
-            cull=self.cull,
-            fill=fill,
-            interpolation=self.interpolation,
-            provoking=self.provoking,
-            texture_filter=self.texture_filter,
-            wrap=self.wrap,
-            shading="unlit",
-            visibility="z-buffer" if self.depth_test else "last-drawn",
-        )
-
-
-def clip_positions(window: Floats, depth: ArrayLike, w: ArrayLike, size: tuple[int, int]) -> Singles:
-    """Return the clip positions (..., 4) float32 of window positions (..., 2) in pixels, depths and clip w (...)."""
-    weight = np.broadcast_to(np.asarray(w, float), window.shape[:-1])[..., None]
-    ndc = window * 2 / np.array(size) - 1
-    z = np.broadcast_to(np.asarray(depth, float), window.shape[:-1])[..., None] * 2 - 1
-    return np.concatenate([ndc * weight, z * weight, weight], axis=-1).astype(np.float32)
-
-
-def settle(clip: Singles, size: tuple[int, int]) -> Singles:
-    """Move clip positions (..., 4), all w > 0, by under 1/256 pixel away from where rounding would turn the snap."""
-    w = clip[..., 3].astype(float)
-    steps = (clip[..., :2] / w[..., None] + 1) * np.array(size) / 2 / STEP
-    whole = np.rint(steps)
-    window = (whole + np.clip(steps - whole, -0.3, 0.3)) * STEP
-    return clip_positions(window, (clip[..., 2] / w + 1) / 2, w, size)
 
 
 def _size(rng: np.random.Generator, limit: int, even: bool = False) -> tuple[int, int]:
@@ -129,7 +61,9 @@ def _culling(rng: np.random.Generator, limit: int) -> Case:
     size = _size(rng, limit)
     corners = np.stack([_big_triangle(rng, size) for _ in range(5)])
     clip = clip_positions(corners, rng.uniform(0.05, 0.95, (5, 3)), _weights(rng, (5, 3)), size)
-    return Case("culling", clip, gradual_values(rng, (5, 3, 3)), size, cull=str(rng.choice(["back", "front"])))
+    return Case(
+        "culling", clip, gradual_values(rng, (5, 3, 3)), size, cull=str(rng.choice(["back", "front"]))
+    )
 
 
 def _flat(rng: np.random.Generator, limit: int) -> Case:
@@ -163,7 +97,7 @@ def _shared(rng: np.random.Generator, limit: int) -> Case:
 
 
 def _sliver(rng: np.random.Generator, limit: int) -> Case:
-    """Long triangles from 2/256 to 1.5 pixels wide: upright, level, diagonal through pixel centres, or any way."""
+    """A long triangle 2/256 to 1.5 pixels wide: upright, level, diagonal through pixel centres, or any way."""
     size = _size(rng, limit)
     directions = np.array([[0, 1], [1, 0], [1, 1], [1, -1], rng.normal(size=2)])
     along = directions[rng.integers(5)]
@@ -181,7 +115,7 @@ def _sliver(rng: np.random.Generator, limit: int) -> Case:
 
 
 def _subpixel(rng: np.random.Generator, limit: int) -> Case:
-    """Many triangles smaller than a pixel, of which few have a pixel centre; each of one colour and one depth."""
+    """Triangles smaller than a pixel, most without a pixel centre; each of one colour and one depth."""
     size = _size(rng, limit, even=True)
     count = 200
     middle = rng.uniform(0, 1, (count, 1, 2)) * size
@@ -212,11 +146,13 @@ def _clipped(rng: np.random.Generator, limit: int) -> Case:
 
 
 def _near(rng: np.random.Generator, limit: int) -> Case:
-    """Triangles through the near plane, the eye plane and the far plane, the ground, points at infinity, w = 0."""
+    """Triangles through the near, eye and far plane, a plane to the horizon, points at infinity, w = 0."""
     size = _size(rng, limit)
     matrix = perspective_matrix(rng.uniform(0.6, 1.4), size[0] / size[1], 0.5, 20)
     kind = rng.integers(5)
-    points = np.concatenate([rng.uniform(-3, 3, (3, 2)), rng.uniform(-9, -1, (3, 1)), np.ones((3, 1))], axis=1)
+    points = np.concatenate(
+        [rng.uniform(-3, 3, (3, 2)), rng.uniform(-9, -1, (3, 1)), np.ones((3, 1))], axis=1
+    )
     if kind < 3:
         behind = rng.permutation(3)[: rng.integers(1, 3)]
         points[behind, 2] = rng.uniform((-0.5, 0.0, 0.0)[kind], (0.0, 3.0, 0.0)[kind], len(behind))
@@ -250,7 +186,7 @@ def _textured(rng: np.random.Generator, limit: int, texture_filter: str) -> Case
         clip[corners],
         uv[corners].astype(np.float32),
         size,
-        texture=Texture(texels / np.float32(256)),
+        texture=Texture((texels / 256).astype(np.float32)),
         depth_test=True,
         texture_filter=texture_filter,
         wrap=str(rng.choice(["clamp", "repeat"])),
@@ -294,45 +230,55 @@ def _mesh(rng: np.random.Generator, limit: int) -> Case:
 
 
 def _octants(rng: np.random.Generator, limit: int) -> Case:
-    """Lines between pixel centres in all octants; an odd number of steps each, so that no pixel is a tie."""
+    """Lines between pixels inside all octants, an odd number of steps each, so that no pixel is a tie.
+
+    All are shifted along themselves by 2/256 pixel: a start or end exactly on a pixel's centre is drawn by some
+    implementations and lost by others, as the rounding of the window position has it.
+    """
     size = _size(rng, limit)
-    count = 8
-    hub = np.floor(np.array(size) / 2)
     reach = (min(size) // 2 - 2) // 2 * 2 + 1
-    major = rng.integers(0, (reach + 1) // 2, count) * 2 + 1
-    minor = (rng.random(count) * major).astype(int)
-    octant = np.arange(count)
+    major = rng.integers(0, (reach + 1) // 2, 8) * 2 + 1
+    minor = (rng.random(8) * major).astype(int)
+    octant = np.arange(8)
+    is_steep = octant[:, None] >= 4
     signs = np.stack([1 - octant % 2 * 2, 1 - octant // 2 % 2 * 2], axis=1)
-    offset = np.where(octant[:, None] < 4, np.stack([major, minor], 1), np.stack([minor, major], 1)) * signs
-    start = np.clip(hub + rng.integers(-1, 2, (count, 2)), 0, np.array(size) - 1)
-    end = np.clip(start + offset, 0, np.array(size) - 1)
-    is_odd = np.abs(end - start).max(axis=1) % 2 == 1
-    return _line_case(rng, "octants", np.stack([start, end], axis=1)[is_odd] + 0.5, size)
+    offset = np.where(is_steep, np.stack([minor, major], 1), np.stack([major, minor], 1)) * signs
+    start = np.array(size) // 2 + rng.integers(-1, 2, (8, 2))
+    shift = np.where(is_steep, [0, 2], [2, 0]) * signs * rng.choice([-1, 1]) * STEP
+    ends = np.stack([start, start + offset], axis=1) + 0.5 + shift[:, None]
+    return _line_case(rng, "octants", ends, size)
 
 
 def _line_ends(rng: np.random.Generator, limit: int) -> Case:
     """Lines with ends anywhere in the window: long, short, shorter than a pixel, and closed loops."""
     size = _size(rng, limit)
     count = int(rng.integers(3, 12))
-    kind = rng.integers(3)
     start = rng.uniform(0.05, 0.95, (count, 2)) * size
+    kind = rng.integers(3)
     if kind == 0:
         end = rng.uniform(0.05, 0.95, (count, 2)) * size
     elif kind == 1:
         end = np.clip(start + rng.normal(0, 1, (count, 2)), 0.1, np.array(size) - 0.1)
     else:
         end = np.roll(start, -1, axis=0)
-    segments = np.floor(np.stack([start, end], axis=1) / STEP)
-    # Off the lattice, each coordinate by another amount, so that no end lies on the border of a diamond.
-    offset = rng.uniform(0.05, 0.3, (count, 2, 2)) if kind < 2 else rng.uniform(0.05, 0.3, (count, 1, 2))
-    if kind == 2:
-        offset = np.concatenate([offset, np.roll(offset, -1, axis=0)], axis=1)
-    return _line_case(rng, "line-ends", (segments + offset) * STEP, size)
+    return _line_case(rng, "line-ends", _off_ties(np.stack([start, end], axis=1)), size)
+
+
+def _off_ties(window: Floats) -> Floats:
+    """Move window positions off the middles and borders of pixels, each by another amount below 1/64 pixel.
+
+    So no end lies on the border of a diamond, nor where float32 and the 1/256 lattice may put it on either
+    side of a pixel's middle.
+    """
+    whole = np.floor(window * 2) / 2
+    return whole + 3.3 * STEP + (window - whole) * (1 - 13 * STEP)
 
 
 def _line_case(rng: np.random.Generator, family: str, segments: Floats, size: tuple[int, int]) -> Case:
     shape = segments.shape[:2]
-    clip = clip_positions(segments, rng.uniform(0.1, 0.9, shape), _weights(rng, shape), size)
+    is_long = np.abs(segments[:, 1] - segments[:, 0]).max(axis=1) > 4
+    w = np.where(is_long[:, None], rng.uniform(0.7, 1.4, shape), 1.0)
+    clip = clip_positions(segments, rng.uniform(0.1, 0.9, shape), w, size)
     return Case(family, clip, gradual_values(rng, (*shape, 3)), size)
 
 

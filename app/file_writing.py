@@ -1,0 +1,79 @@
+"""Writing a file whole or not at all: what was there stays until the new content is complete."""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+
+class FileWriteError(OSError):
+    """A file cannot be written; the message is one sentence that names it."""
+
+
+@contextmanager
+def whole_file(path: str | Path) -> Iterator[BinaryIO]:
+    """Open a file beside ``path`` for binary writing, and move it there when the block is done.
+
+    Parameters
+    ----------
+    path : str or Path
+        A link is followed; a device or pipe is written directly.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written; what stood at ``path`` is as it was.
+    """
+    target = Path(os.path.realpath(path))
+    try:
+        if target.is_dir():
+            raise FileWriteError(f"{path} cannot be written: it is a folder")
+        if target.exists() and not target.is_file():
+            with target.open("wb") as file:
+                yield file
+            return
+        with _beside(target) as file:
+            yield file
+    except FileWriteError:
+        raise
+    except OSError as problem:
+        raise FileWriteError(f"{path} cannot be written: {_reason(problem, target)}") from problem
+
+
+@contextmanager
+def _beside(target: Path) -> Iterator[BinaryIO]:
+    """Open a new file in the folder of ``target`` that replaces it at the end, or disappears."""
+    if target.exists() and not os.access(target, os.W_OK):
+        raise FileWriteError(f"{target} cannot be written: permission is denied")
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, _mode(target))
+        os.replace(name, target)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(name)
+        raise
+
+
+def _mode(target: Path) -> int:
+    """Return the permissions of the file that is replaced, or those of a new one."""
+    if target.exists():
+        return target.stat().st_mode & 0o7777
+    umask = os.umask(0)
+    os.umask(umask)
+    return 0o666 & ~umask
+
+
+def _reason(problem: OSError, target: Path) -> str:
+    """Say in plain words why a file could not be written."""
+    if isinstance(problem, FileNotFoundError) and not target.parent.exists():
+        return f"there is no folder {target.parent}"
+    if isinstance(problem, PermissionError):
+        return "permission is denied"
+    return (problem.strerror or str(problem) or type(problem).__name__).lower()

@@ -1,0 +1,635 @@
+"""The main window: menus, pages, opening and saving, and how it comes back as it was left."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, Qt, QTimer, Slot
+from PySide6.QtGui import QAction, QActionGroup, QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QResizeEvent
+from PySide6.QtWidgets import (
+    QApplication,
+    QFileDialog,
+    QInputDialog,
+    QLabel,
+    QMainWindow,
+    QMenu,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.document import (
+    TEACHING_SIZES,
+    Document,
+    TeachingRaster,
+    fit_region,
+    focus_on,
+    open_document,
+    same_view,
+)
+from app.export import copy_widget, export_widget
+from app.keys import ACTIONS, KeyAction, key_text
+from app.mesh_files import EXTENSIONS, OpeningCancelledError
+from app.open_any import Opened, open_any
+from app.preferences import Preferences, load_preferences, preferences_folder, save_preferences
+from app.scene_edits import join_shared, split_shared
+from app.session import Session
+from app.state_files import EXTENSION, State, StateFileError, save_state
+from app.step_page import StepPage
+from app.stepping_presenter import Bookmark
+from app.workers import Job, Progress
+from core.scene import ClipScene
+from core.steps import Level
+from lessons.scenes import CATALOGUE, make_scene
+from widgets.key_help import KeyEntry, KeyHelp
+from widgets.message_bar import Message, MessageBar, MessageKind
+from widgets.message_bar import Progress as ProgressRecord
+from widgets.theme import DARK, LIGHT, PRESENTER, Theme, apply_theme, current_theme
+
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "View", "Help")
+THEMES = {"light": LIGHT, "dark": DARK, "presenter": PRESENTER}
+PROGRESS_AFTER = 300
+"""Milliseconds before the progress of opening a file is shown."""
+
+
+class MainWindow(QMainWindow):
+    """One session and the pages around it."""
+
+    def __init__(self, document: Document, preferences: Preferences | None = None) -> None:
+        super().__init__()
+        self.preferences = preferences or Preferences()
+        self.session = Session(document, self)
+        self.page = StepPage(self.session, self)
+        self.messages = MessageBar(self)
+        self.key_help = KeyHelp(self)
+        self.key_help.hide()
+        self.job = Job(self)
+        self._slow = QTimer(self)
+        self._slow.setSingleShot(True)
+        self._slow.setInterval(PROGRESS_AFTER)
+        self._doing = ""
+        self.actions_by_name: dict[str, QAction] = {}
+        self.setAcceptDrops(True)
+        self.setMinimumSize(900, 600)
+        self._lay_out()
+        self._make_menus()
+        self._connect()
+        self._show_document()
+
+    # Layout.
+
+    def _lay_out(self) -> None:
+        central = QWidget(self)
+        layout = QVBoxLayout(central)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.messages)
+        layout.addWidget(self.page, 1)
+        self.setCentralWidget(central)
+        self.messages.clear()
+        self.pointed = QLabel(self)
+        self.statusBar().addPermanentWidget(self.pointed)
+        self.statusBar().setSizeGripEnabled(False)
+
+    def _make_menus(self) -> None:
+        menus = {title: self.menuBar().addMenu(f"&{title}") for title in MENUS}
+        self.recent_menu = QMenu("Open &recent", self)
+        self.scene_menu = QMenu("Built-in &scenes", self)
+        for action in ACTIONS:
+            made = self._make_action(action)
+            if action.menu:
+                menus[action.menu].addAction(made)
+            else:
+                self.addAction(made)
+            if action.name == "open_file":
+                menus["File"].addMenu(self.recent_menu)
+                menus["File"].addMenu(self.scene_menu)
+            if action.name in ("save_state", "copy_view", "redo", "visited_forward", "next_view", "predict"):
+                menus[action.menu].addSeparator()
+        for scene in CATALOGUE:
+            made = self.scene_menu.addAction(scene.title)
+            made.setStatusTip(scene.description)
+            made.setToolTip(scene.description)
+            made.setData(scene.name)
+        self.scene_menu.setToolTipsVisible(True)
+        self.scene_menu.triggered.connect(self._open_scene)
+        self.recent_menu.triggered.connect(self._open_recent)
+        self.recent_menu.aboutToShow.connect(self._fill_recent)
+        self._make_raster_menu(menus["Raster"])
+        self._make_theme_menu(menus["View"])
+
+    def _make_raster_menu(self, menu: QMenu) -> None:
+        sizes = menu.addMenu("Whole view at")
+        for columns, rows in TEACHING_SIZES:
+            made = sizes.addAction(f"{columns} × {rows}")
+            made.setData((columns, rows))
+        sizes.triggered.connect(self._choose_raster)
+
+    def _make_theme_menu(self, menu: QMenu) -> None:
+        themes = menu.addMenu("Theme")
+        group = QActionGroup(self)
+        for name in THEMES:
+            made = themes.addAction({"presenter": "Presenter (large type)"}.get(name, name.capitalize()))
+            made.setCheckable(True)
+            made.setData(name)
+            made.setChecked(THEMES[name] == current_theme())
+            group.addAction(made)
+        themes.triggered.connect(self._choose_theme)
+        self.theme_group = group
+
+    def _make_action(self, entry: KeyAction) -> QAction:
+        made = QAction(entry.title, self)
+        made.setShortcuts([QKeySequence(key) for key in entry.keys])
+        made.setCheckable(entry.is_checkable)
+        made.setData(entry.name)
+        if entry.keys:
+            made.setToolTip(f"{entry.title} ({key_text(entry)})")
+        made.triggered.connect(self._run_action)
+        self.actions_by_name[entry.name] = made
+        return made
+
+    def _connect(self) -> None:
+        self.session.document_changed.connect(self._show_document)
+        self.session.history_changed.connect(self._show_history)
+        self.session.hover_changed.connect(self._show_pointed)
+        self.session.pin_changed.connect(self._show_pointed)
+        self.session.cursor_changed.connect(self._show_pointed)
+        self.page.message_sent.connect(self.tell)
+        self.page.comparing.edit_refused.connect(self.tell)
+        self.page.views.triangle_picked.connect(self.focus_triangle)
+        self.key_help.closed.connect(self.key_help.hide)
+        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in ACTIONS if a.keys])
+        self.messages.message_dismissed.connect(self.messages.clear)
+        self.messages.cancel_requested.connect(self.job.cancel)
+        self.job.progressed.connect(self._progress)
+        self.job.succeeded.connect(self._opened)
+        self.job.failed.connect(self._not_opened)
+        self.job.ended.connect(self._job_ended)
+        self._slow.timeout.connect(self._show_slow)
+
+    # Actions by key and menu.
+
+    @Slot()
+    def _run_action(self) -> None:
+        action = self.sender()
+        assert isinstance(action, QAction)
+        self.run_action(action.data())
+
+    def run_action(self, name: str) -> None:
+        """Do what the key of this name does."""
+        page, session, stepping = self.page, self.session, self.page.stepping
+        for prefix, handler in (("stage_", stepping.choose_stage), ("bookmark_", stepping.go_to_bookmark)):
+            if name.startswith(prefix):
+                handler(int(name.removeprefix(prefix)))
+                return
+        handlers = {
+            "step_forward": lambda: stepping.step(1),
+            "step_back": lambda: stepping.step(-1),
+            "larger_forward": lambda: stepping.step_larger(1),
+            "larger_back": lambda: stepping.step_larger(-1),
+            "level_in": lambda: stepping.change_level(1),
+            "level_out": lambda: stepping.change_level(-1),
+            "go_first": lambda: stepping.go_to_end(-1),
+            "go_last": lambda: stepping.go_to_end(1),
+            "toggle_play": stepping.toggle_play,
+            "faster": lambda: page.timeline.change_speed(1),
+            "slower": lambda: page.timeline.change_speed(-1),
+            "visited_back": session.go_back,
+            "visited_forward": session.go_forward,
+            "next_at_pin": lambda: stepping.run_to_pin(1),
+            "previous_at_pin": lambda: stepping.run_to_pin(-1),
+            "next_event": lambda: stepping.run_to_event(1),
+            "previous_event": lambda: stepping.run_to_event(-1),
+            "run_forward": lambda: stepping.run_to_breakpoint(1),
+            "run_back": lambda: stepping.run_to_breakpoint(-1),
+            "toggle_breakpoint": stepping.toggle_pixel_breakpoint,
+            "toggle_bookmark": stepping.toggle_bookmark,
+            "next_stage": lambda: session.next_stage(1),
+            "previous_stage": lambda: session.next_stage(-1),
+            "pin_left": lambda: session.nudge_pin(-1, 0),
+            "pin_right": lambda: session.nudge_pin(1, 0),
+            "pin_up": lambda: session.nudge_pin(0, 1),
+            "pin_down": lambda: session.nudge_pin(0, -1),
+            "go_to_pixel": self.ask_pixel,
+            "unpin": self.dismiss,
+            "fit_view": page.grid.fit,
+            "next_view": page.next_view,
+            "compare": self.toggle_compare,
+            "predict": self.toggle_predict,
+            "toggle_theme": self.toggle_theme,
+            "show_keys": self.show_keys,
+            "undo": session.undo,
+            "redo": session.redo,
+            "fit_region": lambda: session.edit(fit_region(session.document)),
+            "toggle_shared": self.toggle_shared,
+            "focus_all": self.focus_all,
+            "toggle_cleared": self.toggle_cleared,
+            "open_file": self.ask_file,
+            "save_state": self.ask_save,
+            "export_view": self.ask_export,
+            "copy_view": lambda: copy_widget(self.page.view_stack.currentWidget()),
+            "quit": self.close,
+        }
+        handlers[name]()
+
+    def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
+        """Show a message where the window is looked at; it does not stop anything."""
+        self.messages.show_message(Message(kind, text, details))
+
+    def dismiss(self) -> None:
+        """Close what is open on top, or else take the pin away."""
+        if self.key_help.isVisible():
+            self.key_help.hide()
+        elif self.messages.isVisible():
+            self.messages.clear()
+        else:
+            self.session.set_pin(None)
+
+    def show_keys(self) -> None:
+        """Show or hide the page of all keys."""
+        self.key_help.setGeometry(self.centralWidget().geometry().adjusted(24, 24, -24, -24))
+        self.key_help.setVisible(not self.key_help.isVisible())
+        self.key_help.raise_()
+
+    def toggle_compare(self) -> None:
+        """Show A | B | difference, or the pixels again."""
+        self.page.show_view("pixels" if self.page.current_view() == "compare" else "compare")
+        self.actions_by_name["compare"].setChecked(self.page.current_view() == "compare")
+
+    def toggle_predict(self) -> None:
+        """Ask before showing, or stop asking."""
+        is_on = not self.page.predicting.is_active
+        self.page.set_predicting(is_on)
+        self.actions_by_name["predict"].setChecked(is_on)
+
+    def toggle_theme(self) -> None:
+        """Change between light and dark."""
+        self.set_theme("light" if current_theme() == DARK else "dark")
+
+    def set_theme(self, name: str) -> None:
+        """Show the window in a theme by its name."""
+        application = _application()
+        apply_theme(application, THEMES[name])
+        self.preferences = self.preferences.model_copy(update={"theme": name})
+        for action in self.theme_group.actions():
+            action.setChecked(action.data() == name)
+
+    def toggle_shared(self) -> None:
+        """Let corners at one place move together, or each by itself."""
+        document = self.session.document
+        scene = document.scene
+        if not isinstance(scene, ClipScene):
+            self.tell("Vertices of a mesh are always shared by its triangles.")
+            self._show_document()
+            return
+        edited = split_shared(scene) if scene.shared is not None else join_shared(scene)
+        self.session.edit(replace(document, scene=edited))
+
+    def focus_all(self) -> None:
+        """Step all triangles instead of the one in focus."""
+        document = self.session.document
+        self.session.edit(replace(document, triangle=None, raster=same_view(document.scene, 64, 48)))
+
+    @Slot(int)
+    def focus_triangle(self, triangle: int) -> None:
+        """Bring a triangle into focus."""
+        self.session.edit(focus_on(self.session.document, triangle))
+
+    def toggle_cleared(self) -> None:
+        """Start from cleared buffers, or as the earlier triangles left them."""
+        document = self.session.document
+        before = "earlier" if document.before == "cleared" else "cleared"
+        self.session.edit(replace(document, before=before))
+
+    @Slot(QAction)
+    def _choose_raster(self, action: QAction) -> None:
+        document = self.session.document
+        columns, rows = action.data()
+        self.session.edit(replace(document, raster=TeachingRaster(columns, rows)))
+
+    @Slot(QAction)
+    def _choose_theme(self, action: QAction) -> None:
+        self.set_theme(action.data())
+
+    def ask_pixel(self) -> None:
+        """Ask for a pixel and pin it."""
+        first_column, first_row, end_column, end_row = self.session.trace.source.raster.bounds
+        hint = f"Column {first_column} to {end_column - 1}, row {first_row} to {end_row - 1}, as 12, 7"
+        text, is_given = QInputDialog.getText(self, "Go to pixel", hint)
+        if not is_given:
+            return
+        try:
+            column, row = (int(part) for part in text.replace(",", " ").split())
+        except ValueError:
+            self.tell(f"Wanted column and row, as 12, 7; got “{text}”.", MessageKind.WARNING)
+            return
+        if self.session.has_pixel((column, row)):
+            self.session.set_pin((column, row))
+        else:
+            self.tell(f"Pixel ({column}, {row}) is not in the raster. {hint}.", MessageKind.WARNING)
+
+    # Opening and saving.
+
+    def ask_file(self) -> None:
+        """Ask for a mesh or state file and open it."""
+        endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION))
+        folder = str(Path(self.session.document.path).parent) if self.session.document.path else ""
+        path, _ = QFileDialog.getOpenFileName(self, "Open", folder, f"Meshes and states ({endings});;All files (*)")
+        if path:
+            self.open_path(path)
+
+    def open_path(self, target: str) -> None:
+        """Open a mesh, a state or a built-in scene off the GUI thread; the open scene stays until it is there."""
+        self._doing = f"Opening {Path(target).name}"
+
+        def work(progress: Progress, is_cancelled: object) -> Opened:
+            return open_any(target, progress, is_cancelled)  # type: ignore[arg-type]
+
+        self._slow.start()
+        self.job.start(work)
+
+    @Slot(object, str)
+    def _progress(self, fraction: float | None, doing: str) -> None:
+        self._doing = doing or self._doing
+        if not self._slow.isActive():
+            done = 0 if fraction is None else round(fraction * 100)
+            self.messages.show_progress(ProgressRecord(self._doing, done, 0 if fraction is None else 100))
+
+    @Slot()
+    def _show_slow(self) -> None:
+        if self.job.is_running:
+            self.messages.show_progress(ProgressRecord(self._doing, 0, 0))
+
+    @Slot()
+    def _job_ended(self) -> None:
+        self._slow.stop()
+        self.messages.show_progress(None)
+
+    @Slot(object)
+    def _opened(self, opened: Opened) -> None:
+        self.show_opened(opened)
+        self.messages.clear()
+        if opened.warnings:
+            self.tell(opened.warnings[0], MessageKind.WARNING, "\n".join(opened.warnings[1:]))
+        if opened.document.path:
+            self._remember_file(opened.document.path)
+
+    def show_opened(self, opened: Opened) -> None:
+        """Show what was opened: a scene from its start, a state where it was left."""
+        self.session.open(opened.document)
+        state = opened.state
+        if state is None:
+            self.session.set_stage("raster", 0)
+            return
+        self.page.stepping.bookmarks = [Bookmark(stage, position) for stage, position in state.bookmarks]
+        self.session.set_level(Level(state.level))
+        self.session.set_stage(state.stage, state.position)
+        self.session.set_pin(state.pin)
+        self.page.show_view(state.view)
+
+    @Slot(object)
+    def _not_opened(self, error: Exception) -> None:
+        if isinstance(error, OpeningCancelledError):
+            self.tell("Opening was cancelled; nothing has changed.")
+        elif isinstance(error, ValueError | OSError | MemoryError):
+            self.tell(f"{error} The open scene stays as it was.", MessageKind.ERROR)
+        else:
+            raise error
+
+    @Slot(QAction)
+    def _open_scene(self, action: QAction) -> None:
+        name = action.data()
+        title = next(scene.title for scene in CATALOGUE if scene.name == name)
+        self.show_opened(Opened(open_document(make_scene(name), title)))
+
+    @Slot(QAction)
+    def _open_recent(self, action: QAction) -> None:
+        if action.data():
+            self.open_path(action.data())
+
+    @Slot()
+    def _fill_recent(self) -> None:
+        self.recent_menu.clear()
+        for path in self.preferences.recent_files:
+            self.recent_menu.addAction(path).setData(path)
+        if self.recent_menu.isEmpty():
+            self.recent_menu.addAction("No files yet").setEnabled(False)
+
+    def _remember_file(self, path: str) -> None:
+        recent = [path, *(other for other in self.preferences.recent_files if other != path)][:10]
+        self.preferences = self.preferences.model_copy(update={"recent_files": recent})
+
+    def state(self) -> State:
+        """Return what a state file keeps."""
+        cursor = self.session.cursor
+        return State(
+            document=self.session.document,
+            stage=cursor.stage,
+            position=cursor.position,
+            level=int(cursor.level),
+            pin=self.session.pin,
+            bookmarks=[(mark.stage, mark.position) for mark in self.page.stepping.bookmarks],
+            view=self.page.current_view(),
+        )
+
+    def ask_save(self) -> None:
+        """Ask where the state is to be saved, and save it."""
+        path, _ = QFileDialog.getSaveFileName(self, "Save state", f"state{EXTENSION}", f"States (*{EXTENSION})")
+        if path:
+            self.save_to(path)
+
+    def save_to(self, path: str) -> None:
+        """Save the state to a file."""
+        try:
+            save_state(path, self.state())
+        except (OSError, StateFileError) as error:
+            self.tell(f"The state was not saved: {error}", MessageKind.ERROR)
+        else:
+            self._remember_file(path)
+            self.tell(f"Saved {Path(path).name}.")
+
+    def ask_export(self) -> None:
+        """Ask where the current view is to go, and export it."""
+        kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
+        path, _ = QFileDialog.getSaveFileName(self, "Export view", "view.png", kinds)
+        if path:
+            self.export_to(path)
+
+    def export_to(self, path: str) -> None:
+        """Export the current view by the ending of the file."""
+        try:
+            export_widget(self.page.view_stack.currentWidget(), path)
+        except (OSError, ValueError) as error:
+            self.tell(f"The view was not exported: {error}", MessageKind.ERROR)
+        else:
+            self.tell(f"Exported {Path(path).name}.")
+
+    # Showing the state.
+
+    @Slot()
+    def _show_document(self) -> None:
+        document = self.session.document
+        self.setWindowTitle(f"{document.title} – Rasterscope" if document.title else "Rasterscope")
+        shared = isinstance(document.scene, ClipScene) and document.scene.shared is not None
+        self.actions_by_name["toggle_shared"].setChecked(shared or not isinstance(document.scene, ClipScene))
+        self.actions_by_name["toggle_cleared"].setChecked(document.before == "cleared")
+        self._show_history()
+        self._show_pointed()
+
+    @Slot()
+    def _show_history(self) -> None:
+        self.actions_by_name["undo"].setEnabled(self.session.can_undo)
+        self.actions_by_name["redo"].setEnabled(self.session.can_redo)
+
+    @Slot()
+    def _show_pointed(self) -> None:
+        pixel = self.session.hover or self.session.pin
+        self.pointed.setText(f"pixel ({pixel[0]}, {pixel[1]})   {self.page.pointed_text(pixel)}" if pixel else "")
+
+    # Coming and going.
+
+    def restore(self) -> None:
+        """Put window and panes where they were left."""
+        geometry = self.preferences.geometry
+        if geometry:
+            self.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii")))
+        self.page.restore_layout(self.preferences.layout)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Remember window, panes and scene, end all work, then close."""
+        self.page.timeline.show_playing(False)
+        self.job.shut_down()
+        self.page.views.shut_down()
+        last = preferences_folder() / f"last{EXTENSION}"
+        try:
+            save_state(str(last), self.state())
+            self.preferences = self.preferences.model_copy(
+                update={
+                    "geometry": self.saveGeometry().toBase64().toStdString(),
+                    "layout": self.page.layout_state(),
+                    "last_state": str(last),
+                }
+            )
+            save_preferences(self.preferences)
+        except (OSError, StateFileError) as error:
+            print(f"rasterscope: the window could not be remembered: {error}")
+        super().closeEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the page of keys inside."""
+        super().resizeEvent(event)
+        if self.key_help.isVisible():
+            self.key_help.setGeometry(self.centralWidget().geometry().adjusted(24, 24, -24, -24))
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open the file that was dropped."""
+        paths = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
+        if len(paths) > 1:
+            self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
+        if paths:
+            self.open_path(paths[0])
+
+
+def _application() -> QApplication:
+    """Return the application of this process, made at the first call."""
+    found = QApplication.instance()
+    return found if isinstance(found, QApplication) else QApplication(["rasterscope"])
+
+
+def theme_of(name: str, application: QApplication) -> Theme:
+    """Return the theme of a name; ``system`` follows the desktop."""
+    if name in THEMES:
+        return THEMES[name]
+    is_dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
+    return DARK if is_dark else LIGHT
+
+
+def first_document(preferences: Preferences) -> tuple[Opened, str]:
+    """Return what the window shows without a file: what was open last, or else the single triangle."""
+    warning = ""
+    if preferences.last_state:
+        try:
+            return open_any(preferences.last_state), ""
+        except (OSError, ValueError) as error:
+            warning = f"What was open last could not be opened again: {error}"
+    scene = CATALOGUE[0]
+    return Opened(open_document(scene.make(), scene.title)), warning
+
+
+def run_window(target: str | None = None) -> int:
+    """Show the window until it is closed; return the exit code.
+
+    Parameters
+    ----------
+    target : str, optional
+        Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
+        told in the window.
+    """
+    application = _application()
+    application.setApplicationName("Rasterscope")
+    preferences, warning = load_preferences()
+    apply_theme(application, theme_of(preferences.theme, application))
+    opened, not_reopened = first_document(preferences)
+    window = MainWindow(opened.document, preferences)
+    window.show_opened(opened)
+    window.resize(1280, 800)
+    window.restore()
+    window.show()
+    for text in (warning, not_reopened):
+        if text:
+            window.tell(text, MessageKind.WARNING)
+    if target is not None:
+        window.open_path(target)
+    code = application.exec()
+    window.close()
+    return code
+
+
+def grab_window(
+    target: str,
+    path: str,
+    size: tuple[int, int] = (1280, 800),
+    theme: str = "light",
+    stage: str | None = None,
+    step: int | None = None,
+    view: str | None = None,
+) -> None:
+    """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
+
+    Parameters
+    ----------
+    stage : str, optional
+        A stage of ``core.STAGES``; by default the one that a state file was saved at, or ``raster``.
+    step : int, optional
+        Position in the stage, in operations done; by default all of them.
+    view : str, optional
+        Main view, as ``pixels`` or ``scene``.
+
+    Raises
+    ------
+    ValueError, OSError
+        If the file cannot be opened, the picture not be written, or there is no such view.
+    """
+    application = _application()
+    apply_theme(application, theme_of(theme, application))
+    opened = open_any(target)
+    window = MainWindow(opened.document)
+    window.show_opened(opened)
+    if stage is not None or step is not None or opened.state is None:
+        window.session.set_stage(stage or window.session.cursor.stage, step)
+    if view is not None and view not in window.page.view_names():
+        raise ValueError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
+    if view is not None:
+        window.page.show_view(view)
+    window.resize(*size)
+    window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)
+    window.show()
+    for _ in range(20):
+        application.processEvents()
+    window.page.settle()
+    export_widget(window, path)
+    window.hide()
+    window.page.views.shut_down()

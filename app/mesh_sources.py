@@ -1,0 +1,78 @@
+"""Where the arrays of a mesh come from: fingerprints tell whether a file or a built-in scene still has them."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.scene import Mesh, Scene
+from lessons.scenes import make_scene, scene_names
+
+ARRAYS = ("positions", "triangles", "normals", "uvs", "colors", "faces", "texture")
+"""Arrays of a mesh; the texture's are its pixels."""
+
+Fingerprints = tuple[dict[str, str], ...]
+"""For every mesh, fingerprint by name of the array; a missing array has none."""
+
+
+@dataclass(frozen=True)
+class _Remembered:
+    """A file as it was when it was opened."""
+
+    stamp: tuple[int, int]
+    fingerprints: Fingerprints
+
+
+_remembered: dict[Path, _Remembered] = {}
+"""What the opened files hold, so that saving need not read them again."""
+
+
+def array_of(mesh: Mesh, name: str) -> NDArray[Any] | None:
+    """Return one of ``ARRAYS`` of a mesh."""
+    value = getattr(mesh, name)
+    return value.pixels if name == "texture" and value is not None else value
+
+
+def fingerprint(array: NDArray[Any]) -> str:
+    """Return a text that is the same for arrays of the same type, shape and bits, and for no others."""
+    digest = sha256(f"{array.dtype.str} {array.shape} ".encode())
+    digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()[:32]
+
+
+def fingerprints_of(meshes: tuple[Mesh, ...]) -> Fingerprints:
+    """Return the fingerprints of all arrays of meshes."""
+    found = [{name: array_of(mesh, name) for name in ARRAYS} for mesh in meshes]
+    return tuple({name: fingerprint(a) for name, a in of.items() if a is not None} for of in found)
+
+
+def remember_file(path: str | Path, meshes: tuple[Mesh, ...]) -> None:
+    """Remember that ``path`` holds these meshes as it is now."""
+    key = Path(path).resolve()
+    _remembered[key] = _Remembered(_stamp(key), fingerprints_of(meshes))
+
+
+def remembered_fingerprints(path: str | Path) -> Fingerprints:
+    """Return what a file holds that was opened and has not changed since; of others nothing is known."""
+    key = Path(path).resolve()
+    known = _remembered.get(key)
+    try:
+        return known.fingerprints if known is not None and known.stamp == _stamp(key) else ()
+    except OSError:
+        return ()
+
+
+@lru_cache(maxsize=1)
+def built_in_fingerprints() -> dict[str, Fingerprints]:
+    """Return the fingerprints of every built-in scene that is made of meshes."""
+    scenes = {name: make_scene(name) for name in scene_names()}
+    return {name: fingerprints_of(s.meshes) for name, s in scenes.items() if isinstance(s, Scene)}
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    found = path.stat()
+    return found.st_mtime_ns, found.st_size

@@ -1,0 +1,233 @@
+"""Clip space drawn: the view volume, the triangle, and what each plane leaves of it up to the cursor.
+
+Where all corners have w > 0 they are divided by w and drawn in the NDC cube. A corner at w <= 0 has no place there,
+so such a triangle is drawn in clip space itself, seen along one of its four axes: along y the axes x, z and w
+remain, and the planes z = ±w and x = ±w, which contain the direction of view, stay planes; for y = ±w it is seen
+along x.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from core.arrays import Floats
+from core.geometry.culling import PLANES, REASONS
+from core.trace import StageTrace, Trace
+from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
+
+EQUATIONS = ("z = −w", "z = w", "x = −w", "x = w", "y = −w", "y = w")
+NDC_EQUATIONS = ("z = −1", "z = 1", "x = −1", "x = 1", "y = −1", "y = 1")
+SLICE_REACH = 1.15
+"""The volume of clip space is drawn up to so many times the largest \\|w\\|."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClipState:
+    """One triangle between two steps of clipping."""
+
+    triangle: int
+    before: Floats = field(repr=False)
+    """(3, 4) clip positions of the triangle."""
+    polygon: Floats = field(repr=False)
+    """(M, 4) what is left of it by now."""
+    emitted: Floats = field(repr=False)
+    """(E, 4) new corners that the planes up to now have made."""
+    plane: int
+    """The plane that is being worked on or has just been done, -1: none."""
+    edge: Floats | None = field(repr=False)
+    """(2, 4) the edge just looked at, where its plane is not done yet."""
+    corner: Floats | None = field(repr=False)
+    """(4,) the new corner that the step just done has made."""
+    sentence: str = ""
+
+
+def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
+    """Return a triangle at a position of the stage ``clip``; ``None``: after its end."""
+    geometry = trace.source.geometry
+    stage = trace.stage("clip")
+    before = geometry.vertices.clip[geometry.vertices.corners[triangle]]
+    none = np.empty((0, 4))
+
+    def still(polygon: Floats, sentence: str) -> ClipState:
+        return ClipState(triangle, before, polygon, none, -1, None, None, sentence)
+
+    kept = np.flatnonzero(geometry.kept.triangle == triangle)
+    if not len(kept):
+        index = np.flatnonzero(geometry.assembled.triangle == triangle)
+        reason = REASONS[int(geometry.culled.verdict[index[0]])] if len(index) else "not traced"
+        return still(before, f"Triangle {triangle} was culled ({reason}) and does not get here.")
+    clipped = geometry.clipped
+    if clipped is None:
+        return still(before, "Clipping is off: homogeneous rasterization needs none.")
+    found = np.flatnonzero(clipped.clipped == kept[0])
+    if not len(found):
+        return still(before, "No plane crosses the triangle: it goes through as it is.")
+    return _clipped_state(trace, stage, int(found[0]), triangle, before, position)
+
+
+def _clipped_state(
+    trace: Trace, stage: StageTrace, which: int, triangle: int, before: Floats, position: int | None
+) -> ClipState:
+    clipped = trace.source.geometry.clipped
+    assert clipped is not None
+    own = np.flatnonzero(clipped.rows.polygon == which)
+    # The trace's rows stand triangle by triangle in the same order within a triangle.
+    rows = np.flatnonzero(stage.triangle == triangle)
+    done = len(own) if position is None else int(np.searchsorted(rows, stage.steps.rows_done(position)))
+    current, operation = (-1, -1) if position is None else stage.steps.row_at(position)
+    is_current = current >= 0 and len(rows) > 0 and rows[0] <= current <= rows[-1]
+    looked_at = int(np.searchsorted(rows, current)) if is_current else done - 1
+    if looked_at < 0:
+        return ClipState(
+            triangle, before, before, np.empty((0, 4)), -1, None, None, "Before the first plane."
+        )
+    plane = int(clipped.rows.plane[own[looked_at]])
+    place = clipped.planes.index(plane)
+    of_plane = np.flatnonzero(clipped.rows.plane[own] == plane)
+    is_plane_done = done > of_plane[-1]
+    level = place + 1 if is_plane_done else place
+    polygon = clipped.polygons[level][which, : int(clipped.counts[level][which]), :4]
+    corners = clipped.rows.corner[own[:done], :4]
+    emitted = corners[np.isfinite(corners).all(axis=1)]
+    edge = corner = None
+    if not is_plane_done or is_current:
+        at = own[looked_at]
+        edge = np.stack([clipped.rows.start[at, :4], clipped.rows.end[at, :4]])
+        made = clipped.rows.corner[at, :4]
+        if np.isfinite(made).all() and done > looked_at:
+            corner = made
+    count = len(polygon)
+    name = PLANES[plane]
+    sentence = (
+        f"After the {name} plane {count} corners are left."
+        if is_plane_done and count
+        else f"After the {name} plane nothing is left."
+        if is_plane_done
+        else f"The {name} plane: edge {int(clipped.rows.edge[own[looked_at]]) + 1} of {len(of_plane)}."
+    )
+    return ClipState(triangle, before, polygon, emitted, plane, edge, corner, sentence)
+
+
+def is_in_ndc(state: ClipState) -> bool:
+    """Return whether every corner of the triangle can be divided by w."""
+    return bool((state.before[:, 3] > 0).all())
+
+
+def clip_diagram(state: ClipState) -> Diagram:
+    """Draw a triangle in clip space."""
+    return _ndc_diagram(state) if is_in_ndc(state) else _slice_diagram(state)
+
+
+def _ndc_diagram(state: ClipState) -> Diagram:
+    def place(clip: Floats) -> Floats:
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            return np.asarray(clip[:, :3] / clip[:, 3:] * [1, 1, -1])
+
+    faces = [_cube_face(plane) for plane in range(6)]
+    far, near = faces[1], faces[0]
+    strokes = [
+        Stroke(near, "muted_text", 1.4, is_closed=True),
+        Stroke(far, "muted_text", 1.0, is_closed=True),
+    ]
+    strokes += [Stroke(np.stack([near[k], far[k]]), "muted_text", 1.0) for k in range(4)]
+    words = [
+        Word(np.array([1.0, -1.0, 1.0]), "near"),
+        Word(np.array([1.0, -1.0, -1.0]), "far"),
+    ]
+    shapes = _shapes(state, place, faces[state.plane] if state.plane >= 0 else None, NDC_EQUATIONS)
+    axes = _axes(np.array([-1.0, -1.0, 1.0]), np.diag([0.5, 0.5, -0.5]), ("x", "y", "z"))
+    return Diagram(
+        patches=shapes.patches,
+        strokes=(*strokes, *axes.strokes, *shapes.strokes),
+        spots=shapes.spots,
+        words=(*shapes.words, *axes.words, *words),
+        radius=1.75,
+        azimuth=0.55,
+        elevation=0.35,
+        caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is the cube "
+        "−1 ≤ x, y, z ≤ 1, its near face in front.",
+    )
+
+
+def _slice_diagram(state: ClipState) -> Diagram:
+    across = 1 if state.plane in (4, 5) else 0
+    chosen, name = [across, 2, 3], "xy"[across]
+    reach = SLICE_REACH * float(np.abs(state.before[:, 3]).max())
+    scale = 1 / max(reach, 1e-12)
+
+    def place(clip: Floats) -> Floats:
+        # Across to the right, w up, z away from the viewer.
+        a, z, w = (clip[:, k] * scale for k in chosen)
+        return np.stack([a, w, -z], axis=1)
+
+    base = np.array([[-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0]])
+    strokes = [Stroke(base, "muted_text", 1.0, "dash", is_closed=True)]
+    strokes += [Stroke(np.stack([np.zeros(3), corner]), "muted_text", 1.3) for corner in base]
+    sides = {0: (0, 1), 1: (2, 3), 2: (3, 0), 3: (1, 2), 4: (3, 0), 5: (1, 2)}
+    face = None
+    if state.plane >= 0:
+        i, j = sides[state.plane]
+        face = np.stack([np.zeros(3), base[i], base[j]])
+    ground = np.array([[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]])
+    shapes = _shapes(state, place, face, EQUATIONS)
+    axes = _axes(np.zeros(3), np.array([[0.6, 0, 0], [0, 0, -0.6], [0, 0.85, 0]]), (name, "z", "w"))
+    return Diagram(
+        patches=(Patch(ground, "muted_text", 0.08), *shapes.patches),
+        strokes=(*strokes, *axes.strokes, *shapes.strokes),
+        spots=(*shapes.spots, Spot(np.zeros(3), "text", radius=3.0, label="eye")),
+        words=(*shapes.words, *axes.words, Word(ground[1], "w = 0", "muted_text")),
+        center=(0.0, 0.1, 0.0),
+        radius=1.55,
+        azimuth=0.5,
+        elevation=0.22,
+        caption=f"{state.sentence} A corner has w ≤ 0 and so no place in the NDC cube: this is clip space itself, "
+        f"seen along {'x' if across else 'y'}; {name}, z and w remain. Inside are −w ≤ z ≤ w and "
+        f"−w ≤ {name} ≤ w, the upright pyramid; below the plane w = 0 lies what is behind the eye.",
+    )
+
+
+def _shapes(state: ClipState, place: "object", face: Floats | None, equations: tuple[str, ...]) -> Diagram:
+    """Return triangle, polygon, corners and the current plane, which both drawings share."""
+    assert callable(place)
+    before = place(state.before)
+    patches: list[Patch] = []
+    strokes: list[Stroke] = []
+    spots: list[Spot] = []
+    words: list[Word] = []
+    if face is not None:
+        patches.append(Patch(face, "accent", 0.16))
+        strokes.append(Stroke(face, "accent", 1.6, is_closed=True))
+        words.append(Word(face.mean(axis=0), f"{PLANES[state.plane]}: {equations[state.plane]}", "accent"))
+    for k in range(3):
+        ends = before[[(k + 1) % 3, (k + 2) % 3]]
+        strokes.append(Stroke(ends, f"vertex {k}", 1.4, "dash" if state.plane >= 0 else "solid"))
+    if len(state.polygon):
+        polygon = place(state.polygon)
+        patches.append(Patch(polygon, "covered", 0.4))
+        strokes.append(Stroke(polygon, "text", 2.2, is_closed=True))
+    if state.edge is not None:
+        strokes.append(Stroke(place(state.edge), "accent", 3.0))
+    for corner in place(state.emitted):
+        spots.append(Spot(corner, "text", "square", 3.5))
+    if state.corner is not None:
+        spots.append(Spot(place(state.corner[None])[0], "accent", "square", 5.0, label="new corner"))
+    for k in range(3):
+        label = f"{k}" if state.before[k, 3] > 0 else f"{k}, w = {state.before[k, 3]:.3g}".replace("-", "−")
+        spots.append(Spot(before[k], f"vertex {k}", label=label))
+    return Diagram(tuple(patches), tuple(strokes), tuple(spots), tuple(words))
+
+
+def _axes(origin: Floats, directions: Floats, names: tuple[str, str, str]) -> Diagram:
+    strokes = tuple(Stroke(np.stack([origin, origin + d]), "text", 1.6) for d in directions)
+    words = tuple(Word(origin + d, n, "text") for d, n in zip(directions, names, strict=True))
+    return Diagram(strokes=strokes, words=words)
+
+
+def _cube_face(plane: int) -> Floats:
+    """Return (4, 3) corners of the face of the cube that lies in a plane, with z turned towards the viewer."""
+    axis = (2, 2, 0, 0, 1, 1)[plane]
+    sign = -1.0 if plane % 2 == 0 else 1.0
+    if axis == 2:
+        sign = -sign
+    square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    return np.insert(square, axis, sign, axis=1)

@@ -1,0 +1,93 @@
+"""Which pixel the stage views are about, and which triangle covers it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.session import Pixel, Session
+from core.arrays import Floats
+from core.fragments.interpolation import numerators, plane_value
+from core.steps import Level
+from core.trace import TraceSource
+
+
+@dataclass(frozen=True)
+class PointedPixel:
+    """A pixel of the traced raster."""
+
+    column: int
+    row: int
+    role: str
+    """``pin``, ``hover`` or ``step``."""
+
+    @property
+    def name(self) -> str:
+        """What a person reads."""
+        return f"{ {'pin': 'pinned', 'hover': 'hovered', 'step': 'current'}[self.role] } pixel ({self.column}, {self.row})"
+
+
+def pointed_pixels(session: Session) -> tuple[PointedPixel, ...]:
+    """Return the pinned and the hovered pixel; where there is neither, the one of the step just done."""
+    found: list[PointedPixel] = []
+    seen: set[Pixel] = set()
+    for role, pixel in (("pin", session.pin), ("hover", session.hover)):
+        if pixel is not None and pixel not in seen and session.has_pixel(pixel):
+            found.append(PointedPixel(*pixel, role))
+            seen.add(pixel)
+    if not found and session.cursor.level >= Level.PIXEL:
+        row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+        pixel = (-1, -1) if row < 0 else tuple(session.stage_trace.pixel[row].tolist())
+        if pixel[0] >= 0:
+            found.append(PointedPixel(*pixel, "step"))
+    return tuple(found)
+
+
+def shown_triangle(session: Session) -> int:
+    """Return the triangle that a view of one triangle shows.
+
+    That is the one in focus, else that of the step just done, else the one seen at the pinned pixel, else 0.
+    """
+    document = session.document
+    if document.triangle is not None:
+        return document.triangle
+    row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+    if row >= 0 and session.stage_trace.triangle[row] >= 0:
+        return int(session.stage_trace.triangle[row])
+    if session.pin is not None:
+        column, line = session.pin
+        first_column, first_row, _, _ = session.trace.source.raster.bounds
+        seen = int(session.trace.source.picture.primitive[line - first_row, column - first_column])
+        return max(seen, 0)
+    return 0
+
+
+def fragment_at(source: TraceSource, column: int, row: int, preferred: int = -1) -> int:
+    """Return the fragment that counts at a pixel, -1: none.
+
+    Parameters
+    ----------
+    preferred : int
+        A triangle: its fragment is taken if it has one here. Otherwise it is the last one that passed the depth
+        test, or else the last one.
+    """
+    fragments = source.fragments
+    here = np.flatnonzero((fragments.column == column) & (fragments.row == row))
+    if not len(here):
+        return -1
+    of_preferred = here[source.triangle_of_fragment[here] == preferred]
+    if len(of_preferred):
+        return int(of_preferred[-1])
+    passed = here[source.depth_tests.passes[here]]
+    return int(passed[-1]) if len(passed) else int(here[-1])
+
+
+def weights_at(source: TraceSource, primitive: int, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Return perspective-correct weights (N, 3) and 1/w (N,) of a primitive at window positions (N,) each.
+
+    Both are those of the whole plane of the triangle, beyond its edges too; NaN or infinite where 1/w is 0.
+    """
+    which = np.full(len(x), primitive)
+    shares = np.stack(numerators(source.geometry.planes, which, x, y), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        weights = shares / shares.sum(axis=1, keepdims=True)
+    return weights, plane_value(source.geometry.inverse_w_plane, which, x, y)

@@ -1,0 +1,277 @@
+"""Homogeneous rasterization drawn: the triangle in (x, y, w), the eye, and the double pyramid through both.
+
+Every point of the triangle lies on a ray through the eye at the origin, and the ray meets the plane w = 1 at the
+pixel where the point is seen. The three planes through the eye and an edge are the edge functions; behind the eye,
+at w < 0, they go on as the second half of the pyramid.
+
+References
+----------
+M. Zwicker, *Computergrafik*, lecture "Homogeneous rasterization", Bern 2016.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.views.pointed_pixel import PointedPixel, fragment_at, weights_at
+from core.arrays import Floats
+from core.trace import TraceSource
+from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
+from widgets.grid_buffer import number_text
+from widgets.space_paint import clip_polygon
+
+LARGEST_W = 4.0
+SMALLEST_W = 0.4
+"""A triangle whose largest \\|w\\| is not between these is drawn smaller or larger by one factor."""
+MOST_LINES = 25
+"""Lines of the raster that are drawn each way."""
+LEAST_W = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class PyramidFrame:
+    """How (x, y, w) in pixels is laid into the space of the drawing: linear, the eye stays at the origin."""
+
+    matrix: Floats
+    """(3, 3) float64."""
+    factor: float
+    """The triangle is drawn divided by this, which changes no pixel."""
+    aspect: float
+
+    def place(self, homogeneous: Floats) -> Floats:
+        """Return (N, 3) places of homogeneous window positions (N, 3): x right, y up, w away from the viewer."""
+        return np.asarray(homogeneous @ self.matrix.T)
+
+
+def pyramid_frame(source: TraceSource, homogeneous: Floats) -> PyramidFrame:
+    """Return the frame in which the raster on w = 1 is two units high, seen from its middle."""
+    first_column, first_row, end_column, end_row = source.raster.bounds
+    middle_x, middle_y = (first_column + end_column) / 2, (first_row + end_row) / 2
+    half = max((end_row - first_row) / 2, (end_column - first_column) / 3)
+    matrix = np.array([[1 / half, 0, -middle_x / half], [0, 1 / half, -middle_y / half], [0, 0, -1.0]])
+    largest = float(np.abs(homogeneous[:, 2]).max())
+    factor = 1.0 if SMALLEST_W <= largest <= LARGEST_W or largest == 0 else largest / 2
+    return PyramidFrame(matrix, factor, (end_column - first_column) / (end_row - first_row))
+
+
+def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | None) -> Diagram:
+    """Draw a triangle in (x, y, w) with the ray of a pixel.
+
+    Parameters
+    ----------
+    source : TraceSource
+    triangle : int
+        One of the traced triangles.
+    pixel : PointedPixel, optional
+    """
+    vertices = source.geometry.vertices
+    clip = vertices.clip[vertices.corners[triangle]]
+    width, height = source.scene.size
+    x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
+    homogeneous = np.stack([(x + w) * width / 2, (y + w) * height / 2, w], axis=1)
+    frame = pyramid_frame(source, homogeneous)
+    corners = frame.place(homogeneous / frame.factor)
+    shapes = [_raster(source, frame), _pyramid(corners), _image(source, frame, homogeneous)]
+    sentences = [_sentence(w, frame)]
+    if pixel is not None:
+        ray, sentence = _ray(source, frame, triangle, homogeneous, pixel)
+        shapes.append(ray)
+        sentences.append(sentence)
+    reach = max(1.3, float(np.abs(corners[:, 2]).max()) * 1.1)
+    behind = max(0.6, -float(min(-corners[:, 2].max(), 0.0)) * 1.1) if (w <= 0).any() else 0.6
+    axes = (("x", [0.5, 0, 0]), ("y", [0, 0.5, 0]), ("w", [0, 0, -1.25]))
+    axis_strokes = tuple(Stroke(np.array([[0, 0, 0], end], float), "text", 1.4) for _, end in axes)
+    axis_words = tuple(Word(np.array(end, float), name, "text") for name, end in axes)
+    height_reach = float(np.clip(np.abs(corners[:, :2]).max(), 1.0, 1.6 * reach))
+    return Diagram(
+        patches=tuple(patch for shape in shapes for patch in shape.patches),
+        strokes=(*axis_strokes, *(stroke for shape in shapes for stroke in shape.strokes)),
+        spots=(
+            Spot(np.zeros(3), "text", radius=4.0, label="eye"),
+            *(spot for shape in shapes for spot in shape.spots),
+        ),
+        words=(*axis_words, *(word for shape in shapes for word in shape.words)),
+        center=(0.0, 0.0, -(reach - behind) / 2),
+        radius=max((reach + behind) / 2, 0.75 * height_reach, 1.2) * 0.92,
+        azimuth=1.05,
+        elevation=0.33,
+        caption=" ".join(sentences),
+    )
+
+
+def hit_point(source: TraceSource, primitive: int, x: float, y: float) -> tuple[Floats, Floats, float]:
+    """Return where the ray of a window position meets a primitive's plane: point (3,), weights (3,), 1/w.
+
+    The point is homogeneous, (x w, y w, w), as the corners are.
+    """
+    weights, inverse_w = weights_at(source, primitive, np.array([x]), np.array([y]))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        point = np.array([x, y, 1.0]) / inverse_w[0]
+    return point, weights[0], float(inverse_w[0])
+
+
+def _sentence(w: Floats, frame: PyramidFrame) -> str:
+    parts = ["Eye at the origin, raster on the plane w = 1."]
+    if (w > 0).all():
+        parts.append("All w > 0: the whole triangle is in front of the eye.")
+    elif (w <= 0).all():
+        parts.append(
+            "All w ≤ 0: the triangle lies behind the eye and only its mirror image meets the raster."
+        )
+    else:
+        parts.append("Some w ≤ 0: the triangle reaches behind the eye; edge planes decide without clipping.")
+    if frame.factor != 1:
+        parts.append(f"The triangle is drawn divided by {number_text(frame.factor, 3)}: the same rays.")
+    return " ".join(parts)
+
+
+def _pyramid(corners: Floats) -> Diagram:
+    """Return the triangle and the planes through eye and edges, before and behind the eye."""
+    patches = [Patch(corners, "covered", 0.38)]
+    strokes: list[Stroke] = []
+    for k in range(3):
+        ends = corners[[(k + 1) % 3, (k + 2) % 3]]
+        ink = f"vertex {k}"
+        strokes.append(Stroke(ends, ink, 2.4))
+        patches.append(Patch(np.concatenate([np.zeros((1, 3)), ends]), ink, 0.13))
+        patches.append(Patch(np.concatenate([np.zeros((1, 3)), -ends * 0.45]), ink, 0.07))
+        strokes.append(Stroke(-ends * 0.45, ink, 1.0, "dash"))
+    for k in range(3):
+        # A ray goes on to the plane of the raster where the corner lies before it.
+        w = -float(corners[k, 2])
+        reach = corners[k] * (1.0 / w) if 0 < w < 1 else corners[k]
+        strokes.append(Stroke(np.stack([np.zeros(3), corners[k]]), "muted_text", 1.1))
+        if 0 < w < 1:
+            strokes.append(Stroke(np.stack([corners[k], reach]), "muted_text", 1.0, "dot"))
+        strokes.append(Stroke(np.stack([np.zeros(3), -corners[k] * 0.45]), "muted_text", 1.0, "dash"))
+    spots = tuple(Spot(corners[k], f"vertex {k}", label=str(k)) for k in range(3))
+    return Diagram(tuple(patches), tuple(strokes), spots)
+
+
+def _raster(source: TraceSource, frame: PyramidFrame) -> Diagram:
+    """Return the raster on the plane w = 1."""
+    first_column, first_row, end_column, end_row = source.raster.bounds
+
+    def on_plane(x: float, y: float) -> Floats:
+        return frame.place(np.array([[x, y, 1.0]]))[0]
+
+    step = max(-(-(end_column - first_column) // MOST_LINES), -(-(end_row - first_row) // MOST_LINES))
+    strokes = [
+        Stroke(np.stack([on_plane(x, first_row), on_plane(x, end_row)]), "grid_line", 0.6, opacity=0.7)
+        for x in range(first_column + step, end_column, step)
+    ]
+    strokes += [
+        Stroke(np.stack([on_plane(first_column, y), on_plane(end_column, y)]), "grid_line", 0.6, opacity=0.7)
+        for y in range(first_row + step, end_row, step)
+    ]
+    border = np.stack(
+        [
+            on_plane(first_column, first_row),
+            on_plane(end_column, first_row),
+            on_plane(end_column, end_row),
+            on_plane(first_column, end_row),
+        ]
+    )
+    strokes.append(Stroke(border, "text", 1.6, is_closed=True))
+    lines = "" if step == 1 else f", a line every {step} pixels"
+    word = Word(border[2], f"w = 1: raster {end_column - first_column}×{end_row - first_row}{lines}")
+    return Diagram((Patch(border, "empty", 0.55),), tuple(strokes), words=(word,))
+
+
+def _image(source: TraceSource, frame: PyramidFrame, homogeneous: Floats) -> Diagram:
+    """Return what the triangle covers of the raster, exactly."""
+    first_column, first_row, end_column, end_row = source.raster.bounds
+    # In front of the eye first, then divided by w and cut to the raster.
+    front = _in_front(homogeneous)
+    if len(front) < 3:
+        return Diagram()
+    window = front[:, :2] / front[:, 2:]
+    inside = clip_polygon(window, (first_column, first_row, end_column, end_row))
+    if len(inside) < 3:
+        return Diagram()
+    places = frame.place(np.column_stack([inside, np.ones(len(inside))]))
+    return Diagram((Patch(places, "covered", 0.75),), (Stroke(places, "text", 1.2, is_closed=True),))
+
+
+def _in_front(polygon: Floats) -> Floats:
+    """Cut a triangle (3, 3) of homogeneous positions to w above almost nothing."""
+    least = LEAST_W * max(float(np.abs(polygon[:, 2]).max()), 1e-300)
+    result = []
+    for k in range(3):
+        start, end = polygon[k - 1], polygon[k]
+        if (start[2] < least) != (end[2] < least):
+            t = (least - start[2]) / (end[2] - start[2])
+            result.append(start + t * (end - start))
+        if end[2] >= least:
+            result.append(end)
+    return np.array(result).reshape(-1, 3)
+
+
+def _ray(
+    source: TraceSource, frame: PyramidFrame, triangle: int, homogeneous: Floats, pixel: PointedPixel
+) -> tuple[Diagram, str]:
+    """Return the ray of a pixel, and where it meets the triangle's plane."""
+    center = source.raster.center
+    x, y = pixel.column + center, pixel.row + center
+    on_raster = frame.place(np.array([[x, y, 1.0]]))[0]
+    low, high = center - 0.5, center + 0.5
+    cell = frame.place(
+        np.array(
+            [
+                [pixel.column + a, pixel.row + b, 1.0]
+                for a, b in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+            ]
+        )
+        + np.array([low, low, 0.0])
+    )
+    assert high - low == 1
+    strokes = [
+        Stroke(cell, "text", 2.4, is_closed=True),
+        Stroke(np.stack([np.zeros(3), on_raster]), "text", 2.0),
+    ]
+    spots = [Spot(on_raster, "text", "disc", 3.0)]
+    primitive = _primitive_of(source, triangle, pixel)
+    if primitive < 0:
+        strokes.append(Stroke(np.stack([on_raster, on_raster * 2]), "text", 1.4, "dot"))
+        return Diagram(
+            (), tuple(strokes), tuple(spots)
+        ), "The triangle was culled, so its plane is not set up."
+    point, weights, inverse_w = hit_point(source, primitive, x, y)
+    is_inside = fragment_at(source, pixel.column, pixel.row, triangle) >= 0
+    name = pixel.name
+    if not np.isfinite(point).all():
+        strokes.append(Stroke(np.stack([on_raster, on_raster * 3]), "text", 1.4, "dot"))
+        return Diagram(
+            (), tuple(strokes), tuple(spots)
+        ), f"The ray of the {name} is parallel to the triangle's plane."
+    hit = frame.place(point[None] / frame.factor)[0]
+    is_in_front = inverse_w > 0
+    start = on_raster if is_in_front else np.zeros(3)
+    strokes.append(
+        Stroke(np.stack([start, hit]), "text", 2.0 if is_in_front else 1.4, "solid" if is_in_front else "dot")
+    )
+    weight_text = ", ".join(f"{number_text(float(weight), 3)}" for weight in weights)
+    spots.append(
+        Spot(hit, "text", "disc" if is_inside else "cross", 4.5, label=f"w = {number_text(1 / inverse_w, 3)}")
+    )
+    where = (
+        "inside the triangle"
+        if is_in_front and (weights >= 0).all()
+        else "behind the eye"
+        if not is_in_front
+        else "beyond an edge"
+    )
+    sentence = (
+        f"The ray of the {name} meets the triangle's plane at w = {number_text(1 / inverse_w)}, {where}: "
+        f"weights ({weight_text})."
+    )
+    return Diagram((), tuple(strokes), tuple(spots)), sentence
+
+
+def _primitive_of(source: TraceSource, triangle: int, pixel: PointedPixel) -> int:
+    """Return the primitive of a triangle that counts at a pixel; any of its pieces has the same plane."""
+    fragment = fragment_at(source, pixel.column, pixel.row, triangle)
+    if fragment >= 0 and source.triangle_of_fragment[fragment] == triangle:
+        return int(source.fragments.primitive[fragment])
+    pieces = np.flatnonzero(source.geometry.primitives.triangle == triangle)
+    return int(pieces[0]) if len(pieces) else -1

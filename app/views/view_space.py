@@ -1,0 +1,175 @@
+"""The space that the 3D view shows: the world of a scene, or the view volume of triangles in clip space.
+
+Both are reached from clip space by one matrix: back through camera and projection into the world, or from
+NDC to a box that is as wide as the picture and has the near plane in front.
+"""
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.geometry.culling import plane_distances
+from core.geometry.matrices import projection, transform, world_to_camera
+from core.geometry.sutherland_hodgman import DEPTH_PLANES, clip_primitives
+from core.geometry.vertex_stage import VertexStage, vertex_normals
+from core.primitives import Primitives
+from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from widgets.orbit import Orbit
+
+FIELD_OF_VIEW = 0.7
+"""Vertical opening angle of the viewing camera, radians."""
+EYE_REACH = 25.0
+"""An eye farther away than so many radii of the meshes is left out of the whole view."""
+
+
+@dataclass(frozen=True, eq=False)
+class ViewSpace:
+    """A scene to be seen from outside of its own camera."""
+
+    scene: AnyScene
+    vertices: VertexStage
+    from_clip: Floats
+    """(4, 4) float64, clip space of the scene's own camera to the space that is shown."""
+    center: tuple[float, float, float]
+    radius: float
+    """The whole view shows a sphere of this radius around ``center``."""
+    home: Orbit
+    """From where it is first seen."""
+
+    @property
+    def is_world(self) -> bool:
+        """Whether it is the world of meshes, rather than the box of the view volume."""
+        return isinstance(self.scene, Scene)
+
+    def place(self, clip: Floats) -> Floats:
+        """Return (..., 3) places of clip positions (..., 4); NaN where w <= 0 has none in the box."""
+        moved = transform(self.from_clip, clip)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            placed = moved[..., :3] / moved[..., 3:]
+        if not self.is_world:
+            placed[clip[..., 3] <= 0] = np.nan
+        return np.asarray(placed)
+
+    def corners(self, triangle: int) -> Floats:
+        """Return (3, 3) places of a triangle's corners."""
+        vertices = self.vertices.corners[triangle]
+        if self.vertices.world is not None:
+            return np.array(self.vertices.world[vertices, :3])
+        return self.place(self.vertices.clip[vertices])
+
+    def volume(self) -> Floats:
+        """Return (2, 4, 3): corners of the view volume's near and far face, in turn from the lower left."""
+        square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        cube = np.array([[(x, y, z, 1.0) for x, y in square] for z in (-1.0, 1.0)])
+        moved = transform(self.from_clip, cube)
+        return np.asarray(moved[..., :3] / moved[..., 3:])
+
+
+def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
+    """Return the space of a scene whose vertices have been transformed."""
+    width, height = scene.size
+    if isinstance(scene, ClipScene):
+        aspect = width / height
+        radius = float(np.sqrt(aspect**2 + 2))
+        box = np.diag(np.array([aspect, 1.0, -1.0, 1.0]))
+        return ViewSpace(scene, vertices, box, (0.0, 0.0, 0.0), radius, Orbit(0.55, 0.3))
+    camera = scene.camera
+    matrix = np.linalg.inv(projection(camera, width / height) @ world_to_camera(camera))
+    assert vertices.world is not None
+    low, high = vertices.world[:, :3].min(axis=0), vertices.world[:, :3].max(axis=0)
+    size = float(np.linalg.norm(high - low)) / 2
+    if np.linalg.norm(camera.eye - (low + high) / 2) < EYE_REACH * max(size, 1e-12):
+        low, high = np.minimum(low, camera.eye), np.maximum(high, camera.eye)
+        size = float(np.linalg.norm(high - low)) / 2
+    x, y, z = ((low + high) / 2).tolist()
+    back = camera.eye - camera.target
+    azimuth = float(np.arctan2(back[0], back[2])) + 0.9
+    return ViewSpace(scene, vertices, matrix, (x, y, z), max(size, 1e-9), Orbit(azimuth, 0.4))
+
+
+def viewing_camera(space: ViewSpace, orbit: Orbit) -> Camera:
+    """Return the camera that looks at a space from an orbit."""
+    eye = orbit.eye(FIELD_OF_VIEW)
+    target = np.array(orbit.target)
+    distance = float(np.linalg.norm(eye - target))
+    reach = float(np.linalg.norm(target - np.array(space.center))) + 100 * space.radius
+    return Camera(
+        eye=eye,
+        target=target,
+        field_of_view=FIELD_OF_VIEW,
+        near=distance * 1e-3,
+        far=distance + min(reach, inf),
+    )
+
+
+def viewing_matrix(camera: Camera, size: tuple[int, int]) -> Floats:
+    """Return (4, 4): the space that is shown to clip space of the viewing camera."""
+    return np.asarray(projection(camera, size[0] / size[1]) @ world_to_camera(camera))
+
+
+def viewed_scene(
+    space: ViewSpace, scene: AnyScene, camera: Camera, size: tuple[int, int], background: Floats
+) -> tuple[AnyScene, Integers | None]:
+    """Return ``scene`` as another camera sees it, and which triangle each one drawn is (None: the same).
+
+    Parameters
+    ----------
+    space : ViewSpace
+    scene : AnyScene
+        The scene of ``space`` or one with fewer of its triangles.
+    camera : Camera
+    size : (width, height)
+    background : (4,) float64
+
+    Notes
+    -----
+    A corner at w <= 0 has no place in the box of the view volume, so triangles given in clip space are cut to
+    what lies between the near and the far plane.
+    """
+    if isinstance(scene, Scene):
+        return replace(scene, camera=camera, size=size, background=background), None
+    assert scene.attributes is not None
+    number = np.arange(len(scene.clip))
+    whole = Primitives(scene.clip, scene.attributes, number, np.zeros_like(number), {})
+    pieces = clip_primitives(whole, plane_distances(scene.clip), DEPTH_PLANES).primitives
+    pieces = pieces.select(np.asarray((pieces.clip[..., 3] > 0).all(axis=1)))
+    clip = transform(viewing_matrix(camera, size) @ space.from_clip, pieces.clip)
+    drawn = ClipScene(clip, pieces.varyings, size, scene.texture, background)
+    return drawn, pieces.triangle
+
+
+def thinned(scene: AnyScene, limit: int) -> tuple[AnyScene, Integers]:
+    """Return a scene with every k-th triangle, at most ``limit``, and their numbers (T',)."""
+    if isinstance(scene, ClipScene):
+        assert scene.attributes is not None
+        chosen = np.arange(0, len(scene.clip), -(-len(scene.clip) // limit))
+        return replace(
+            scene, clip=scene.clip[chosen], attributes=scene.attributes[chosen], shared=None
+        ), chosen
+    total = sum(len(mesh.triangles) for mesh in scene.meshes)
+    step = -(-total // limit)
+    meshes, numbers, first = [], [], 0
+    for mesh in scene.meshes:
+        chosen = np.arange((-first) % step, len(mesh.triangles), step)
+        if len(chosen):
+            meshes.append(_mesh_of(mesh, chosen))
+            numbers.append(first + chosen)
+        first += len(mesh.triangles)
+    return replace(scene, meshes=tuple(meshes)), np.concatenate(numbers)
+
+
+def _mesh_of(mesh: Mesh, chosen: Integers) -> Mesh:
+    """Return a mesh of some triangles; its normals are those of the whole mesh."""
+    used, triangles = np.unique(mesh.triangles[chosen], return_inverse=True)
+    normals = mesh.normals if mesh.normals is not None else vertex_normals(mesh.positions, mesh.triangles)
+    return replace(
+        mesh,
+        positions=mesh.positions[used],
+        triangles=triangles.reshape(-1, 3),
+        normals=normals[used],
+        uvs=None if mesh.uvs is None else mesh.uvs[used],
+        colors=None if mesh.colors is None else mesh.colors[used],
+        faces=None,
+    )

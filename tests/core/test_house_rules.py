@@ -1,0 +1,92 @@
+"""Rules of the house for the core itself: no window system, shapes in docstrings, files of readable size."""
+
+import inspect
+import pkgutil
+import subprocess
+import sys
+from dataclasses import fields, is_dataclass
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import core
+
+FOLDER = Path(core.__file__).parent
+MODULES = sorted(module.name for module in pkgutil.walk_packages([str(FOLDER)], "core."))
+FILES = sorted(path.relative_to(FOLDER).as_posix() for path in FOLDER.rglob("*.py"))
+ARRAY_WORDS = ("Floats", "Integers", "Flags", "Singles", "Bytes", "NDArray", "ndarray", "ArrayLike")
+LINE_LIMIT = 400
+
+
+def public_functions(name: str) -> list:
+    module = import_module(name)
+    functions = [
+        value for _, value in inspect.getmembers(module, inspect.isfunction) if value.__module__ == name
+    ]
+    classes = [value for _, value in inspect.getmembers(module, inspect.isclass) if value.__module__ == name]
+    for owner in classes:
+        if owner.__name__.startswith("_"):
+            continue
+        functions += [value for value in vars(owner).values() if inspect.isfunction(value)]
+    return [function for function in functions if not function.__name__.startswith("_")]
+
+
+FUNCTIONS = [function for name in MODULES for function in public_functions(name)]
+
+
+def test_core_needs_numpy_only() -> None:
+    # In an interpreter of its own, with every module of the core imported.
+    program = (
+        "import sys, importlib\n"
+        f"for name in ['core', *{MODULES!r}]: importlib.import_module(name)\n"
+        "strangers = {name.split('.')[0] for name in sys.modules} & "
+        "{'PySide6', 'shiboken6', 'pyqtgraph', 'PIL', 'trimesh', 'pydantic', 'ziamath', 'moderngl', 'scipy', "
+        "'app', 'widgets', 'lessons'}\n"
+        "print(sorted(strangers))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=FOLDER.parent)
+    assert done.stdout.strip() == "[]", done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_files_are_of_readable_size(file: str) -> None:
+    lines = (FOLDER / file).read_text(encoding="utf-8").splitlines()
+    assert len(lines) < LINE_LIMIT
+
+
+@pytest.mark.parametrize("name", ["core", *MODULES])
+def test_modules_say_what_they_are(name: str) -> None:
+    assert import_module(name).__doc__
+
+
+@pytest.mark.parametrize(
+    "function", FUNCTIONS, ids=lambda function: f"{function.__module__}.{function.__qualname__}"
+)
+def test_public_functions_are_documented(function) -> None:
+    assert function.__doc__, "every public function says what it does"
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_stages_do_not_import_each_other(name: str) -> None:
+    """Inside core one stage does not import another: shared records stand in modules of their own."""
+    stages = ("geometry", "raster", "fragments", "framebuffer", "visibility")
+    parts = name.split(".")
+    if len(parts) < 3 or parts[1] not in stages:
+        return
+    source = inspect.getsource(import_module(name))
+    others = [stage for stage in stages if stage != parts[1] and f"from core.{stage}" in source]
+    assert not others
+
+
+def test_records_of_arrays_are_frozen_and_compared_by_identity() -> None:
+    for name in MODULES:
+        module = import_module(name)
+        for _, record in inspect.getmembers(module, inspect.isclass):
+            if record.__module__ != name or not is_dataclass(record):
+                continue
+            types = [str(field.type) for field in fields(record)]
+            if any(word in text for text in types for word in ARRAY_WORDS if "Callable" not in text):
+                parameters = record.__dataclass_params__
+                assert parameters.frozen, record
+                assert not parameters.eq, record

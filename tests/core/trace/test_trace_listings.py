@@ -1,0 +1,314 @@
+"""The listings, executed, give the numbers of the rows bit for bit."""
+
+from math import isnan
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as effort
+from hypothesis import strategies as st
+
+from core import ClipScene, Scene, Settings, trace
+from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
+from core.fragments.lighting import blinn_phong
+from core.fragments.shading import shaded_color
+from core.fragments.textures import bilinear_color, nearest_color
+from core.framebuffer.blending import over_pixel
+from core.framebuffer.depth import depth_test
+from core.framebuffer.display import srgb_byte
+from core.geometry.culling import cull_verdict
+from core.geometry.matrices import transform_component
+from core.geometry.sutherland_hodgman import clip_edge
+from core.raster.binning import block_verdict
+from core.raster.edge_functions import covers, edge_coefficients
+from core.raster.scanline import span
+from core.raster.scanline_lecture import draw_triangle, round_half_up
+from core.raster.snapping import snap_one
+from core.surface import viewpoint
+from core.trace import StageTrace, Trace
+from core.trace.binning import bounding_box
+from core.trace.transform import divide_and_map
+from tests.core.strategies import ANY_TRIANGLES
+from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+
+ROW_LIMIT = 150
+"""Rows of a stage that are executed: all of them, or these many of them spread over the trace."""
+
+
+def rows_of_kind(found: StageTrace, kind: str) -> list[int]:
+    rows = np.flatnonzero(found.steps.kind == found.steps.kinds.index(kind))
+    return rows[:: max(len(rows) // ROW_LIMIT, 1)].tolist()
+
+
+def equal(found: object, wanted: object) -> bool:
+    return np.array_equal(np.asarray(found), np.asarray(wanted), equal_nan=True)
+
+
+def check_transform(traced: Trace) -> None:
+    found = traced.stage("transform")
+    c = found.columns
+    for kind in ("object-to-world", "world-to-camera", "camera-to-clip"):
+        for row in rows_of_kind(found, kind):
+            after = [transform_component(line, c["before"][row]) for line in c["matrix"][row]]
+            assert equal(after, c["after"][row])
+    width, height = traced.source.scene.size
+    for row in rows_of_kind(found, "viewport"):
+        clip = c["before"][row - 1]
+        if clip[3] != 0:
+            assert equal(clip[:3] / clip[3], c["after"][row - 1][:3])
+            assert equal(divide_and_map(clip, width, height), c["after"][row][:3])
+
+
+def check_cull(traced: Trace) -> None:
+    found = traced.stage("cull")
+    assembled = traced.source.geometry.assembled
+    drops = {"none": lambda f: False, "back": lambda f: f < 0, "front": lambda f: f > 0}
+    ends = found.steps.triangle_ends
+    for triangle, row in zip(assembled.triangle.tolist(), (ends - 1).tolist(), strict=True):
+        facing = found.columns["facing"][row]
+        clip = assembled.clip[np.flatnonzero(assembled.triangle == triangle)[0]]
+        verdict = cull_verdict(clip, facing, drops[traced.source.settings.cull](facing))
+        assert verdict == found.columns["verdict"][row]
+
+
+def check_clip(traced: Trace) -> None:
+    found = traced.stage("clip")
+    c = found.columns
+    for kind in ("in-in", "in-out", "out-in", "out-out"):
+        for row in rows_of_kind(found, kind):
+            corners = clip_edge(
+                c["start"][row], c["end"][row], c["start_distance"][row], c["end_distance"][row]
+            )
+            wanted = {"in-in": [c["end"][row]], "out-out": [], "in-out": [c["corner"][row]]}
+            assert equal(corners, wanted.get(kind, [c["corner"][row], c["end"][row]]))
+
+
+def check_edges(traced: Trace) -> None:
+    found = traced.stage("edges")
+    c = found.columns
+    for row in rows_of_kind(found, "snapped"):
+        assert [snap_one(value) for value in c["window"][row]] == c["snapped"][row].tolist()
+    for row in rows_of_kind(found, "edge"):
+        sign = np.sign(c["doubled_area"][row])
+        coefficients = edge_coefficients(*c["start"][row], *c["finish"][row], sign)
+        assert equal(coefficients, (c["a"][row], c["b"][row], c["c"][row]))
+
+
+def coefficients_of(edges, primitive: int) -> list[tuple[float, float, float, bool]]:
+    return [
+        (edges.a[primitive, k], edges.b[primitive, k], edges.c[primitive, k], edges.owns_tie[primitive, k])
+        for k in range(3)
+    ]
+
+
+def check_bin(traced: Trace) -> None:
+    found = traced.stage("bin")
+    c, edges, raster = found.columns, traced.source.geometry.edges, traced.source.raster
+    for row in rows_of_kind(found, "box"):
+        box = bounding_box(*c["corners"][row].T, raster.center, raster.bounds)
+        kept = tuple(int(c[name][row]) for name in ("column", "row", "column_end", "row_end"))
+        is_empty = box[2] <= box[0] or box[3] <= box[1]
+        if kept[2] > kept[0] and kept[3] > kept[1]:
+            assert box == kept
+        else:
+            corners = c["corners"][row]
+            first, second = corners[1] - corners[0], corners[2] - corners[0]
+            assert is_empty or first[0] * second[1] == first[1] * second[0]
+    blocks = found.extra["blocks"]
+    for row in rows_of_kind(found, "block"):
+        node = c["node"][row]
+        left, bottom = c["column"][row] + raster.center, c["row"][row] + raster.center
+        size = c["size"][row] - 1
+        sides = coefficients_of(edges, blocks.triangle[node])
+        verdict = block_verdict(sides, left, bottom, left + size, bottom + size)
+        assert verdict == str(c["verdict"][row]).replace("leaf", "split")
+
+
+def check_raster(traced: Trace) -> None:
+    found = traced.stage("raster")
+    c, edges, raster = found.columns, traced.source.geometry.edges, traced.source.raster
+    for kind in ("test", "accept"):
+        for row in rows_of_kind(found, kind):
+            x, y = c["column"][row] + raster.center, c["row"][row] + raster.center
+            values, inside = covers(c["a"][row], c["b"][row], c["c"][row], c["owns_tie"][row], x, y)
+            assert equal(values, c["values"][row])
+            assert (x, y) == (c["x"][row], c["y"][row])
+            if traced.source.settings.fill != "scanline-lecture":
+                assert inside == c["covered"][row]
+    boxes = found.extra["boxes"]
+    for row in rows_of_kind(found, "span"):
+        primitive = c["primitive"][row]
+        y = c["row"][row] + raster.center
+        start, stop = int(boxes.column[primitive]), int(boxes.column_end[primitive])
+        start, stop = span(coefficients_of(edges, primitive), y, start, stop, raster.center)
+        if stop > start or c["stop"][row] > c["start"][row]:
+            assert (start, stop) == (c["start"][row], c["stop"][row])
+    check_printed_lines(found, edges, raster)
+
+
+def check_printed_lines(found: StageTrace, edges, raster) -> None:
+    lines = np.flatnonzero(found.steps.kind == found.steps.kinds.index("line"))
+    c = found.columns
+    for primitive in np.unique(c["primitive"][lines]).tolist():
+        corners = round_half_up(edges.corners.window[primitive] - raster.center)
+        printed = draw_triangle(*(tuple(corner) for corner in corners.tolist()))
+        _, first_row, _, end_row = raster.bounds
+        wanted = [line for line in printed if first_row <= line[0] < end_row]
+        own = lines[c["primitive"][lines] == primitive]
+        assert [(c["row"][row], c["crossing_0"][row], c["crossing_1"][row]) for row in own] == wanted
+
+
+def check_interpolate(traced: Trace) -> None:
+    found = traced.stage("interpolate")
+    c, planes, settings = found.columns, traced.source.geometry.planes, traced.source.settings
+    for row in rows_of_kind(found, settings.interpolation):
+        p = c["primitive"][row]
+        plane = planes.a[p], planes.b[p], planes.c[p]
+        for k in range(c["values"].shape[1]):
+            corners = c["corner_values"][row][:, k]
+            with np.errstate(all="ignore"):
+                if settings.interpolation == "flat":
+                    provoking = 0 if settings.provoking == "first" else 2
+                    weights, value = take_provoking_value(provoking, corners)
+                elif settings.interpolation == "affine":
+                    w = planes.w[p]
+                    weights, total, value = interpolate_affine_at(
+                        *plane, w, c["x"][row], c["y"][row], corners
+                    )
+                    assert equal(total, c["total"][row])
+                else:
+                    weights, total, value = interpolate_at(*plane, c["x"][row], c["y"][row], corners)
+                    assert equal(total, c["total"][row])
+            assert equal(weights, c["weights"][row])
+            assert equal(value, c["values"][row, k])
+
+
+def check_shade(traced: Trace) -> None:
+    found = traced.stage("shade")
+    source, c = traced.source, found.columns
+    filters = {"nearest": nearest_color, "bilinear": bilinear_color}
+    textures, mesh = found.extra["textures"], found.extra["mesh"]
+    values, layout = source.interpolated[1], source.geometry.primitives.layout
+    for kind in ("textured", "textured-lit"):
+        for row in rows_of_kind(found, kind):
+            pixels = textures[mesh[row]].pixels.astype(np.float64).tolist()
+            u, v = values[row, layout["uv"]].tolist()
+            color = filters[source.settings.texture_filter](pixels, u, v, source.settings.wrap)
+            assert equal(color, c["texture_color"][row][: len(color)])
+            assert c["texture_color"][row][3] == 1 or len(color) == 4
+    for kind in ("lit", "textured-lit"):
+        for row in rows_of_kind(found, kind):
+            color = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
+            assert equal(color, c["color"][row])
+    for kind in ("plain", "textured"):
+        rows = rows_of_kind(found, kind)
+        assert equal(c["albedo"][rows], c["color"][rows])
+    if "normal" in layout:
+        check_light(traced, found)
+
+
+def check_light(traced: Trace, found: StageTrace) -> None:
+    source, scene = traced.source, traced.source.scene
+    assert isinstance(scene, Scene)
+    values, layout = source.interpolated[1], source.geometry.primitives.layout
+    for row in range(0, found.steps.row_count, max(found.steps.row_count // 40, 1)):
+        position = values[row : row + 1, layout["position"]]
+        eye = np.broadcast_to(viewpoint(scene.camera, position), (1, 3))[0]
+        normal = values[row, layout["normal"]]
+        material = scene.meshes[found.extra["mesh"][row]].material
+        lights = blinn_phong(
+            tuple(position[0].tolist()),
+            tuple(normal.tolist()),
+            tuple(eye.tolist()),
+            scene.lights,
+            material,
+            False,
+        )
+        assert equal(lights[0], found.columns["diffuse_light"][row])
+        assert equal(lights[1], found.columns["specular_light"][row])
+
+
+def check_depth(traced: Trace) -> None:
+    found = traced.stage("depth")
+    c = found.columns
+    for row in rows_of_kind(found, "test"):
+        after, passes = depth_test(c["stored"][row], c["before"][row], bool(c["larger_is_nearer"][row]))
+        assert passes == c["passes"][row]
+        assert after == c["after"][row]
+    for row in rows_of_kind(found, "out-of-range"):
+        assert not c["passes"][row]
+        assert isnan(c["before"][row])
+        assert not 0 <= c["depth"][row] <= 1
+    for row in rows_of_kind(found, "store"):
+        assert c["after"][row] == c["stored"][row]
+        assert c["passes"][row]
+
+
+def check_blend(traced: Trace) -> None:
+    found = traced.stage("blend")
+    c = found.columns
+    for row in rows_of_kind(found, traced.source.settings.blend):
+        if traced.source.settings.blend == "over":
+            assert equal(over_pixel(c["source"][row], c["before"][row]), c["after"][row])
+        else:
+            assert equal(c["source"][row].astype(np.float32), c["after"][row])
+
+
+def check_resolve(traced: Trace) -> None:
+    found = traced.stage("resolve")
+    for row in rows_of_kind(found, "encode"):
+        linear, shown = found.columns["linear"][row], found.columns["bytes"][row]
+        assert [srgb_byte(float(value)) for value in linear[:3]] == shown[:3].tolist()
+
+
+CHECKS = (
+    check_transform,
+    check_cull,
+    check_clip,
+    check_edges,
+    check_bin,
+    check_raster,
+    check_interpolate,
+    check_shade,
+    check_depth,
+    check_blend,
+    check_resolve,
+)
+
+
+@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
+@pytest.mark.parametrize("name", ["clip", "lit", "orthographic", "textured-clip"])
+def test_listings_of_all_stages(name, choice):
+    scene = SCENES[name]
+    traced = trace(scene, settings_of(choice, scene), region=small_region(scene))
+    for check in CHECKS:
+        check(traced)
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if name not in ("clip", "lit", "orthographic")])
+@pytest.mark.parametrize("fill", ["hierarchy", "scanline", "scanline-lecture"])
+def test_listings_on_the_built_in_scenes(name, fill):
+    traced = trace(SCENES[name], Settings(fill=fill), region=small_region(SCENES[name]))
+    for check in CHECKS:
+        check(traced)
+
+
+FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture"])
+
+
+@effort(max_examples=60)
+@given(
+    ANY_TRIANGLES,
+    FILLS,
+    st.sampled_from(["homogeneous", "sutherland-hodgman"]),
+    st.sampled_from(["snapped", "float64"]),
+)
+def test_listings_on_any_triangles(case, fill, clipping, coverage):
+    clip, size = case
+    values = np.linspace(0, 1, clip.size).reshape(clip.shape)
+    scene = ClipScene(clip, values, size)
+    traced = trace(
+        scene, Settings(fill=fill, clipping=clipping, coverage=coverage, block_size=2, blend="over")
+    )
+    for check in CHECKS:
+        check(traced)

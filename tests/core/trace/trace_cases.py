@@ -1,0 +1,137 @@
+"""Scenes and settings that the laws of the traces are tested on: every built-in scene, every method."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
+from core.methods import table
+from core.settings import families
+from lessons.scenes import make_scene, scene_names
+
+Region = tuple[int, int, int, int]
+
+
+def small_scene(name: str) -> ClipScene | Scene:
+    """Return a built-in scene, its raster no larger than that of the teaching cases."""
+    scene = make_scene(name)
+    return replace(scene, size=(40, 30)) if scene.size[0] > 100 else scene
+
+
+def small_region(scene: ClipScene | Scene) -> Region:
+    """Return a window around the middle of the picture, on no block's border."""
+    width, height = scene.size
+    return width // 2 - 5, height // 2 - 3, 11, 7
+
+
+def lit_scene(projection: str = "perspective") -> Scene:
+    """Return two meshes that cross, one textured, one half transparent, under two kinds of light."""
+    generator = np.random.default_rng(3)
+    texture = Texture(generator.random((5, 3, 4)).astype(np.float32))
+    wall = Mesh(
+        positions=np.array([[-2.0, -1, -2], [2, -1.2, 1], [2, 1.5, 0.5], [-2, 1, -1]]),
+        triangles=np.array([[0, 1, 2], [0, 2, 3]]),
+        uvs=np.array([[-0.4, 0], [1.7, 0.1], [1.5, 1.2], [0, 1]]),
+        texture=texture,
+    )
+    colors = np.array([[1, 0.2, 0.1, 0.4], [0.1, 1, 0.3, 0.6], [0.2, 0.1, 1, 1.0]])
+    tilt = np.array([[0.0, -1, 0, 0.3], [1, 0, 0, -0.2], [0, 0, 1, 0], [0, 0, 0, 1]])
+    leaf = Mesh(
+        positions=np.array([[-1.0, -1, 1], [1.5, -0.5, -2], [0, 1.5, 0.2]]),
+        triangles=np.array([[0, 1, 2]]),
+        colors=colors,
+        transform=tilt,
+        material=Material(0.2, 0.7, 0.5, 8.0),
+    )
+    camera = Camera(np.array([0.5, 0.6, 4.0]), np.array([0.0, 0, 0]), projection=projection, view_height=4.0)
+    lights = (DirectionalLight(np.array([0.3, -1.0, -0.5])), PointLight(np.array([1.0, 1.5, 2.0])))
+    return Scene((wall, leaf), camera, lights, (16, 12), np.array([0.1, 0.2, 0.3, 0.5]))
+
+
+def clip_scene() -> ClipScene:
+    """Return triangles of every kind: through the eye, behind it, out of range, equal, flat, outside."""
+    clip = np.array(
+        [
+            [[-0.9, -0.8, 0.2, 1], [0.9, -0.7, 0.4, 1], [0.1, 0.9, -0.3, 1]],
+            [[-0.9, -0.8, 0.2, 1], [0.1, 0.9, -0.3, 1], [0.9, -0.7, 0.4, 1]],
+            [[-0.5, -0.5, 0.1, 1], [1.0, 1.5, 0.2, 2], [0.3, 0.2, 0.4, -0.5]],
+            [[-1, -1, 0, -1], [1, -1, 0, -1], [0, 1, 0, -1]],
+            [[-0.8, 0.8, -2, 1], [-0.6, -0.8, 2, 1.2], [0.8, 0.1, 0, 1]],
+            [[-0.9, -0.8, 0.2, 1], [0.9, -0.7, 0.4, 1], [0.1, 0.9, -0.3, 1]],
+            [[-0.5, -0.5, 0, 1], [0, 0, 0, 1], [0.5, 0.5, 0, 1]],
+            [[-3, -3, 0.5, 1], [3, -3, 0.5, 1], [0, 3, 0.5, 1]],
+            [[2, 2, 0, 1], [3, 2, 0, 1], [2, 3, 0, 1]],
+            [[-0.25, -0.25, 0.75, 1], [0.5, -0.25, 0.75, 1], [-0.25, 0.5, 0.75, 1]],
+        ]
+    )
+    generator = np.random.default_rng(5)
+    values = generator.random((len(clip), 3, 5))
+    return ClipScene(clip, values, (12, 9), background=np.array([0.5, 0.25, 0.125, 0.75]))
+
+
+def textured_clip_scene() -> ClipScene:
+    """Return a texture on a triangle whose corners differ in w, its coordinates beyond 0 to 1."""
+    texture = Texture(np.random.default_rng(7).random((3, 4, 3)).astype(np.float32))
+    clip = np.array(
+        [[[-1, -1, 0.1, 1], [2, -1.5, 0.5, 2], [0, 2, 1, 3.0]], [[-1, 1, 0, 1], [0, -1, 0, 1], [1, 1, 0, 1]]]
+    )
+    uv = np.array([[[-0.5, 0], [2.5, 0], [0, 3]], [[0, 0], [1, 0], [0, 1.0]]])
+    return ClipScene(clip, uv, (10, 8), texture)
+
+
+SCENES = {name: small_scene(name) for name in scene_names() if name not in ("sphere", "torus", "knot")} | {
+    "lit": lit_scene(),
+    "orthographic": lit_scene("orthographic"),
+    "clip": clip_scene(),
+    "textured-clip": textured_clip_scene(),
+}
+"""Scenes of few triangles, to be traced as a whole."""
+
+CHOICES = [{}] + [
+    {family: name}
+    for family in families()
+    for name in table.names(family)
+    if name != getattr(Settings(), family)
+]
+"""Every method of the table once, beside the defaults of the other families."""
+
+MIXES = [
+    {"fill": "scanline-lecture", "blend": "over", "pixel_center": "integer", "visibility": "last-drawn"},
+    {
+        "fill": "scanline",
+        "clipping": "sutherland-hodgman",
+        "depth": "inverse-w",
+        "blend": "over",
+        "wrap": "mirror",
+    },
+    {"fill": "blocks", "block_size": 3, "fill_rule": "inclusive", "blend": "over", "interpolation": "affine"},
+    {
+        "fill": "hierarchy",
+        "block_size": 1,
+        "coverage": "float64",
+        "cull": "back",
+        "texture_filter": "nearest",
+    },
+    {
+        "fill": "bounding-box",
+        "visibility": "painters",
+        "interpolation": "flat",
+        "shading": "gouraud",
+        "wrap": "clamp",
+    },
+]
+"""Choices that meet each other."""
+
+
+def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:
+    """Return the settings of a choice; 1/w is replaced where the camera is orthographic."""
+    if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
+        choice = {family: name for family, name in choice.items() if name != "inverse-w"}
+    return Settings(**choice)  # type: ignore[arg-type]
+
+
+def name_of(choice: object) -> str:
+    """Return a choice as the name of a test."""
+    if isinstance(choice, dict):
+        return ",".join(f"{family}={name}" for family, name in choice.items()) or "defaults"
+    return str(choice)

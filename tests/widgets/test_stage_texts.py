@@ -1,0 +1,69 @@
+"""Every stage has a card and every method its texts."""
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from core import STAGES
+from core.methods import table
+from core.settings import families
+from widgets.stage_card import StageCardView
+from widgets.stage_texts import (
+    FAMILY_TITLES,
+    SHORT_TITLES,
+    STAGE_CARDS,
+    family_title,
+    method_text,
+    stage_card,
+)
+
+
+def test_the_texts_follow_the_stages() -> None:
+    assert tuple(STAGE_CARDS) == STAGES
+    assert tuple(SHORT_TITLES) == STAGES
+    assert len(set(SHORT_TITLES.values())) == len(STAGES)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_card_is_complete(stage: str) -> None:
+    card = stage_card(stage)
+    for text in (card.gets, card.gives, card.purpose):
+        assert text.endswith(".")
+        assert 20 < len(text) < 140
+    assert card.title.lower().startswith(SHORT_TITLES[stage].lower()) or stage == "shade"
+    assert card.source
+    assert len(SHORT_TITLES[stage]) <= 11
+
+
+def test_a_card_names_the_method_that_ran() -> None:
+    source = stage_card("raster", "fill=scanline-lecture").source
+    assert source.startswith(STAGE_CARDS["raster"].source)
+    assert source.endswith("Fill, Scanline as printed (LMU): LMU 2020, Scan line algorithm for triangles")
+
+
+def test_a_stage_that_is_not_there_is_refused() -> None:
+    with pytest.raises(ValueError, match="stage must be one of transform, cull"):
+        stage_card("tessellate")
+    with pytest.raises(ValueError, match="fill must be one of"):
+        stage_card("raster", "fill=magic")
+
+
+@pytest.mark.parametrize("family", families())
+def test_methods_have_texts(family: str) -> None:
+    assert family_title(family) == FAMILY_TITLES[family]
+    for name in table.names(family):
+        text = method_text(family, name)
+        method = table.get(family, name)
+        assert text.title == method.title
+        assert f"Source: {method.source}" in text.tooltip
+        assert ("Breaks where" in text.tooltip) == bool(method.breaks_where)
+
+
+def test_a_new_family_goes_by_its_own_name() -> None:
+    assert family_title("ray_caster") == "Ray caster"
+
+
+def test_the_view_shows_a_card(qtbot: QtBot) -> None:
+    view = StageCardView()
+    qtbot.addWidget(view)
+    view.show_card(stage_card("edges"))
+    assert view.fold_button.text() == STAGE_CARDS["edges"].title

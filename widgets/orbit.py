@@ -1,0 +1,83 @@
+"""Looking at a space from outside: an orbit around a point, as a frozen value, and how a pointer changes it.
+
+The space is right-handed with y up. The same record serves a perspective picture and a parallel drawing.
+"""
+
+from dataclasses import dataclass, replace
+from math import cos, isfinite, pi, sin, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+TURN_PER_PIXEL = 0.0085
+"""Radians that one pixel of a drag turns."""
+STEEPEST = 0.499 * pi
+EXTENT_LIMITS = (1e-9, 1e9)
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """From which direction, and how much of the space is seen."""
+
+    azimuth: float = 0.6
+    """Radians around the y axis; 0 looks along -z, growing to the right."""
+    elevation: float = 0.4
+    """Radians above the xz plane."""
+    target: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """The point in the middle of the view."""
+    extent: float = 1.0
+    """Half the height of what is seen, at the target."""
+
+    def axes(self) -> NDArray[np.float64]:
+        """Return (3, 3): unit vectors to the right, up and towards the viewer, one a row."""
+        across, along = sin(self.azimuth), cos(self.azimuth)
+        flat, steep = cos(self.elevation), sin(self.elevation)
+        backward = np.array([across * flat, steep, along * flat])
+        right = np.array([along, 0.0, -across])
+        return np.array([right, np.cross(backward, right), backward])
+
+    def eye(self, field_of_view: float) -> NDArray[np.float64]:
+        """Return (3,) where a perspective camera of this vertical opening angle (radians) stands."""
+        distance = self.extent / tan(field_of_view / 2)
+        eye: NDArray[np.float64] = np.array(self.target) + distance * self.axes()[2]
+        return eye
+
+
+def turned(orbit: Orbit, right: float, down: float) -> Orbit:
+    """Return the orbit after the space was turned by a drag of so many logical pixels."""
+    elevation = orbit.elevation + down * TURN_PER_PIXEL
+    return replace(
+        orbit,
+        azimuth=(orbit.azimuth - right * TURN_PER_PIXEL) % (2 * pi),
+        elevation=min(max(elevation, -STEEPEST), STEEPEST),
+    )
+
+
+def panned(orbit: Orbit, right: float, down: float, height: float) -> Orbit:
+    """Return the orbit after the space was moved by a drag, in a view of ``height`` logical pixels."""
+    unit = 2 * orbit.extent / max(height, 1.0)
+    axes = orbit.axes()
+    return _with_target(orbit, np.array(orbit.target) + (-right * axes[0] + down * axes[1]) * unit)
+
+
+def zoomed(orbit: Orbit, factor: float, right: float, down: float, height: float) -> Orbit:
+    """Return the orbit magnified by ``factor``; what is so far from the middle keeps its place."""
+    extent = min(max(orbit.extent / factor, EXTENT_LIMITS[0]), EXTENT_LIMITS[1])
+    unit = 2 * (orbit.extent - extent) / max(height, 1.0)
+    axes = orbit.axes()
+    moved = _with_target(orbit, np.array(orbit.target) + (right * axes[0] - down * axes[1]) * unit)
+    return replace(moved, extent=extent)
+
+
+def fitted(orbit: Orbit, center: tuple[float, float, float], radius: float, aspect: float = 1.0) -> Orbit:
+    """Return the orbit from the same direction that shows a sphere; ``aspect`` is width over height."""
+    known = radius if isfinite(radius) and radius > 0 else 1.0
+    extent = known * 1.06 / min(max(aspect, 0.1), 1.0)
+    return _with_target(replace(orbit, extent=extent), np.array(center))
+
+
+def _with_target(orbit: Orbit, target: NDArray[np.float64]) -> Orbit:
+    if not np.isfinite(target).all():
+        return orbit
+    x, y, z = target.tolist()
+    return replace(orbit, target=(x, y, z))

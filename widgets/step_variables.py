@@ -1,0 +1,250 @@
+"""The variables of a step as rows of the table: in the order of the algorithm, internals left out."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from core.trace import Explanation
+from widgets.step_values import ATTRIBUTES
+from widgets.variables import Value, Variable
+
+GIVEN = ""
+"""Marks variables that are there before the first operation."""
+
+
+@dataclass(frozen=True)
+class VariableText:
+    """How one variable of a trace is shown."""
+
+    label: str
+    meaning: str
+    after: str = "itself"
+    """The variable that must be known before this one is shown; `GIVEN`: none."""
+    spread: str = ""
+    """Elements of an array that get rows of their own: ``edges`` (0, 1, 2, coloured) or ``parts``."""
+    edge: int | None = None
+    """0, 1 or 2 where the variable belongs to that edge."""
+    previous: str = ""
+    """The variable that holds its value before the step, where there was one."""
+
+
+def _given(label: str, meaning: str, spread: str = "") -> VariableText:
+    return VariableText(label, meaning, GIVEN, spread)
+
+
+_PIXEL = {
+    "column": _given("column", "Column of the pixel, from the left."),
+    "row": _given("row", "Row of the pixel, from the bottom."),
+}
+_CENTRE = {
+    "x": _given("x", "x of the pixel's centre, in pixels."),
+    "y": _given("y", "y of the pixel's centre, in pixels."),
+}
+_EDGE_FUNCTIONS = {
+    name: _given(name, meaning, "edges")
+    for name, meaning in (
+        ("a", "Change of the edge function with a pixel to the right."),
+        ("b", "Change of the edge function with a pixel upwards."),
+        ("c", "Value of the edge function at the window's origin."),
+    )
+}
+
+TEXTS: Mapping[str, Mapping[str, VariableText]] = {
+    "transform": {
+        "vertex": _given("vertex", "Number of the vertex in the scene."),
+        "corner": _given("corner", "Which corner of the triangle it is."),
+        "before": _given("position before", "x, y, z, w in the space it comes from."),
+        **{
+            f"after_{axis}": VariableText(f"{axis} after", f"{axis} in the space it goes to.")
+            for axis in "xyzw"
+        },
+        "width": _given("width", "Pixels of the picture from left to right."),
+        "height": _given("height", "Pixels of the picture from bottom to top."),
+    },
+    "cull": {
+        "w": VariableText("w", "w of the corner: above 0 is in front of the eye.", spread="edges"),
+        "plane": VariableText("plane", "Plane of the view volume."),
+        "distances": VariableText("distance", "Distance of the corner, below 0 is outside.", spread="edges"),
+        "facing": VariableText("facing", "Twice the signed area, or the determinant: above 0 is the front."),
+        "applies": VariableText("applies", "Whether the test drops the triangle."),
+        "verdict": VariableText("verdict", "What becomes of the triangle."),
+    },
+    "clip": {
+        "plane": VariableText("plane", "Plane that is clipped against."),
+        "edge": _given("edge", "Number of the edge in the polygon as it comes to the plane."),
+        "start": VariableText("start", "Clip position of the edge's start."),
+        "end": VariableText("end", "Clip position of the edge's end."),
+        "start_distance": VariableText("start distance", "0 or more is inside the plane."),
+        "end_distance": VariableText("end distance", "0 or more is inside the plane."),
+        "t": VariableText("t", "Where the new corner lies, from the inside end (0) to the outside end (1)."),
+        "corner": VariableText("new corner", "Clip position of the corner that the plane makes."),
+    },
+    "edges": {
+        "corner": _given("number", "Number of the corner, and of the edge opposite to it."),
+        "homogeneous": _given("homogeneous", "x, y and w in the window, before the division."),
+        "window": VariableText("window", "Position in pixels, before snapping."),
+        "snapped": VariableText("snapped", "Position on the lattice of 1/256 pixel, which coverage sees."),
+        "doubled_area": VariableText("2 area", "Twice the signed area, or the determinant."),
+        "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),
+        "finish": VariableText("edge end", "End of the edge as (x, y, w).", "a"),
+        "a": VariableText("a", "Change of the edge function with a pixel to the right."),
+        "b": VariableText("b", "Change of the edge function with a pixel upwards."),
+        "c": VariableText("c", "Value of the edge function at the window's origin."),
+        "owns_tie": VariableText("owns ties", "Whether a pixel centre on the edge belongs to the triangle."),
+    },
+    "bin": {
+        "corners": VariableText("corner", "Position that coverage sees, in pixels.", spread="edges"),
+        "column": _given("first column", "First column of the box or block."),
+        "column_end": _given("end column", "Column after the last."),
+        "row": _given("first row", "First row of the box or block."),
+        "row_end": _given("end row", "Row after the last."),
+        "size": _given("size", "Pixels on a side of the block; 0 for a box."),
+        "center": _given("centre offset", "Where a pixel's centre is, from its lower left corner."),
+        "high": VariableText(
+            "greatest E", "Greatest value of the edge function in the block.", spread="edges"
+        ),
+        "low": VariableText("least E", "Least value of the edge function in the block.", spread="edges"),
+        "rejected_by": VariableText("rejected by", "Edge that has all of the block outside; −1: none."),
+        "verdict": VariableText("verdict", "What becomes of the block."),
+    },
+    "raster": {
+        **_PIXEL,
+        **_CENTRE,
+        **_EDGE_FUNCTIONS,
+        **{
+            f"value_{k}": VariableText(f"E{k} (snapped)", "Decision value: above 0 is inside.", edge=k)
+            for k in range(3)
+        },
+        "weights": VariableText(
+            "weight (unsnapped)",
+            "Share of the corner, from the corners as they are; it may disagree with E by a hair.",
+            "covered",
+            "edges",
+        ),
+        "distance": VariableText(
+            "distance", "From the edge in pixels, below 0 is outside.", "covered", "edges"
+        ),
+        "owns_tie": VariableText("owns ties", "Whether a centre on the edge is inside.", "covered", "edges"),
+        "tie": VariableText("on the edge", "Whether the centre lies exactly on the edge.", spread="edges"),
+        "covered": VariableText("covered", "Whether the pixel is drawn."),
+        **{
+            f"crossing_{k}": VariableText(f"crossing {k}", "x where the row crosses the edge.", edge=k)
+            for k in range(3)
+        },
+        "start": VariableText("start", "First column of the span."),
+        "stop": VariableText("stop", "Column after the last of the span."),
+    },
+    "interpolate": {
+        **_PIXEL,
+        **_CENTRE,
+        "numerators": VariableText("n", "Edge function of the corners as they are.", spread="edges"),
+        "total": VariableText("sum of n", "All three together."),
+        "inverse_w": VariableText("1/w", "One over w at the pixel."),
+        "weights": VariableText("weight (unsnapped)", "Share of the corner.", spread="edges"),
+        "corner_values": VariableText("at corner", "All values of the corner, in order.", "weights", "edges"),
+        **{name: VariableText(name.replace("_", " "), "Mixed by the weights.") for name in ATTRIBUTES},
+    },
+    "shade": {
+        **_PIXEL,
+        "uv": _given("u, v", "Texture coordinates."),
+        "texture_size": _given("texture size", "Texels from left to right and from bottom to top."),
+        "texel_position": VariableText("texture place", "Texture coordinates counted in texels."),
+        "texels": VariableText("texel", "Column and row in the texture.", spread="parts"),
+        "texel_colors": VariableText("texel colour", "Linear red, green, blue, alpha.", spread="parts"),
+        "mix": VariableText("fractions", "How far towards the right and the upper texels the place is."),
+        "shares": VariableText("share", "Share of the texel in the colour.", spread="parts"),
+        "texture_color": VariableText("texture colour", "Linear red, green, blue, alpha."),
+        "albedo": VariableText("albedo", "Colour before lighting: linear red, green, blue, alpha."),
+        "normal": VariableText("N", "Unit normal, in world space."),
+        "to_eye": VariableText("V", "Unit vector to the eye, in world space."),
+        "n_dot_l": VariableText("N·L, light", "Cosine between normal and light.", spread="parts"),
+        "n_dot_h": VariableText("N·H, light", "Cosine between normal and halfway vector.", spread="parts"),
+        "power": VariableText("highlight, light", "Cosine to the power of the shininess.", spread="parts"),
+        "diffuse_light": VariableText("diffuse light", "Ambient and diffuse light: red, green, blue."),
+        "specular_light": VariableText("specular light", "Mirrored light: red, green, blue."),
+        "color": VariableText("colour", "Colour of the fragment: linear red, green, blue, alpha."),
+    },
+    "depth": {
+        **_PIXEL,
+        "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
+        "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
+        "stored": VariableText("new value", "What the depth method stores of the fragment."),
+        "before": VariableText("buffer before", "What the depth buffer held."),
+        "passes": VariableText("passes", "Whether the fragment is kept."),
+        "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
+    },
+    "blend": {
+        **_PIXEL,
+        "source": VariableText("fragment colour", "Linear red, green, blue and straight alpha."),
+        "before": VariableText("buffer before", "What the colour buffer held."),
+        "after": VariableText("colour buffer", "What the colour buffer holds.", previous="before"),
+    },
+    "resolve": {
+        **_PIXEL,
+        "linear": VariableText("linear", "Linear red, green, blue, alpha of the colour buffer."),
+        "clipped": VariableText("cut off", "Red, green, blue between 0 and 1."),
+        "encoded": VariableText("sRGB", "Red, green, blue on the sRGB curve."),
+        "bytes": VariableText("bytes", "Red, green, blue, alpha from 0 to 255."),
+    },
+}
+"""Variables of each stage in the order of the algorithm; what is not here stays hidden."""
+
+
+HIDDEN: Mapping[str, frozenset[str]] = {
+    "clip.untouched": frozenset({"edge"}),
+    "edges.orientation": frozenset({"corner", "homogeneous"}),
+    "edges.edge": frozenset({"homogeneous"}),
+    "bin.box": frozenset({"size"}),
+    "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center"}),
+    "bin.whole-image": frozenset({"size", "center"}),
+    "raster.span": frozenset({"column", "x"}),
+    "raster.line": frozenset({"column", "x", "y", "a", "b", "c"}),
+}
+"""Variables that rows of a kind have no use for."""
+
+
+def step_variables(explanation: Explanation) -> tuple[Variable, ...]:
+    """Return the rows of the table after a step: what is given, what is known by now, what has just changed.
+
+    Variables that a later operation sets are left out until then.
+    """
+    stage, kind, _ = explanation.key.split(".", 2)
+    hidden = HIDDEN.get(f"{stage}.{kind}", frozenset())
+    values, known = explanation.values, explanation.known
+    rows: list[Variable] = []
+    for name, text in TEXTS.get(stage, {}).items():
+        needed = name if text.after == "itself" else text.after
+        if name not in values or name in hidden or (needed != GIVEN and needed not in known):
+            continue
+        is_changed = name in explanation.changed
+        before: Any = values.get(text.previous)
+        rows += _rows(text, values[name], before if is_changed else values[name])
+    return tuple(rows)
+
+
+def _rows(text: VariableText, now: Any, before: Any) -> list[Variable]:
+    """Return one row, or one for every element that gets its own."""
+    if not text.spread:
+        return [Variable(text.label, _value(now), _value(before), text.meaning, text.edge)]
+    elements = np.asarray(now)
+    earlier = [None] * len(elements) if before is None else list(np.asarray(before))
+    is_of_edges = text.spread == "edges"
+    return [
+        Variable(
+            f"{text.label} {k}", _value(element), _value(earlier[k]), text.meaning, k if is_of_edges else None
+        )
+        for k, element in enumerate(elements)
+    ]
+
+
+def _value(value: Any) -> Value:
+    """Return a number, a word, or the numbers of an array as plain Python values."""
+    if value is None or isinstance(value, str):
+        return value
+    array = np.asarray(value)
+    if array.ndim == 0:
+        found: Value = array.item()
+        return found
+    return tuple(float(element) for element in array.ravel())
