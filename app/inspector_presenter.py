@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QLabel
 from app.pixel_stories import story_of
 from app.session import Session
 from app.stepping_presenter import SteppingPresenter
+from core.listing import Listing
 from core.steps import Level
 from widgets.formula import FormulaView
 from widgets.formulas import formula
@@ -39,7 +40,7 @@ class InspectorPresenter(QObject):
         self._listing, self._variables, self._history = listing, variables, history
         self._function = ""
         self._stage = ""
-        self._positions: tuple[int, ...] = ()
+        self._triangles: list[int | None] = []
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)
@@ -70,13 +71,12 @@ class InspectorPresenter(QObject):
             self._formula.show_formula(None)
             self._variables.show_variables([])
             first = trace.explain(1)
-            self._show_listing(first.listing.function.__name__ if first and first.listing else "", first)
+            self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
             return
-        before = trace.explain(trace.steps.back(cursor.position, cursor.level))
         self._formula.show_formula(formula(explanation))
         self._variables.show_variables(step_variables(explanation))
-        self._show_listing(explanation.listing.function.__name__ if explanation.listing else "", explanation)
+        self._show_listing(explanation.listing)
         self._listing.show_line(explanation.line or None)
 
     def sentence(self) -> str:
@@ -94,11 +94,11 @@ class InspectorPresenter(QObject):
         pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
         return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
 
-    def _show_listing(self, function: str, explanation: object) -> None:
+    def _show_listing(self, listing: Listing | None) -> None:
+        function = listing.function.__name__ if listing else ""
         if function == self._function:
             return
         self._function = function
-        listing = getattr(explanation, "listing", None)
         self._listing.show_listing(ListingText(function, listing.source) if listing else None)
         lines = {line for name, line in self._stepping.line_breakpoints if name == function}
         self._listing.show_breakpoints(lines)
@@ -106,12 +106,15 @@ class InspectorPresenter(QObject):
     @Slot()
     def refresh_history(self) -> None:
         """Show the history of the pinned pixel, or of the one under the pointer."""
+        if not self._history.isVisible() and self._session.pin is None:
+            return
         pixel = self._session.pin or self._session.hover
         if pixel is None or not self._session.has_pixel(pixel):
             self._history.show_story(None)
-            self._positions = ()
+            self._triangles = []
             return
-        story, self._triangles = story_of(self._session.trace.source, *pixel)
+        focus = self._session.document.triangle
+        story, self._triangles = story_of(self._session.trace.source, *pixel, focus)
         self._history.show_story(story)
 
     @Slot(int)

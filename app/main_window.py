@@ -29,7 +29,7 @@ from app.export import copy_widget, export_widget
 from app.keys import ACTIONS, KeyAction, key_text
 from app.mesh_files import EXTENSIONS, OpeningCancelledError
 from app.open_any import Opened, open_any
-from app.preferences import Preferences, load_preferences, preferences_folder, save_preferences
+from app.preferences import Preferences, load_preferences, preferences_folder, save_preferences, with_recent_file
 from app.scene_edits import join_shared, split_shared
 from app.session import Session
 from app.state_files import EXTENSION, State, StateFileError, save_state
@@ -414,8 +414,7 @@ class MainWindow(QMainWindow):
             self.recent_menu.addAction("No files yet").setEnabled(False)
 
     def _remember_file(self, path: str) -> None:
-        recent = [path, *(other for other in self.preferences.recent_files if other != path)][:10]
-        self.preferences = self.preferences.model_copy(update={"recent_files": recent})
+        self.preferences = with_recent_file(self.preferences, path)
 
     def state(self) -> State:
         """Return what a state file keeps."""
@@ -497,7 +496,7 @@ class MainWindow(QMainWindow):
         """Remember window, panes and scene, end all work, then close."""
         self.page.timeline.show_playing(False)
         self.job.shut_down()
-        self.page.views.shut_down()
+        self.page.views.stop()
         last = preferences_folder() / f"last{EXTENSION}"
         try:
             save_state(str(last), self.state())
@@ -632,4 +631,4 @@ def grab_window(
     window.page.settle()
     export_widget(window, path)
     window.hide()
-    window.page.views.shut_down()
+    window.page.views.stop()

@@ -1,4 +1,4 @@
-"""Where the arrays of a mesh come from: fingerprints tell whether a file or a built-in scene still has them."""
+"""Where the arrays of a mesh come from: fingerprints tell whether a file or built-in scene still has them."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -33,8 +33,10 @@ _remembered: dict[Path, _Remembered] = {}
 
 def array_of(mesh: Mesh, name: str) -> NDArray[Any] | None:
     """Return one of ``ARRAYS`` of a mesh."""
-    value = getattr(mesh, name)
-    return value.pixels if name == "texture" and value is not None else value
+    if name == "texture":
+        return None if mesh.texture is None else mesh.texture.pixels
+    value: NDArray[Any] | None = getattr(mesh, name)
+    return value
 
 
 def fingerprint(array: NDArray[Any]) -> str:

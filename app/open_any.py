@@ -50,7 +50,9 @@ def open_any(
     path = Path(target)
     if not target or (not path.suffix and not path.exists()):
         known = ", ".join(scene_names())
-        raise MeshFileError(f"there is no file {target or 'of an empty name'} and no built-in scene of that name: {known}")
+        raise MeshFileError(
+            f"there is no file {target or 'of an empty name'} and no built-in scene of that name: {known}"
+        )
     path = path.absolute()
     if path.suffix.lower() == EXTENSION:
         state, warnings = load_state(path, progress, is_cancelled)

@@ -33,8 +33,8 @@ class Case:
     texture_filter: str = "nearest"
     wrap: str = "clamp"
     guard: int = 1
-    """How many times farther out the clip planes of x and y are: nothing within is clipped. A power of two; if it
-    is above 1, width and height must be even."""
+    """How many times farther out the clip planes of x and y are: nothing within is clipped. A power of two;
+    if it is above 1, width and height must be even."""
 
     def __post_init__(self) -> None:
         if self.guard > 1 and (self.size[0] % 2 or self.size[1] % 2):

@@ -9,7 +9,8 @@ from app.opengl_families import FAMILIES, make_case
 
 LISTED = 5
 """Cases of a family that are listed one by one where they disagree."""
-HEADINGS = f"{'family':<14}{'cases':>6}{'pixels':>11}{'drawn':>10}{'differing':>11}{'depth error':>14}{'colour error':>14}"
+TITLES = ("cases", "pixels", "drawn", "differing", "depth error", "colour error")
+WIDTHS = (6, 12, 12, 11, 14, 14)
 
 
 def run_opengl_check(
@@ -47,7 +48,7 @@ def run_opengl_check(
             make_case(family, seed, 0)
         with OpenGLRenderer() as renderer:
             write(f"Core against {renderer.name}; seed {seed}")
-            write(HEADINGS)
+            write(_row("family", TITLES))
             disagreeing = [
                 family for family in chosen if not _check_family(renderer, family, count, seed, write)
             ]
@@ -70,17 +71,26 @@ def _check_family(
         case = make_case(family, seed, number)
         results.append(compare(case, renderer.draw(case)))
     disagreeing = [number for number, result in enumerate(results) if not result.agrees]
-    write(
-        f"{family:<14}{count:>6}{sum(result.pixels for result in results):>11,}"
-        f"{sum(result.drawn for result in results):>10,}"
-        f"{sum(len(result.differing) for result in results):>11,}"
-        f"{max(result.depth_error for result in results):>14.1e}"
-        f"{max(result.color_error for result in results):>14.1e}"
-        f"  {'agrees' if not disagreeing else f'{len(disagreeing)} cases differ'}"
-    )
+    sums = [
+        f"{sum(numbers):,}"
+        for numbers in zip(
+            *((result.pixels, result.drawn, len(result.differing)) for result in results), strict=True
+        )
+    ]
+    errors = [
+        f"{max(numbers):.1e}"
+        for numbers in zip(*((result.depth_error, result.color_error) for result in results), strict=True)
+    ]
+    verdict = f"{len(disagreeing)} cases differ" if disagreeing else "agrees"
+    write(f"{_row(family, (str(count), *sums, *errors))}  {verdict}")
     for number in disagreeing[:LISTED]:
         write(f"    case {number}: {describe(results[number])}")
     return not disagreeing
+
+
+def _row(family: str, cells: Iterable[str]) -> str:
+    """Align the cells of one line of the table."""
+    return f"{family:<14}" + "".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS, strict=True))
 
 
 def describe(result: Comparison) -> str:

@@ -1,9 +1,9 @@
-"""Our core's picture of a case against OpenGL's: pixels that show another primitive, and how far values are apart.
+"""The core's picture of a case against OpenGL's: pixels that show another primitive, and errors of values.
 
-How exact a value must be follows from how OpenGL implementations compute it: as a linear function of the pixel
-in float32, as if the sample lay up to 2^-19 of the raster's side beside its place. A value may be off by what
-it changes over that distance, and by a small amount that is always allowed. So triangles on which values are
-steep (slivers, those seen edge-on) need no tolerances of their own.
+How exact a value must be follows from how OpenGL implementations compute it: as a linear function of the
+pixel in float32, as if the sample lay up to 2^-18 of the raster's side beside its place. A value may be off by
+what it changes over that distance, and by a small amount that is always allowed. So triangles on which values
+are steep (slivers, those seen edge-on) need no tolerances of their own.
 """
 
 from dataclasses import dataclass
@@ -18,15 +18,15 @@ from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.raster.lines import draw_lines, interpolate_line
 from core.raster.snapping import place_corners
 
-DISPLACEMENT = 2.0**-19
+DISPLACEMENT = 2.0**-18
 """How far a sample may lie beside its place, in sides of the raster."""
 DEPTH_TOLERANCE = 2e-6
 COLOR_TOLERANCE = 2e-5
 BILINEAR_TOLERANCE = 5e-4
 """Implementations weigh the texels of the bilinear filter with fewer bits than float32 has."""
 PIXELS_ALLOWED = {"clipped": 2, "near": 2, "line-ends": 4}
-"""Pixels per case that may show another primitive, by family. Where OpenGL clips, or moves the end of a line to
-the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line that
+"""Pixels per case that may show another primitive, by family. Where OpenGL clips, or moves the end of a line
+to the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line that
 goes through another pixel than ours makes two of them.)"""
 
 
@@ -143,7 +143,8 @@ def _draw_triangles(case: Case, fill: str) -> OurPicture:
             is_on_border = (np.abs(position - np.rint(position)) <= margin).any(axis=1)
             color_tolerance[row[is_on_border], column[is_on_border]] = np.inf
         else:
-            color_tolerance[row, column] = BILINEAR_TOLERANCE
+            texels_moved = reach * steepest * max(case.texture.pixels.shape[:2])
+            color_tolerance[row, column] = BILINEAR_TOLERANCE + texels_moved
     return OurPicture(
         frame.color.astype(float),
         frame.depth.astype(float),

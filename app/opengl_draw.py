@@ -1,8 +1,8 @@
 """Drawing cases with the OpenGL of this machine, off screen, through moderngl.
 
-The picture goes to float32 colour, float32 depth and 32-bit primitive numbers: no blending, no dithering, one
-sample a pixel. moderngl makes 24-bit depth textures; their storage is given anew as float32, with OpenGL's own
-call.
+The picture goes to float32 colour, float32 depth and 32-bit primitive numbers: no blending, no dithering,
+one sample a pixel. moderngl makes 24-bit depth textures; their storage is given anew as float32, with
+OpenGL's own call.
 """
 
 import ctypes
@@ -152,7 +152,7 @@ class OpenGLRenderer:
             if case.texture is not None:
                 self._use_image(stack, case)
 
-            # Vertices: position, value (missing components of a colour are 0, 0, 0, 1), and whose corner it is
+            # Vertices: position, value (missing components of a colour are 0, 0, 0, 1), whose corner it is
             # (instead of gl_PrimitiveID, which softpipe for one does not have in fragment shaders).
             vertices = np.zeros(case.clip.shape[:2], VERTEX)
             vertices["position"] = case.clip

@@ -97,7 +97,7 @@ def _shared(rng: np.random.Generator, limit: int) -> Case:
 
 
 def _sliver(rng: np.random.Generator, limit: int) -> Case:
-    """A long triangle 2/256 to 1.5 pixels wide: upright, level, diagonal through pixel centres, or any way."""
+    """A long triangle 2/256 to 1.5 pixels wide: upright, level, diagonal through centres, or any way."""
     size = _size(rng, limit)
     directions = np.array([[0, 1], [1, 0], [1, 1], [1, -1], rng.normal(size=2)])
     along = directions[rng.integers(5)]
@@ -232,8 +232,8 @@ def _mesh(rng: np.random.Generator, limit: int) -> Case:
 def _octants(rng: np.random.Generator, limit: int) -> Case:
     """Lines between pixels inside all octants, an odd number of steps each, so that no pixel is a tie.
 
-    All are shifted along themselves by 2/256 pixel: a start or end exactly on a pixel's centre is drawn by some
-    implementations and lost by others, as the rounding of the window position has it.
+    All are shifted along themselves by 2/256 pixel: a start or end exactly on a pixel's centre is drawn by
+    some implementations and lost by others, as the rounding of the window position has it.
     """
     size = _size(rng, limit)
     reach = (min(size) // 2 - 2) // 2 * 2 + 1

@@ -41,7 +41,7 @@ def fan(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, Intege
 
 
 def grid_mesh(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, Integers]:
-    """Return a grid, jittered or not, each cell cut along any diagonal: positions (N, 2), triangles (T, 3)."""
+    """Return a grid, jittered or not, each cell cut along a diagonal: positions (N, 2), triangles (T, 3)."""
     columns, rows = (int(n) for n in rng.integers(2, 7, 2))
     x, y = np.meshgrid(np.linspace(0.06, 0.94, columns + 1), np.linspace(0.06, 0.94, rows + 1))
     points = np.stack([x.ravel(), y.ravel()], axis=1) * size
@@ -118,7 +118,7 @@ def icosphere(subdivisions: int) -> tuple[Floats, Floats, Integers]:
 
 
 def torus(around: int, across: int) -> tuple[Floats, Floats, Integers]:
-    """Return a torus of radii 0.8 and 0.35: points and normals (N, 3), 2 * around * across triangles (T, 3)."""
+    """Return a torus of radii 0.8 and 0.35: points, normals (N, 3), 2 * around * across triangles (T, 3)."""
     i, j = (index.ravel() for index in np.meshgrid(np.arange(around), np.arange(across), indexing="ij"))
     u, v = i * 2 * np.pi / around, j * 2 * np.pi / across
     normals = np.stack([np.cos(u) * np.cos(v), np.sin(u) * np.cos(v), np.sin(v)], axis=1)

@@ -69,7 +69,8 @@ def load_preferences() -> tuple[Preferences, str]:
     Returns
     -------
     Preferences
-        Those of the file, without recent files that are gone; the defaults where there is none, or a broken one.
+        Those of the file, without recent files that are gone; the defaults where there is none or it is
+        broken.
     str
         What to tell the user, empty if all is well. A broken file is kept under the ending ``.broken``.
     """

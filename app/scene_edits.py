@@ -126,7 +126,7 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
         lights = list(scene.lights)
         lights[index] = replace(light, **{name: vector})
         return replace(scene, lights=tuple(lights))
-    index, name = int(names[0]), names[1]
+    index, name = int(names[0]), names[-1]
     mesh = scene.meshes[index]
     return _with_mesh(scene, index, replace(mesh, material=replace(mesh.material, **{name: value})))
 
@@ -136,9 +136,9 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
         vector = getattr(camera, names[0]).copy()
         vector["xyz".index(names[1])] = value
         return replace(camera, **{names[0]: vector})
-    if names[0] == "field_of_view":
+    if names[-1] == "field_of_view":
         return replace(camera, field_of_view=radians(value))
-    return replace(camera, **{names[0]: value})
+    return replace(camera, **{names[-1]: value})
 
 
 def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
@@ -175,11 +175,11 @@ def _camera_outline(camera: Camera) -> OutlineGroup:
         _vector_row("camera/target", "target", camera.target),
         _vector_row("camera/up", "up", camera.up),
         OutlineRow(
-            "camera",
+            "camera/lens",
             "view angle, °" if is_perspective else "view height",
             (angle if is_perspective else height,),
         ),
-        OutlineRow("camera", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))),
+        OutlineRow("camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))),
     ]
     return OutlineGroup("camera", f"Camera, {camera.projection}", tuple(rows))
 
@@ -203,10 +203,10 @@ def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
     for index, mesh in enumerate(scene.meshes):
         counts = f"{len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices"
         texture = f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
-        rows = [OutlineRow(f"mesh/{index}", counts, note=texture)]
+        rows = [OutlineRow(f"mesh/{index}/counts", counts, note=texture)]
         rows += [
             OutlineRow(
-                f"mesh/{index}",
+                f"mesh/{index}/{name}",
                 name,
                 (OutlineValue(name, getattr(mesh.material, name), 0, 10000 if name == "shininess" else 1),),
             )

@@ -6,7 +6,6 @@ What the source holds is checked by fingerprints: a mesh file that has changed s
 """
 
 import json
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,10 +17,11 @@ from app.document import Document, TeachingRaster
 from app.field_problems import field_problem
 from app.file_writing import whole_file
 from app.mesh_formats import Report
-from app.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord, dump
-from app.state_scenes import StateFileError, scene_from_record, scene_record
+from app.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
+from app.state_scenes import StateFileError, in_field, scene_from_record, scene_record
 from core import STAGES, Settings
 from core.pipeline import check_needs
+from core.scene import AnyScene
 from core.settings import settings_from_texts
 
 __all__ = ["EXTENSION", "State", "StateFileError", "load_state", "save_state"]
@@ -29,6 +29,8 @@ __all__ = ["EXTENSION", "State", "StateFileError", "load_state", "save_state"]
 EXTENSION = ".rasterscope"
 SIZE_LIMIT = 1 << 30
 """Largest state file in bytes."""
+LINE_LENGTH = 100
+"""Characters of a line of a state file, as far as its numbers allow."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,12 +67,11 @@ def save_state(path: str | Path, state: State) -> None:
     """
     path = Path(path)
     document = state.document
-    scene, source_path = scene_record(document.scene, document.path, path.absolute().parent)
     record = StateRecord(
         program="rasterscope",
         version=VERSION,
         title=document.title,
-        scene=scene,
+        scene=scene_record(document.scene, document.path, path.resolve().parent),
         settings={name: getattr(document.settings, name) for name in Settings.__dataclass_fields__},
         raster=RasterRecord(
             columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
@@ -84,6 +85,121 @@ def save_state(path: str | Path, state: State) -> None:
         bookmarks=[BookmarkRecord(stage=stage, position=position) for stage, position in state.bookmarks],
         view=state.view,
     )
-    text = json.dumps(dump(record), indent=1, allow_nan=False)
+    text = readable_json(record.model_dump(mode="json", exclude_defaults=True))
     with whole_file(path) as file:
         file.write(text.encode() + b"\n")
+
+
+def load_state(
+    path: str | Path, progress: Report | None = None, is_cancelled: Callable[[], bool] | None = None
+) -> tuple[State, tuple[str, ...]]:
+    """Open a state file.
+
+    Parameters
+    ----------
+    path : str or Path
+    progress, is_cancelled : callable, optional
+        For the mesh file that the state names, as in ``app.mesh_files.open_mesh``.
+
+    Returns
+    -------
+    State
+    tuple of str
+        Warnings of the mesh file.
+
+    Raises
+    ------
+    StateFileError
+        If it cannot be opened; the message is one sentence that names the field.
+    OpeningCancelledError
+        If ``is_cancelled()``.
+    """
+    path = Path(path)
+    try:
+        record = _parse(_read(path))
+        scene, mesh_path, warnings = scene_from_record(
+            record.scene, path.resolve().parent, progress, is_cancelled
+        )
+        return _state(record, scene, mesh_path), warnings
+    except StateFileError as problem:
+        raise StateFileError(f"{path.name} cannot be opened: {problem}") from problem
+    except MemoryError as problem:
+        raise StateFileError(f"{path.name} cannot be opened: there is not enough memory for it") from problem
+
+
+def _read(path: Path) -> bytes:
+    """Return the bytes of the file."""
+    try:
+        if path.stat().st_size > SIZE_LIMIT:
+            raise StateFileError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
+        return path.read_bytes()
+    except FileNotFoundError as problem:
+        raise StateFileError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise StateFileError("permission is denied") from problem
+    except OSError as problem:
+        raise StateFileError((problem.strerror or str(problem)).lower()) from problem
+
+
+def _parse(content: bytes) -> StateRecord:
+    """Return the validated content."""
+    try:
+        found = json.loads(content)
+    except (ValueError, RecursionError) as problem:
+        raise StateFileError("it is not a state file, or only a part of one: it is not JSON") from problem
+    if not isinstance(found, dict) or found.get("program") != "rasterscope":
+        raise StateFileError("it is not a state file of Rasterscope")
+    if found.get("version") != VERSION or isinstance(found.get("version"), bool | float):
+        version = str(found.get("version"))[:20]
+        raise StateFileError(f"it is of version {version}, and this Rasterscope opens version {VERSION}")
+    try:
+        return StateRecord.model_validate_json(content)
+    except ValidationError as problem:
+        raise StateFileError(field_problem(problem)) from problem
+
+
+def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
+    """Return the state of a record, or say which field does not fit."""
+    marks = [("stage", record.stage), *((f"bookmarks.{k}", m.stage) for k, m in enumerate(record.bookmarks))]
+    for name, stage in marks:
+        if stage not in STAGES:
+            raise StateFileError(f"{name} must be one of {', '.join(STAGES)}, got {stage}")
+    with in_field("settings"):
+        settings = settings_from_texts({name: str(value) for name, value in record.settings.items()})
+        check_needs(scene, settings)
+    with in_field("raster"):
+        raster = TeachingRaster(record.raster.columns, record.raster.rows, record.raster.origin)
+    document = Document(
+        scene=scene,
+        raster=raster,
+        settings=settings,
+        triangle=record.triangle,
+        before=record.before,
+        title=record.title,
+        path=mesh_path,
+    )
+    with in_field("triangle and raster"):
+        document.make_trace()
+    return State(
+        document=document,
+        stage=record.stage,
+        position=record.position,
+        level=record.level,
+        pin=record.pin,
+        bookmarks=tuple((mark.stage, mark.position) for mark in record.bookmarks),
+        view=record.view,
+    )
+
+
+def readable_json(value: Any, indent: str = "") -> str:
+    """Return JSON with one line for each field, and for each row of numbers."""
+    inner = indent + " "
+    short = json.dumps(value, allow_nan=False, ensure_ascii=False)
+    if not isinstance(value, dict | list) or not value or len(indent + short) <= LINE_LENGTH:
+        return short
+    if isinstance(value, dict):
+        parts = [f"{json.dumps(k, ensure_ascii=False)}: {readable_json(v, inner)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(inner + part for part in parts) + f"\n{indent}}}"
+    if not any(isinstance(part, dict | list) for part in value):
+        return short
+    return "[\n" + ",\n".join(inner + readable_json(part, inner) for part in value) + f"\n{indent}]"

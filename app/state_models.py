@@ -1,12 +1,12 @@
 """The content of a state file: a strict model, one class for each object of the JSON."""
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-VERSION = 1
-"""Of the format. A file of another version is refused; a field that is added with a default needs no new one."""
+VERSION: Literal[1] = 1
+"""Of the format; files of others are refused. A field that is added with a default needs no new version."""
 
 
 class Record(BaseModel):
@@ -22,21 +22,23 @@ Size = tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]]
 
 
 class ArrayRecord(Record):
-    """An array, as numbers that can be read or, if there are many, as compressed bytes."""
+    """An array: as rows of numbers that can be read or, if there are many, as compressed bytes."""
 
     dtype: Literal["float64", "float32", "int64"]
     shape: list[Count]
-    numbers: list[float] | None = None
-    """In row-major order."""
+    rows: list[list[int | float]] | None = None
+    """Numbers in row-major order, one list for each run along the last axis."""
     zlib: str | None = None
     """Little-endian bytes in row-major order, compressed by zlib, in base 64."""
 
     @model_validator(mode="after")
     def _has_one_content(self) -> "ArrayRecord":
-        if (self.numbers is None) == (self.zlib is None):
-            raise ValueError("an array has either numbers or zlib")
-        if self.numbers is not None and len(self.numbers) != math.prod(self.shape):
-            raise ValueError(f"shape {self.shape} wants {math.prod(self.shape)} numbers, got {len(self.numbers)}")
+        if (self.rows is None) == (self.zlib is None):
+            raise ValueError("an array must have either rows or zlib")
+        if self.rows is not None:
+            count = sum(map(len, self.rows))
+            if count != math.prod(self.shape):
+                raise ValueError(f"shape {self.shape} wants {math.prod(self.shape)} numbers, got {count}")
         return self
 
 
@@ -153,15 +155,11 @@ class StateRecord(Record):
     """Family to method; a family that is left out has its default."""
     raster: RasterRecord
     triangle: Count | None
-    before: Literal["earlier", "cleared"]
+    before: str
+    """``earlier`` or ``cleared``."""
     stage: str
     position: Count
     level: Annotated[int, Field(ge=0, le=4)]
     pin: tuple[Count, Count] | None
     bookmarks: list[BookmarkRecord]
     view: str
-
-
-def dump(record: StateRecord) -> dict[str, Any]:
-    """Return the record as objects of JSON; fields at their defaults are left out."""
-    return record.model_dump(mode="json", exclude_defaults=True)

@@ -78,6 +78,7 @@ class StepPage(QWidget):
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self)
         self.stepping.message_sent.connect(self.message_sent)
         self.scene.edit_refused.connect(self.message_sent)
+        self.views.refused.connect(self.message_sent)
         self._lay_out()
 
     # Layout.
@@ -104,6 +105,7 @@ class StepPage(QWidget):
         scroll.setWidget(self.settings_panel)
         self.left_tabs = QTabWidget(self)
         self.left_tabs.setDocumentMode(True)
+        self.left_tabs.tabBar().setDrawBase(False)
         self.left_tabs.addTab(self.outline, "Scene")
         self.left_tabs.addTab(scroll, "Methods")
         self.left_tabs.addTab(self._overlay_pane(), "Overlays")
@@ -174,6 +176,7 @@ class StepPage(QWidget):
         self.card.show_folded(True)
         self.detail_tabs = QTabWidget(self)
         self.detail_tabs.setDocumentMode(True)
+        self.detail_tabs.tabBar().setDrawBase(False)
         self.detail_tabs.addTab(self.variables, "Variables")
         self.detail_tabs.addTab(self.history, "Pixel history")
         self.session.pin_changed.connect(self._show_history)
@@ -213,7 +216,8 @@ class StepPage(QWidget):
     def _show_view(self, index: int) -> None:
         name = self.view_bar.tabData(index)
         self.view_stack.setCurrentIndex(index)
-        self.views.show(name if name in {view[0] for view in self.views.widgets} else "")
+        if name in {view[0] for view in self.views.widgets}:
+            self.views.show(name)
         self.comparing.set_active(name == "compare")
 
     def view_names(self) -> list[str]:

@@ -9,35 +9,67 @@ import math
 from collections.abc import Sequence
 
 from widgets.formula import Formula
+from widgets.number_text import position_text
 from widgets.typed_value import number_text
 
 Part = str | tuple[str, float | str]
 """An operator, or a symbol with its number (or with LaTeX to stand under it)."""
 
 EXACT_DIGITS = 7
-"""Numbers that are exact with so many digits are written out, so that a sum on the board comes out."""
+"""Numbers that are exact with so many digits are written out."""
+DIGITS = 4
+"""Significant digits of the others."""
+MOST_DIGITS = 12
+"""Significant digits that a number gets at most, where a sum would not come out with fewer."""
 RELATIONS = {"=", "<", ">", r"\le", r"\ge", r"\quad", r"\land", r"\lor", r"\Rightarrow"}
 
 
-def number_latex(value: float) -> str:
-    """Write a number: exactly where it is short, else with four significant digits."""
+def number_latex(value: float, digits: int = DIGITS) -> str:
+    """Write a number: exactly where it is short, else with so many significant digits."""
     if math.isnan(value):
         return r"\mathrm{NaN}"
     if math.isinf(value):
         return r"\infty" if value > 0 else r"-\infty"
     text = repr(float(value) + 0.0).removesuffix(".0")
-    if "e" in text or len(text.replace(".", "").lstrip("-0")) > EXACT_DIGITS:
-        text = number_text(value).replace("−", "-")
+    if "e" in text or len(text.replace(".", "").lstrip("-0")) > max(EXACT_DIGITS, digits):
+        text = number_text(value, digits).replace("−", "-")
     if "e" in text:
         mantissa, exponent = text.split("e")
         return rf"{{{mantissa} \cdot 10^{{{exponent}}}}}"
     return text
 
 
-def signed_latex(value: float) -> str:
+def signed_latex(value: float, digits: int = DIGITS) -> str:
     """Write a number as it stands behind an operator: in brackets where it is negative."""
-    text = number_latex(value)
+    text = number_latex(value, digits)
     return f"({text})" if text.removeprefix("{").startswith("-") else text
+
+
+def lattice_latex(value: float) -> str:
+    """Write a position on the lattice of 1/256 pixel exactly: as a short decimal or a mixed fraction."""
+    text = position_text([value])[1:-1]
+    if "/" not in text:
+        return number_latex(value)
+    sign = "-" if value < 0 else ""
+    *whole, fraction = text.removeprefix("−").split(" ")
+    return rf"{sign}{''.join(whole)}\frac{{{fraction.split('/')[0]}}}{{256}}"
+
+
+def digits_that_add_up(value: float, products: Sequence[Sequence[float]]) -> int:
+    """Return with how many digits a sum of products comes out on the board, to three digits of its value."""
+    if not math.isfinite(value):
+        return DIGITS
+    for digits in range(DIGITS, MOST_DIGITS):
+        found = sum(math.prod(_shown(factor, digits) for factor in product) for product in products)
+        if abs(found - value) <= 5e-4 * abs(value) + 1e-9:
+            return digits
+    return MOST_DIGITS
+
+
+def _shown(value: float, digits: int) -> float:
+    """Return a number as `number_latex` writes it."""
+    is_short = len(repr(value).removesuffix(".0").replace(".", "").lstrip("-0")) <= max(EXACT_DIGITS, digits)
+    return value if is_short or not math.isfinite(value) else float(f"{value:.{digits}g}")
 
 
 def vector_latex(values: Sequence[float]) -> str:
@@ -45,13 +77,15 @@ def vector_latex(values: Sequence[float]) -> str:
     return f"({', '.join(map(number_latex, values))})"
 
 
-def equation(*parts: Part) -> Formula:
+def equation(*parts: Part, digits: int = DIGITS) -> Formula:
     """Put an equation together.
 
     Parameters
     ----------
     *parts : str or tuple
         Operators, and pairs of symbol and number.
+    digits : int
+        Significant digits of the numbers.
 
     Returns
     -------
@@ -71,7 +105,8 @@ def equation(*parts: Part) -> Formula:
         if isinstance(value, str):
             numbers.append(value)
         else:
-            numbers.append(number_latex(value) if previous in RELATIONS else signed_latex(value))
+            write = number_latex if previous in RELATIONS else signed_latex
+            numbers.append(write(value, digits))
         previous = ""
     return Formula(" & ".join(symbols), " & ".join(numbers))
 
@@ -80,7 +115,16 @@ def linear(
     symbol: str, value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]
 ) -> Formula:
     """Return ``value = first * unit + second * unit + ...``; a coefficient without a unit stands alone."""
-    return equation(*linear_parts(symbol, value, coefficients, *units))
+    return equation(
+        *linear_parts(symbol, value, coefficients, *units), digits=linear_digits(value, coefficients, *units)
+    )
+
+
+def linear_digits(value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]) -> int:
+    """Return with how many digits the sum of `linear` comes out."""
+    factors = [unit for _, unit in units] + [1.0] * (len(coefficients) - len(units))
+    products = [(number, factor) for (_, number), factor in zip(coefficients, factors, strict=True)]
+    return digits_that_add_up(value, products)
 
 
 def linear_parts(

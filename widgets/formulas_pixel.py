@@ -6,8 +6,11 @@ Vectors are shown in the component that matters most; their other components fol
 from collections.abc import Callable, Mapping, Sequence
 
 from widgets.equation import (
+    DIGITS,
     Part,
     equation,
+    linear,
+    linear_digits,
     linear_parts,
     number_latex,
     signed_latex,
@@ -32,6 +35,7 @@ def numerators(step: StepValues) -> Formula:
     if not step.has("a", "b", "c", *(["corner_w"] if step.kind == "affine" else [])):
         return equation(*_row([f"n_{k}" for k in range(3)], values))
     parts: list[Part] = []
+    digits = DIGITS
     for k in range(3):
         parts += [r"\quad"] if parts else []
         coefficients = [(f"{name}_{k}", step.vector(name)[k]) for name in "abc"]
@@ -47,14 +51,14 @@ def numerators(step: StepValues) -> Formula:
             parts += [(f"n_{k}", values[k]), "=", (symbols, sum_text), r"\cdot", (f"w_{k}", w)]
         else:
             parts += linear_parts(f"n_{k}", values[k], coefficients, *units)
-    return equation(*parts)
+            digits = max(digits, linear_digits(values[k], coefficients, *units))
+    return equation(*parts, digits=digits)
 
 
 def total(step: StepValues) -> Formula:
     """The sum of the three."""
     values = step.vector("numerators")
-    terms = [(f"n_{k}", values[k]) for k in range(3)]
-    return equation(*linear_parts("n", step.number("total"), terms))
+    return linear("n", step.number("total"), [(f"n_{k}", values[k]) for k in range(3)])
 
 
 def weights(step: StepValues) -> Formula:
@@ -80,7 +84,7 @@ def attribute(step: StepValues) -> Formula:
     letter = component_names(name, len(values))[k][0]
     terms = [(rf"\lambda_{i}", shares[i]) for i in range(3)]
     units = [(f"{letter}_{i}", corners[i][k]) for i in range(3)]
-    return equation(*linear_parts(letter, values[k], terms, *units))
+    return linear(letter, values[k], terms, *units)
 
 
 def texel_position(step: StepValues) -> Formula:
@@ -124,7 +128,7 @@ def filtered(step: StepValues) -> Formula:
         (rf"{letter}_{{\mathrm{{{name}}}}}", texel[channel])
         for name, texel in zip(names, colors, strict=True)
     ]
-    return equation(*linear_parts(letter, color[channel], terms, *units))
+    return linear(letter, color[channel], terms, *units)
 
 
 def albedo(step: StepValues) -> Formula | None:
@@ -189,9 +193,8 @@ def light_sums(step: StepValues) -> Formula:
     parts: list[Part] = [(channel_symbol("diffuse", channel), diffuse[channel]), "="]
     n_dot_l = step.vector("n_dot_l")
     if not step.has("ambient", "diffuse", "light_colors"):
-        positive = "; ".join(number_latex(max(value, 0.0)) for value in n_dot_l)
-        parts.append((r"k_{\mathrm{ambient}} + k_{\mathrm{diffuse}} \sum \max(N \cdot L, 0) \, l", positive))
-        return equation(*(parts if n_dot_l else [*parts[:1], "=", r"k_{\mathrm{ambient}}"]))
+        law = r"k_{\mathrm{ambient}} + k_{\mathrm{diffuse}} \sum \max(N \cdot L, 0) \, l"
+        return equation(*parts, law if n_dot_l else r"k_{\mathrm{ambient}}")
     parts.append((r"k_{\mathrm{ambient}}", step.number("ambient")))
     for light, cosine in enumerate(n_dot_l):
         colour = step.rows("light_colors")[light][channel]

@@ -9,7 +9,9 @@ from widgets.equation import (
     all_of,
     comparison,
     conclusion,
+    digits_that_add_up,
     equation,
+    lattice_latex,
     linear,
     number_latex,
     relation,
@@ -44,7 +46,7 @@ def snapped(step: StepValues) -> Formula:
         parts += [r"\quad"] if parts else []
         symbol = rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}"
         parts += [
-            (rf"\vertex{{{k}}}{{{axis}_{k}}}", lattice),
+            (rf"\vertex{{{k}}}{{{axis}_{k}}}", lattice_latex(lattice)),
             "=",
             (
                 rf"\frac{{\mathrm{{round}}(256 \cdot {symbol})}}{{256}}",
@@ -60,11 +62,13 @@ def orientation(step: StepValues) -> Formula:
     corners = [step.vector("snapped"), step.vector("start"), step.vector("finish")]
     if step.flag("is_projected") and all(np.isfinite(corners[0])):
         (x0, y0), (x1, y1, _), (x2, y2, _) = corners
+        factors = [(x1, y2), (-x1, y0), (-x0, y2), (-x2, y1), (x2, y0), (x0, y1)]
+        digits = digits_that_add_up(value, factors)
 
         def difference(axis: str, place: int, end: float, start: float) -> Part:
             return (
                 rf"(\vertex{{{place}}}{{{axis}_{place}}} - \vertex{{0}}{{{axis}_0}})",
-                f"({number_latex(end)} - {signed_latex(start)})",
+                f"({number_latex(end, digits)} - {signed_latex(start, digits)})",
             )
 
         return equation(
@@ -77,6 +81,7 @@ def orientation(step: StepValues) -> Formula:
             difference("x", 2, x2, x0),
             r"\cdot",
             difference("y", 1, y1, y0),
+            digits=digits,
         )
     symbols = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
     if step.flag("is_projected"):
@@ -98,6 +103,10 @@ def coefficient(step: StepValues) -> Formula:
     second = dict(zip("xyw", step.vector("finish"), strict=True))
     sign = float(np.sign(step.number("doubled_area")))
     one, other = {"a": ("y", "w"), "b": ("w", "x"), "c": ("x", "y")}[name]
+    digits = digits_that_add_up(
+        step.number(name),
+        [(sign, first[one], second[other]), (-sign, first[other], second[one])],
+    )
     return equation(
         (f"{name}_{k}", step.number(name)),
         "=",
@@ -106,9 +115,10 @@ def coefficient(step: StepValues) -> Formula:
         (
             rf"(\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
             rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}})",
-            rf"({number_latex(first[one])} \cdot {signed_latex(second[other])} "
-            rf"- {signed_latex(first[other])} \cdot {signed_latex(second[one])})",
+            rf"({number_latex(first[one], digits)} \cdot {signed_latex(second[other], digits)} "
+            rf"- {signed_latex(first[other], digits)} \cdot {signed_latex(second[one], digits)})",
         ),
+        digits=digits,
     )
 
 

@@ -2,7 +2,16 @@
 
 from collections.abc import Callable, Mapping
 
-from widgets.equation import all_of, comparison, conclusion, equation, linear, number_latex, signed_latex
+from widgets.equation import (
+    all_of,
+    comparison,
+    conclusion,
+    digits_that_add_up,
+    equation,
+    linear,
+    number_latex,
+    signed_latex,
+)
 from widgets.formula import Formula
 from widgets.sentences_vertex import has_area
 from widgets.step_values import AXES, PLANE_SIGNS, StepValues
@@ -89,6 +98,10 @@ def distances(step: StepValues) -> Formula:
     place = AXES.index(axis)
     operator = "+" if sign > 0 else "-"
     start, end = step.vector("start"), step.vector("end")
+    digits = max(
+        digits_that_add_up(step.number(f"{name}_distance"), [(position[3],), (sign, position[place])])
+        for name, position in (("start", start), ("end", end))
+    )
     return equation(
         (r"d_{\mathrm{start}}", step.number("start_distance")),
         "=",
@@ -101,6 +114,7 @@ def distances(step: StepValues) -> Formula:
         (r"w_{\mathrm{end}}", end[3]),
         operator,
         (rf"{axis}_{{\mathrm{{end}}}}", end[place]),
+        digits=digits,
     )
 
 
@@ -121,18 +135,20 @@ def new_corner(step: StepValues) -> Formula:
     """The corner made there, in the component that changes most."""
     inner, outer = (step.vector(name) for name in _inner_and_outer(step, ""))
     place = max(range(4), key=lambda k: abs(outer[k] - inner[k]))
-    axis = AXES[place]
+    axis, t, value = AXES[place], step.number("t"), step.vector("corner")[place]
+    digits = digits_that_add_up(value, [(inner[place],), (t, outer[place]), (-1.0, t, inner[place])])
     return equation(
-        (axis, step.vector("corner")[place]),
+        (axis, value),
         "=",
         (rf"{axis}_{{\mathrm{{in}}}}", inner[place]),
         "+",
-        ("t", step.number("t")),
+        ("t", t),
         r"\cdot",
         (
             rf"({axis}_{{\mathrm{{out}}}} - {axis}_{{\mathrm{{in}}}})",
-            f"({number_latex(outer[place])} - {signed_latex(inner[place])})",
+            f"({number_latex(outer[place], digits)} - {signed_latex(inner[place], digits)})",
         ),
+        digits=digits,
     )
 
 

@@ -9,9 +9,14 @@ EXACT_DECIMALS = 3
 """Snapped positions with no more decimals are written as decimals, others in 1/256ths."""
 
 
+def spoken(value: float) -> str:
+    """Write a number with four significant digits; the zero of sentences has no sign."""
+    return number_text(value + 0.0)
+
+
 def vector_text(values: Sequence[float]) -> str:
     """Write numbers in brackets, four significant digits each."""
-    return f"({', '.join(number_text(value) for value in values)})"
+    return f"({', '.join(map(spoken, values))})"
 
 
 def position_text(values: Sequence[float]) -> str:
@@ -21,13 +26,13 @@ def position_text(values: Sequence[float]) -> str:
 
 def _lattice_text(value: float) -> str:
     if not math.isfinite(value) or value * 10**EXACT_DECIMALS == round(value * 10**EXACT_DECIMALS):
-        return number_text(value, 9)
+        return number_text(value + 0.0, 9)
     return fraction_text(value).removeprefix("~")
 
 
 def pair_text(first: float, second: float) -> tuple[str, str]:
     """Write two numbers with as many digits, from four on, as it takes to tell them apart."""
-    texts = number_text(first), number_text(second)
+    texts = spoken(first), spoken(second)
     for digits in range(5, 18):
         if first == second or texts[0] != texts[1]:
             break

@@ -11,9 +11,8 @@ import numpy as np
 from core.steps import Level
 from core.trace import Explanation
 from widgets import sentences_edges, sentences_pixel, sentences_raster, sentences_vertex
-from widgets.number_text import counted, joined, vector_text
+from widgets.number_text import counted, joined, spoken, vector_text
 from widgets.step_values import StepValues
-from widgets.typed_value import number_text
 
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_vertex.SENTENCES,
@@ -106,7 +105,7 @@ def _plain_account(step: StepValues) -> str:
         if isinstance(value, np.ndarray) and value.dtype.kind in "fiu":
             shown = vector_text([float(number) for number in value.ravel()])
         else:
-            shown = number_text(value) if isinstance(value, float) else str(value)
+            shown = spoken(value) if isinstance(value, float) else str(value)
         found.append(f"{name.replace('_', ' ')} is {shown}")
     done = f"{step.kind}, {step.operation}".replace("-", " ").capitalize()
     return f"{done}: {joined(found)}." if found else f"{done}."

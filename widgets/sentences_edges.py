@@ -3,9 +3,8 @@
 import math
 from collections.abc import Callable, Mapping
 
-from widgets.number_text import counted, joined, position_text, vector_text
+from widgets.number_text import counted, joined, position_text, spoken, vector_text
 from widgets.step_values import StepValues
-from widgets.typed_value import number_text
 
 SNAP_LIMIT = 2**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
@@ -19,7 +18,7 @@ def projected(step: StepValues) -> str:
     place = vector_text(step.vector("window"))
     return (
         f"Corner {step.whole('corner')} of triangle {step.triangle} stands at {place} in the window: "
-        f"{number_text(x)} and {number_text(y)}, each divided by w = {number_text(w)}."
+        f"{spoken(x)} and {spoken(y)}, each divided by w = {spoken(w)}."
     )
 
 
@@ -31,16 +30,14 @@ def snapped(step: StepValues) -> str:
     moved = math.hypot(*(a - b for a, b in zip(lattice, window, strict=True)))
     if moved < ROUNDING:
         return f"{name} stays at {place}: that is on the lattice of 1/256 pixel."
-    return (
-        f"{name} is snapped to the nearest 1/256 pixel, {place}, which moves it by {number_text(moved)} px."
-    )
+    return f"{name} is snapped to the nearest 1/256 pixel, {place}, which moves it by {spoken(moved)} px."
 
 
 def homogeneous(step: StepValues) -> str:
     """A corner that is not snapped, and why."""
     w = step.vector("homogeneous")[2]
     if not w > 0:
-        reason = f"its w is {number_text(w)}, not above 0"
+        reason = f"its w is {spoken(w)}, not above 0"
     elif any(abs(value) > SNAP_LIMIT for value in step.vector("window")):
         reason = f"it stands more than {SNAP_LIMIT:,} pixels away"
     else:
@@ -56,7 +53,7 @@ def orientation(step: StepValues) -> str:
     value = step.number("doubled_area")
     is_area = step.flag("is_projected") and all(map(math.isfinite, step.vector("snapped")))
     name = "Twice the signed area" if is_area else "The determinant of the (x, y, w) matrix"
-    text = f"{name} of triangle {step.triangle} is {number_text(value)}"
+    text = f"{name} of triangle {step.triangle} is {spoken(value)}"
     if value > 0:
         return f"{text}, above 0: its edge functions are positive inside as they are."
     if value < 0:
@@ -69,13 +66,13 @@ def coefficient(step: StepValues) -> str:
     k = step.whole("edge")
     value = step.number(step.operation)
     ends = f"from corner {(k + 1) % 3} to corner {(k + 2) % 3}"
-    name = f"Edge {k} ({ends}): {step.operation} is {number_text(value)}"
+    name = f"Edge {k} ({ends}): {step.operation} is {spoken(value)}"
     if step.operation == "c":
         return f"{name}, the value of E{k} at the window's origin."
     way = "pixel to the right" if step.operation == "a" else "pixel upwards"
     if value == 0:
         return f"{name}, so E{k} stays the same with every {way}."
-    change = f"{'grows' if value > 0 else 'falls'} by {number_text(abs(value))}"
+    change = f"{'grows' if value > 0 else 'falls'} by {spoken(abs(value))}"
     return f"{name}, so E{k} {change} with every {way}."
 
 
@@ -107,7 +104,7 @@ def box_low(step: StepValues) -> str:
     centre = f"the first pixel centre{' of the raster' if is_limited else ''}"
     return (
         f"The box of triangle {step.triangle} begins at column {column} and row {row}: {centre} "
-        f"at or beyond its least x, {number_text(min(x))}, and its least y, {number_text(min(y))}."
+        f"at or beyond its least x, {spoken(min(x))}, and its least y, {spoken(min(y))}."
     )
 
 
@@ -148,7 +145,7 @@ def block_name(step: StepValues) -> str:
 
 
 def _bounds(step: StepValues, name: str) -> str:
-    return joined([f"E{k} = {number_text(value)}" for k, value in enumerate(step.vector(name))])
+    return joined([f"E{k} = {spoken(value)}" for k, value in enumerate(step.vector(name))])
 
 
 def block_high(step: StepValues) -> str:
@@ -168,7 +165,7 @@ def block_verdict(step: StepValues) -> str:
     name = block_name(step)
     verdict, edge = step.text("verdict"), step.whole("rejected_by")
     if verdict == "outside":
-        high = number_text(step.vector("high")[edge])
+        high = spoken(step.vector("high")[edge])
         return f"The {name} is rejected by edge {edge}: even its greatest E{edge} there, {high}, is outside."
     if verdict == "inside":
         return f"The {name} is accepted as a whole: even the least value of every edge function is inside."

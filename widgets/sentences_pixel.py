@@ -3,10 +3,9 @@
 import math
 from collections.abc import Callable, Mapping
 
-from widgets.number_text import joined, pair_text, vector_text
+from widgets.number_text import joined, pair_text, spoken, vector_text
 from widgets.sentences_raster import pixel_name
 from widgets.step_values import StepValues
-from widgets.typed_value import number_text
 
 ATTRIBUTE_NAMES = {
     "color": "colour",
@@ -20,7 +19,7 @@ TEXEL_NAMES = ("bottom left", "bottom right", "top left", "top right")
 
 
 def _listed(step: StepValues, name: str) -> str:
-    return joined([number_text(value) for value in step.vector(name)])
+    return joined([spoken(value) for value in step.vector(name)])
 
 
 def numerators(step: StepValues) -> str:
@@ -35,8 +34,8 @@ def numerators(step: StepValues) -> str:
 
 def total(step: StepValues) -> str:
     """Their sum."""
-    text = f"{pixel_name(step)}: together they are {number_text(step.number('total'))}"
-    inverse_w = number_text(step.number("inverse_w"))
+    text = f"{pixel_name(step)}: together they are {spoken(step.number('total'))}"
+    inverse_w = spoken(step.number("inverse_w"))
     if step.kind == "affine":
         return f"{text}, the whole that the three parts are shares of (1/w is {inverse_w} here)."
     return f"{text}, the determinant times 1/w, and 1/w is {inverse_w} here."
@@ -64,7 +63,7 @@ def attribute(step: StepValues) -> str:
     """An interpolated value."""
     name = step.operation.removeprefix("value-")
     values = step.vector(name)
-    shown = number_text(values[0]) if len(values) == 1 else vector_text(values)
+    shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
     title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
     how = "as at that one corner" if step.kind == "flat" else "the corners' values mixed by the weights"
     verb = "are" if name == "uv" else "is"
@@ -84,14 +83,14 @@ def texel_position(step: StepValues) -> str:
         uv = vector_text(step.vector("uv"))
         return (
             f"{pixel_name(step)}: (u, v) = {uv} is the place {position} "
-            f"in the texture of {number_text(width)} × {number_text(height)} texels."
+            f"in the texture of {spoken(width)} × {spoken(height)} texels."
         )
     return f"{pixel_name(step)}: counted in texels, its place in the texture is {position}."
 
 
 def texels(step: StepValues) -> str:
     """Which texels are read."""
-    found = [f"({number_text(column)}, {number_text(row)})" for column, row in step.rows("texels")]
+    found = [f"({spoken(column)}, {spoken(row)})" for column, row in step.rows("texels")]
     if len(found) == 1:
         color = vector_text(step.rows("texel_colors")[0])
         return f"{pixel_name(step)}: the place is in texel {found[0]}, whose colour is {color}."
@@ -103,7 +102,7 @@ def filtered(step: StepValues) -> str:
     color, shares = vector_text(step.vector("texture_color")), step.vector("shares")
     if len(shares) == 1:
         return f"{pixel_name(step)}: the nearest texel alone gives the texture's colour, {color}."
-    listed = joined([f"{number_text(share)} ({TEXEL_NAMES[k]})" for k, share in enumerate(shares)])
+    listed = joined([f"{spoken(share)} ({TEXEL_NAMES[k]})" for k, share in enumerate(shares)])
     return f"{pixel_name(step)}: the texture's colour is {color}, with the shares {listed}."
 
 
@@ -139,16 +138,14 @@ def cosines(step: StepValues) -> str:
         zip(step.vector("n_dot_l"), step.vector("n_dot_h"), strict=True)
     ):
         side = "" if n_dot_l > 0 else ", so it does not reach this side"
-        texts.append(
-            f"light {number} has N·L = {number_text(n_dot_l)} and N·H = {number_text(n_dot_h)}{side}"
-        )
+        texts.append(f"light {number} has N·L = {spoken(n_dot_l)} and N·H = {spoken(n_dot_h)}{side}")
     return f"{pixel_name(step)}: {'; '.join(texts)}."
 
 
 def light_sums(step: StepValues) -> str:
     """The two sums over the lights."""
     diffuse, specular = (vector_text(step.vector(name)) for name in ("diffuse_light", "specular_light"))
-    powers = [f"{number_text(power)} (light {k})" for k, power in enumerate(step.vector("power"))]
+    powers = [f"{spoken(power)} (light {k})" for k, power in enumerate(step.vector("power"))]
     if not powers:
         return f"{pixel_name(step)}: without lights, the ambient light {diffuse} is all there is."
     highlight = f"highlight power{'s' if len(powers) > 1 else ''} {joined(powers)}"
@@ -173,14 +170,10 @@ def shaded(step: StepValues) -> str:
 
 def depth_stored(step: StepValues) -> str:
     """What the depth method stores of a fragment."""
-    stored = number_text(step.number("stored"))
+    stored = spoken(step.number("stored"))
     if step.stores_inverse_w():
-        return (
-            f"{pixel_name(step)}: 1/w is {number_text(step.number('inverse_w'))}, to be stored as {stored}."
-        )
-    return (
-        f"{pixel_name(step)}: its depth z is {number_text(step.number('depth'))}, to be stored as {stored}."
-    )
+        return f"{pixel_name(step)}: 1/w is {spoken(step.number('inverse_w'))}, to be stored as {stored}."
+    return f"{pixel_name(step)}: its depth z is {spoken(step.number('depth'))}, to be stored as {stored}."
 
 
 def compared(step: StepValues) -> str:
@@ -209,7 +202,7 @@ def depth_written(step: StepValues) -> str:
 def out_of_range(step: StepValues) -> str:
     """A fragment before the near or behind the far plane."""
     depth = step.number("depth")
-    text = f"{pixel_name(step)} is dropped: its depth z is {number_text(depth)}"
+    text = f"{pixel_name(step)} is dropped: its depth z is {spoken(depth)}"
     if math.isnan(depth):
         return f"{text}, which is no number."
     return f"{text}, " + (
@@ -234,8 +227,8 @@ def over_source(step: StepValues) -> str:
     alpha = step.vector("source")[3]
     before = vector_text(step.vector("before"))
     return (
-        f"{pixel_name(step)}: the fragment's alpha is {number_text(alpha)}, "
-        f"so {number_text(1 - alpha)} of what is there, {before}, shows through."
+        f"{pixel_name(step)}: the fragment's alpha is {spoken(alpha)}, "
+        f"so {spoken(1 - alpha)} of what is there, {before}, shows through."
     )
 
 
@@ -271,9 +264,7 @@ def encoded(step: StepValues) -> str:
 def rounded(step: StepValues) -> str:
     """Display bytes."""
     *color, alpha = step.vector("bytes")
-    return (
-        f"{pixel_name(step)} is displayed as the bytes {vector_text(color)}, with alpha {number_text(alpha)}."
-    )
+    return f"{pixel_name(step)} is displayed as the bytes {vector_text(color)}, with alpha {spoken(alpha)}."
 
 
 _TEXTURE: Mapping[str, Callable[[StepValues], str]] = {

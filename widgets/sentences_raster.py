@@ -3,10 +3,9 @@
 import math
 from collections.abc import Callable, Mapping
 
-from widgets.number_text import counted, joined, vector_text
+from widgets.number_text import counted, joined, spoken, vector_text
 from widgets.sentences_edges import tie_reason
 from widgets.step_values import StepValues
-from widgets.typed_value import number_text
 
 SNAP_DISTANCE = 1 / 256
 """Pixels by which snapping can at most turn a decision."""
@@ -21,7 +20,7 @@ def pixel_name(step: StepValues) -> str:
 def _distance(step: StepValues, edge: int) -> str:
     """Return a distance from an edge with its unit, or nothing where the edge is no line."""
     distance = step.vector("distance")[edge]
-    return f"{number_text(distance)} px" if math.isfinite(distance) else ""
+    return f"{spoken(distance)} px" if math.isfinite(distance) else ""
 
 
 def edge_value(step: StepValues) -> str:
@@ -29,7 +28,7 @@ def edge_value(step: StepValues) -> str:
     k = int(step.operation.removeprefix("edge-"))
     value = step.number(f"value_{k}")
     centre = vector_text([step.number("x"), step.number("y")])
-    text = f"{pixel_name(step)}: E{k} is {number_text(value)} at its centre {centre}"
+    text = f"{pixel_name(step)}: E{k} is {spoken(value)} at its centre {centre}"
     away = _distance(step, k)
     if math.isnan(value):
         return f"{text}, which is no number, so it is outside edge {k}."
@@ -63,14 +62,14 @@ def decision(step: StepValues) -> str:
         distances = step.vector("distance")
         nearest = min(range(3), key=lambda k: distances[k] if math.isfinite(distances[k]) else math.inf)
         away = f"{_distance(step, nearest)} away, " if _distance(step, nearest) else ""
-        value = number_text(values[nearest])
+        value = spoken(values[nearest])
         return (
             f"{pixel_name(step)} is covered: it is inside all three edges, the nearest is edge {nearest} "
             f"({away}E{nearest} = {value}){_apart(step)}."
         )
     reasons = []
     for k in range(3):
-        value = number_text(values[k])
+        value = spoken(values[k])
         if values[k] < 0:
             away = (
                 f"is {_distance(step, k)} away (E{k} = {value})"
@@ -99,7 +98,7 @@ def disagreeing_edges(step: StepValues) -> list[int]:
 
 def _apart(step: StepValues) -> str:
     texts = [
-        f"E{k} (snapped) decides, though weight {k} (unsnapped) is {number_text(step.vector('weights')[k])}"
+        f"E{k} (snapped) decides, though weight {k} (unsnapped) is {spoken(step.vector('weights')[k])}"
         for k in disagreeing_edges(step)
     ]
     return f"; {joined(texts)}" if texts else ""
@@ -113,7 +112,7 @@ def accepted(step: StepValues) -> str:
     outside = [k for k in range(3) if not (values[k] > 0 or (values[k] == 0 and owns[k]))]
     text = f"{pixel_name(step)} is covered without a test of its own: {what}"
     if outside:
-        listed = joined([f"E{k} = {number_text(values[k])}" for k in outside])
+        listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
         text += f"; the exact test would leave it out ({listed})"
     return text + "."
 
@@ -127,11 +126,11 @@ def span_edge(step: StepValues) -> str:
         is_inside = value > 0 or (value == 0 and step.flags("owns_tie")[k])
         return (
             f"Row {row} runs along edge {k}, which has all of it {'inside' if is_inside else 'outside'} "
-            f"(E{k} = {number_text(value)})."
+            f"(E{k} = {spoken(value)})."
         )
     verb = "enters" if a > 0 else "leaves"
     limit = "begins" if a > 0 else "ends"
-    where = f"at x = {number_text(crossing)}"
+    where = f"at x = {spoken(crossing)}"
     return f"Row {row} {verb} through edge {k} {where}: the span {limit} there, or farther inside."
 
 
@@ -146,7 +145,7 @@ def span(step: StepValues) -> str:
 
 def line_ends(step: StepValues) -> str:
     """The two sides of the printed scanline fill."""
-    ends = joined([number_text(step.number(f"crossing_{k}")) for k in range(2)])
+    ends = joined([spoken(step.number(f"crossing_{k}")) for k in range(2)])
     return f"Row {step.whole('row')}: adding up the inverse slopes puts the two sides at x = {ends}."
 
 

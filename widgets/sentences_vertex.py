@@ -2,9 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
-from widgets.number_text import joined, vector_text
+from widgets.number_text import joined, spoken, vector_text
 from widgets.step_values import PLANE_SIGNS, StepValues
-from widgets.typed_value import number_text
 
 ORDINALS = {"x": "first", "y": "second", "z": "third", "w": "fourth"}
 MATRICES = {
@@ -28,7 +27,7 @@ def transformed(step: StepValues) -> str:
     axis = step.operation
     value = step.number(f"after_{axis}")
     text = (
-        f"{_corner(step)}: its {after} {axis} is {number_text(value)}, "
+        f"{_corner(step)}: its {after} {axis} is {spoken(value)}, "
         f"the {ORDINALS[axis]} row of {MATRICES[step.kind]} times its {before} position"
     )
     is_perspective = after == "clip" and axis == "w" and step.rows("matrix")[3] != [0.0, 0.0, 0.0, 1.0]
@@ -44,8 +43,8 @@ def divided(step: StepValues) -> str:
     axis = step.operation
     before, after, w = (step.number(name) for name in (f"before_{axis}", f"after_{axis}", "before_w"))
     text = (
-        f"{_corner(step)}: its NDC {axis} is {number_text(after)}, "
-        f"clip {axis} = {number_text(before)} divided by w = {number_text(w)}"
+        f"{_corner(step)}: its NDC {axis} is {spoken(after)}, "
+        f"clip {axis} = {spoken(before)} divided by w = {spoken(w)}"
     )
     if w == 0:
         text += "; with w = 0 it has no place in the window"
@@ -60,7 +59,7 @@ def divided(step: StepValues) -> str:
 def placed(step: StepValues) -> str:
     """One component from NDC to the window."""
     axis = step.operation
-    before, after = number_text(step.number(f"before_{axis}")), number_text(step.number(f"after_{axis}"))
+    before, after = spoken(step.number(f"before_{axis}")), spoken(step.number(f"after_{axis}"))
     if axis == "z":
         return f"{_corner(step)}: its depth is {after}: NDC z is {before}, and −1 to 1 becomes 0 to 1."
     side, pixels = ("the left", step.whole("width")) if axis == "x" else ("the bottom", step.whole("height"))
@@ -76,13 +75,13 @@ def behind(step: StepValues) -> str:
     if step.flag("applies"):
         return (
             f"Triangle {step.triangle} is behind the eye and dropped: "
-            f"no corner has w above 0 (w = {joined([number_text(value) for value in w])})."
+            f"no corner has w above 0 (w = {joined([spoken(value) for value in w])})."
         )
     in_front = [str(k) for k in range(3) if not w[k] <= 0]
     corners = f"corner{'s' if len(in_front) > 1 else ''} {joined(in_front)}"
     return (
         f"Triangle {step.triangle} is not behind the eye: {corners} "
-        f"{'have' if len(in_front) > 1 else 'has'} w above 0 (w = {joined([number_text(v) for v in w])})."
+        f"{'have' if len(in_front) > 1 else 'has'} w above 0 (w = {joined([spoken(v) for v in w])})."
     )
 
 
@@ -90,7 +89,7 @@ def plane(step: StepValues) -> str:
     """Whether all corners are outside one plane."""
     distances = step.vector("distances")
     name = step.text("plane")
-    listed = joined([number_text(value) for value in distances])
+    listed = joined([spoken(value) for value in distances])
     if step.flag("applies"):
         return (
             f"Triangle {step.triangle} is dropped: all its corners are outside the {name} plane "
@@ -119,7 +118,7 @@ def degenerate(step: StepValues) -> str:
     """Whether the triangle has an area."""
     if step.flag("applies"):
         return f"Triangle {step.triangle} is degenerate and dropped: {area_name(step)} is 0."
-    facing = number_text(step.number("facing"))
+    facing = spoken(step.number("facing"))
     return f"Triangle {step.triangle} is not degenerate: {area_name(step)} is {facing}, not 0."
 
 
@@ -132,7 +131,7 @@ def facing(step: StepValues) -> str:
     verdict = "is culled" if is_dropped else "may stay"
     which = "drops" if is_dropped else "keeps"
     return (
-        f"Triangle {step.triangle} {verdict}: {area_name(step)} is {number_text(value)}, {sign} 0, "
+        f"Triangle {step.triangle} {verdict}: {area_name(step)} is {spoken(value)}, {sign} 0, "
         f"so we see its {side}, which the cull setting {which}."
     )
 
@@ -144,7 +143,7 @@ def kept(step: StepValues) -> str:
 
 def _side(distance: float) -> str:
     where = "inside" if distance >= 0 else "outside"
-    return f"{where} (distance {number_text(distance)})"
+    return f"{where} (distance {spoken(distance)})"
 
 
 def distances(step: StepValues) -> str:
@@ -174,7 +173,7 @@ def crossing(step: StepValues) -> str:
     way, inner = ("leaves", "start") if leaves else ("enters", "end")
     d_in = step.number("start_distance" if leaves else "end_distance")
     d_out = step.number("end_distance" if leaves else "start_distance")
-    t, part, whole = (number_text(value) for value in (step.number("t"), d_in, d_in - d_out))
+    t, part, whole = (spoken(value) for value in (step.number("t"), d_in, d_in - d_out))
     return (
         f"The edge {way} through the {step.text('plane')} plane at t = {t} from its inside end, the {inner}: "
         f"that end is {part} inside, and the two ends are {whole} apart."

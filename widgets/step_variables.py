@@ -19,6 +19,7 @@ class VariableText:
     """How one variable of a trace is shown."""
 
     label: str
+    """What it is called; ``#`` stands for the number of an element or edge."""
     meaning: str
     after: str = "itself"
     """The variable that must be known before this one is shown; `GIVEN`: none."""
@@ -42,8 +43,8 @@ _CENTRE = {
     "x": _given("x", "x of the pixel's centre, in pixels."),
     "y": _given("y", "y of the pixel's centre, in pixels."),
 }
-_EDGE_FUNCTIONS = {
-    name: _given(name, meaning, "edges")
+_COEFFICIENTS = {
+    name: _given(f"{name}#", meaning, "edges")
     for name, meaning in (
         ("a", "Change of the edge function with a pixel to the right."),
         ("b", "Change of the edge function with a pixel upwards."),
@@ -64,9 +65,11 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "height": _given("height", "Pixels of the picture from bottom to top."),
     },
     "cull": {
-        "w": VariableText("w", "w of the corner: above 0 is in front of the eye.", spread="edges"),
+        "w": VariableText("w#", "w of the corner: above 0 is in front of the eye.", spread="edges"),
         "plane": VariableText("plane", "Plane of the view volume."),
-        "distances": VariableText("distance", "Distance of the corner, below 0 is outside.", spread="edges"),
+        "distances": VariableText(
+            "distance #", "Distance of the corner, below 0 is outside.", spread="edges"
+        ),
         "facing": VariableText("facing", "Twice the signed area, or the determinant: above 0 is the front."),
         "applies": VariableText("applies", "Whether the test drops the triangle."),
         "verdict": VariableText("verdict", "What becomes of the triangle."),
@@ -95,7 +98,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "owns_tie": VariableText("owns ties", "Whether a pixel centre on the edge belongs to the triangle."),
     },
     "bin": {
-        "corners": VariableText("corner", "Position that coverage sees, in pixels.", spread="edges"),
+        "corners": VariableText("corner #", "Position that coverage sees, in pixels.", spread="edges"),
         "column": _given("first column", "First column of the box or block."),
         "column_end": _given("end column", "Column after the last."),
         "row": _given("first row", "First row of the box or block."),
@@ -103,65 +106,72 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "size": _given("size", "Pixels on a side of the block; 0 for a box."),
         "center": _given("centre offset", "Where a pixel's centre is, from its lower left corner."),
         "high": VariableText(
-            "greatest E", "Greatest value of the edge function in the block.", spread="edges"
+            "greatest E#", "Greatest value of the edge function in the block.", spread="edges"
         ),
-        "low": VariableText("least E", "Least value of the edge function in the block.", spread="edges"),
+        "low": VariableText("least E#", "Least value of the edge function in the block.", spread="edges"),
         "rejected_by": VariableText("rejected by", "Edge that has all of the block outside; −1: none."),
         "verdict": VariableText("verdict", "What becomes of the block."),
+        **_COEFFICIENTS,
     },
     "raster": {
         **_PIXEL,
-        **_CENTRE,
-        **_EDGE_FUNCTIONS,
         **{
             f"value_{k}": VariableText(f"E{k} (snapped)", "Decision value: above 0 is inside.", edge=k)
             for k in range(3)
         },
+        "covered": VariableText("covered", "Whether the pixel is drawn."),
+        "tie": VariableText("on edge #", "Whether the centre lies exactly on the edge.", spread="edges"),
         "weights": VariableText(
-            "weight (unsnapped)",
+            "weight # (unsnapped)",
             "Share of the corner, from the corners as they are; it may disagree with E by a hair.",
             "covered",
             "edges",
         ),
         "distance": VariableText(
-            "distance", "From the edge in pixels, below 0 is outside.", "covered", "edges"
+            "distance #", "From the edge, in pixels; below 0 is outside.", "covered", "edges"
         ),
-        "owns_tie": VariableText("owns ties", "Whether a centre on the edge is inside.", "covered", "edges"),
-        "tie": VariableText("on the edge", "Whether the centre lies exactly on the edge.", spread="edges"),
-        "covered": VariableText("covered", "Whether the pixel is drawn."),
         **{
             f"crossing_{k}": VariableText(f"crossing {k}", "x where the row crosses the edge.", edge=k)
             for k in range(3)
         },
         "start": VariableText("start", "First column of the span."),
         "stop": VariableText("stop", "Column after the last of the span."),
+        **_CENTRE,
+        **_COEFFICIENTS,
+        "owns_tie": _given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
     },
     "interpolate": {
         **_PIXEL,
         **_CENTRE,
-        "numerators": VariableText("n", "Edge function of the corners as they are.", spread="edges"),
+        "numerators": VariableText("n#", "Edge function of the corners as they are.", spread="edges"),
         "total": VariableText("sum of n", "All three together."),
         "inverse_w": VariableText("1/w", "One over w at the pixel."),
-        "weights": VariableText("weight (unsnapped)", "Share of the corner.", spread="edges"),
-        "corner_values": VariableText("at corner", "All values of the corner, in order.", "weights", "edges"),
+        "weights": VariableText("weight # (unsnapped)", "Share of the corner.", spread="edges"),
+        "corner_values": VariableText(
+            "at corner #", "All values of the corner, in order.", "weights", "edges"
+        ),
         **{name: VariableText(name.replace("_", " "), "Mixed by the weights.") for name in ATTRIBUTES},
+        **_COEFFICIENTS,
+        "corner_w": _given("w#", "w of the corner.", "edges"),
     },
     "shade": {
         **_PIXEL,
         "uv": _given("u, v", "Texture coordinates."),
         "texture_size": _given("texture size", "Texels from left to right and from bottom to top."),
         "texel_position": VariableText("texture place", "Texture coordinates counted in texels."),
-        "texels": VariableText("texel", "Column and row in the texture.", spread="parts"),
-        "texel_colors": VariableText("texel colour", "Linear red, green, blue, alpha.", spread="parts"),
+        "texels": VariableText("texel #", "Column and row in the texture.", spread="parts"),
+        "texel_colors": VariableText("texel colour #", "Linear red, green, blue, alpha.", spread="parts"),
         "mix": VariableText("fractions", "How far towards the right and the upper texels the place is."),
-        "shares": VariableText("share", "Share of the texel in the colour.", spread="parts"),
+        "shares": VariableText("share #", "Share of the texel in the colour.", spread="parts"),
         "texture_color": VariableText("texture colour", "Linear red, green, blue, alpha."),
         "albedo": VariableText("albedo", "Colour before lighting: linear red, green, blue, alpha."),
         "normal": VariableText("N", "Unit normal, in world space."),
         "to_eye": VariableText("V", "Unit vector to the eye, in world space."),
-        "n_dot_l": VariableText("N·L, light", "Cosine between normal and light.", spread="parts"),
-        "n_dot_h": VariableText("N·H, light", "Cosine between normal and halfway vector.", spread="parts"),
-        "power": VariableText("highlight, light", "Cosine to the power of the shininess.", spread="parts"),
+        "n_dot_l": VariableText("N·L, light #", "Cosine between normal and light.", spread="parts"),
+        "n_dot_h": VariableText("N·H, light #", "Cosine between normal and halfway vector.", spread="parts"),
+        "to_light": VariableText("L, light #", "Unit vector to the light.", "n_dot_l", "parts"),
+        "half": VariableText("H, light #", "Unit vector halfway to the eye.", "n_dot_h", "parts"),
+        "power": VariableText("highlight, light #", "Cosine to the power of the shininess.", spread="parts"),
         "diffuse_light": VariableText("diffuse light", "Ambient and diffuse light: red, green, blue."),
         "specular_light": VariableText("specular light", "Mirrored light: red, green, blue."),
         "color": VariableText("colour", "Colour of the fragment: linear red, green, blue, alpha."),
@@ -196,11 +206,11 @@ HIDDEN: Mapping[str, frozenset[str]] = {
     "clip.untouched": frozenset({"edge"}),
     "edges.orientation": frozenset({"corner", "homogeneous"}),
     "edges.edge": frozenset({"homogeneous"}),
-    "bin.box": frozenset({"size"}),
-    "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center"}),
-    "bin.whole-image": frozenset({"size", "center"}),
+    "bin.box": frozenset({"size", "a", "b", "c"}),
+    "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center", "a", "b", "c"}),
+    "bin.whole-image": frozenset({"size", "center", "a", "b", "c"}),
     "raster.span": frozenset({"column", "x"}),
-    "raster.line": frozenset({"column", "x", "y", "a", "b", "c"}),
+    "raster.line": frozenset({"column", "x", "y", "a", "b", "c", "owns_tie"}),
 }
 """Variables that rows of a kind have no use for."""
 
@@ -233,7 +243,11 @@ def _rows(text: VariableText, now: Any, before: Any) -> list[Variable]:
     is_of_edges = text.spread == "edges"
     return [
         Variable(
-            f"{text.label} {k}", _value(element), _value(earlier[k]), text.meaning, k if is_of_edges else None
+            text.label.replace("#", str(k)),
+            _value(element),
+            _value(earlier[k]),
+            text.meaning,
+            k if is_of_edges else None,
         )
         for k, element in enumerate(elements)
     ]

@@ -1,9 +1,9 @@
 """Clip space drawn: the view volume, the triangle, and what each plane leaves of it up to the cursor.
 
-Where all corners have w > 0 they are divided by w and drawn in the NDC cube. A corner at w <= 0 has no place there,
-so such a triangle is drawn in clip space itself, seen along one of its four axes: along y the axes x, z and w
-remain, and the planes z = ±w and x = ±w, which contain the direction of view, stay planes; for y = ±w it is seen
-along x.
+Where all corners have w > 0 they are divided by w and drawn in the NDC cube. A corner at w <= 0 has no place
+there, so such a triangle is drawn in clip space itself, seen along one of its four axes: along y the axes
+x, z and w remain, and the planes z = ±w and x = ±w, which contain the direction of view, stay planes; for
+y = ±w it is seen along x.
 """
 
 from dataclasses import dataclass, field
@@ -74,7 +74,7 @@ def _clipped_state(
     # The trace's rows stand triangle by triangle in the same order within a triangle.
     rows = np.flatnonzero(stage.triangle == triangle)
     done = len(own) if position is None else int(np.searchsorted(rows, stage.steps.rows_done(position)))
-    current, operation = (-1, -1) if position is None else stage.steps.row_at(position)
+    current = -1 if position is None else stage.steps.row_at(position)[0]
     is_current = current >= 0 and len(rows) > 0 and rows[0] <= current <= rows[-1]
     looked_at = int(np.searchsorted(rows, current)) if is_current else done - 1
     if looked_at < 0:
@@ -144,8 +144,8 @@ def _ndc_diagram(state: ClipState) -> Diagram:
         radius=1.75,
         azimuth=0.55,
         elevation=0.35,
-        caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is the cube "
-        "−1 ≤ x, y, z ≤ 1, its near face in front.",
+        caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is "
+        "the cube −1 ≤ x, y, z ≤ 1, its near face in front.",
     )
 
 
@@ -180,8 +180,8 @@ def _slice_diagram(state: ClipState) -> Diagram:
         radius=1.55,
         azimuth=0.5,
         elevation=0.22,
-        caption=f"{state.sentence} A corner has w ≤ 0 and so no place in the NDC cube: this is clip space itself, "
-        f"seen along {'x' if across else 'y'}; {name}, z and w remain. Inside are −w ≤ z ≤ w and "
+        caption=f"{state.sentence} A corner has w ≤ 0 and so no place in the NDC cube: this is clip space "
+        f"itself, seen along {'x' if across else 'y'}; {name}, z and w remain. Inside are −w ≤ z ≤ w and "
         f"−w ≤ {name} ≤ w, the upright pyramid; below the plane w = 0 lies what is behind the eye.",
     )
 
@@ -224,7 +224,7 @@ def _axes(origin: Floats, directions: Floats, names: tuple[str, str, str]) -> Di
 
 
 def _cube_face(plane: int) -> Floats:
-    """Return (4, 3) corners of the face of the cube that lies in a plane, with z turned towards the viewer."""
+    """Return (4, 3) corners of the face of the cube that lies in a plane, z turned towards the viewer."""
     axis = (2, 2, 0, 0, 1, 1)[plane]
     sign = -1.0 if plane % 2 == 0 else 1.0
     if axis == 2:

@@ -23,7 +23,8 @@ class PointedPixel:
     @property
     def name(self) -> str:
         """What a person reads."""
-        return f"{ {'pin': 'pinned', 'hover': 'hovered', 'step': 'current'}[self.role] } pixel ({self.column}, {self.row})"
+        kind = {"pin": "pinned", "hover": "hovered", "step": "current"}[self.role]
+        return f"{kind} pixel ({self.column}, {self.row})"
 
 
 def pointed_pixels(session: Session) -> tuple[PointedPixel, ...]:
@@ -61,14 +62,18 @@ def shown_triangle(session: Session) -> int:
     return 0
 
 
-def fragment_at(source: TraceSource, column: int, row: int, preferred: int = -1) -> int:
+def fragment_at(
+    source: TraceSource, column: int, row: int, preferred: int = -1, is_required: bool = False
+) -> int:
     """Return the fragment that counts at a pixel, -1: none.
 
     Parameters
     ----------
     preferred : int
-        A triangle: its fragment is taken if it has one here. Otherwise it is the last one that passed the depth
-        test, or else the last one.
+        A triangle: its fragment is taken if it has one here. Otherwise it is the last one that passed the
+        depth test, or else the last one.
+    is_required : bool
+        Whether only a fragment of the preferred triangle counts.
     """
     fragments = source.fragments
     here = np.flatnonzero((fragments.column == column) & (fragments.row == row))
@@ -77,6 +82,8 @@ def fragment_at(source: TraceSource, column: int, row: int, preferred: int = -1)
     of_preferred = here[source.triangle_of_fragment[here] == preferred]
     if len(of_preferred):
         return int(of_preferred[-1])
+    if is_required:
+        return -1
     passed = here[source.depth_tests.passes[here]]
     return int(passed[-1]) if len(passed) else int(here[-1])
 

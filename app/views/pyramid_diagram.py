@@ -1,8 +1,8 @@
 """Homogeneous rasterization drawn: the triangle in (x, y, w), the eye, and the double pyramid through both.
 
-Every point of the triangle lies on a ray through the eye at the origin, and the ray meets the plane w = 1 at the
-pixel where the point is seen. The three planes through the eye and an edge are the edge functions; behind the eye,
-at w < 0, they go on as the second half of the pyramid.
+Every point of the triangle lies on a ray through the eye at the origin, and the ray meets the plane w = 1 at
+the pixel where the point is seen. The three planes through the eye and an edge are the edge functions; behind
+the eye, at w < 0, they go on as the second half of the pyramid.
 
 References
 ----------
@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.views.pointed_pixel import PointedPixel, fragment_at, weights_at
+from app.views.pointed_pixel import PointedPixel, fragment_at
 from core.arrays import Floats
+from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
 from core.trace import TraceSource
 from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
 from widgets.grid_buffer import number_text
@@ -39,8 +40,9 @@ class PyramidFrame:
     aspect: float
 
     def place(self, homogeneous: Floats) -> Floats:
-        """Return (N, 3) places of homogeneous window positions (N, 3): x right, y up, w away from the viewer."""
-        return np.asarray(homogeneous @ self.matrix.T)
+        """Return (N, 3) places of homogeneous window positions (N, 3): x right, y up, w away."""
+        placed: Floats = homogeneous @ self.matrix.T
+        return placed
 
 
 def pyramid_frame(source: TraceSource, homogeneous: Floats) -> PyramidFrame:
@@ -64,11 +66,8 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
         One of the traced triangles.
     pixel : PointedPixel, optional
     """
-    vertices = source.geometry.vertices
-    clip = vertices.clip[vertices.corners[triangle]]
-    width, height = source.scene.size
-    x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
-    homogeneous = np.stack([(x + w) * width / 2, (y + w) * height / 2, w], axis=1)
+    homogeneous = homogeneous_corners(source, triangle)
+    w = homogeneous[:, 2]
     frame = pyramid_frame(source, homogeneous)
     corners = frame.place(homogeneous / frame.factor)
     shapes = [_raster(source, frame), _pyramid(corners), _image(source, frame, homogeneous)]
@@ -99,15 +98,26 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
     )
 
 
-def hit_point(source: TraceSource, primitive: int, x: float, y: float) -> tuple[Floats, Floats, float]:
-    """Return where the ray of a window position meets a primitive's plane: point (3,), weights (3,), 1/w.
+def hit_point(homogeneous: Floats, x: float, y: float) -> tuple[Floats, Floats, float]:
+    """Return where the ray of a window position meets a triangle's plane: point (3,), weights (3,), 1/w.
 
-    The point is homogeneous, (x w, y w, w), as the corners are.
+    The point is homogeneous, (x w, y w, w), as the corners (3, 3) are. It is found with the rules of
+    perspective interpolation; where 1/w is 0 the ray is parallel to the plane and the point is not finite.
     """
-    weights, inverse_w = weights_at(source, primitive, np.array([x]), np.array([y]))
+    planes, one = set_up_planes(homogeneous[None]), np.zeros(1, np.int64)
+    shares = np.stack(numerators(planes, one, np.array([x]), np.array([y])), axis=1)[0]
+    inverse_w = float(plane_value(value_plane(planes, np.ones((1, 3))), one, np.array([x]), np.array([y]))[0])
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        point = np.array([x, y, 1.0]) / inverse_w[0]
-    return point, weights[0], float(inverse_w[0])
+        return np.array([x, y, 1.0]) / inverse_w, shares / shares.sum(), inverse_w
+
+
+def homogeneous_corners(source: TraceSource, triangle: int) -> Floats:
+    """Return (3, 3) corners of a triangle as (x, y, w), x and y in pixels times w."""
+    vertices = source.geometry.vertices
+    clip = vertices.clip[vertices.corners[triangle]]
+    width, height = source.scene.size
+    x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
+    return np.stack([(x + w) * (width / 2), (y + w) * (height / 2), w], axis=1)
 
 
 def _sentence(w: Floats, frame: PyramidFrame) -> str:
@@ -153,7 +163,8 @@ def _raster(source: TraceSource, frame: PyramidFrame) -> Diagram:
     first_column, first_row, end_column, end_row = source.raster.bounds
 
     def on_plane(x: float, y: float) -> Floats:
-        return frame.place(np.array([[x, y, 1.0]]))[0]
+        placed: Floats = frame.place(np.array([[x, y, 1.0]]))[0]
+        return placed
 
     step = max(-(-(end_column - first_column) // MOST_LINES), -(-(end_row - first_row) // MOST_LINES))
     strokes = [
@@ -214,64 +225,34 @@ def _ray(
     center = source.raster.center
     x, y = pixel.column + center, pixel.row + center
     on_raster = frame.place(np.array([[x, y, 1.0]]))[0]
-    low, high = center - 0.5, center + 0.5
-    cell = frame.place(
-        np.array(
-            [
-                [pixel.column + a, pixel.row + b, 1.0]
-                for a, b in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-            ]
-        )
-        + np.array([low, low, 0.0])
-    )
-    assert high - low == 1
+    square = np.array([[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0]])
+    cell = frame.place(np.array([x, y, 1.0]) + square)
     strokes = [
         Stroke(cell, "text", 2.4, is_closed=True),
         Stroke(np.stack([np.zeros(3), on_raster]), "text", 2.0),
     ]
     spots = [Spot(on_raster, "text", "disc", 3.0)]
-    primitive = _primitive_of(source, triangle, pixel)
-    if primitive < 0:
-        strokes.append(Stroke(np.stack([on_raster, on_raster * 2]), "text", 1.4, "dot"))
-        return Diagram(
-            (), tuple(strokes), tuple(spots)
-        ), "The triangle was culled, so its plane is not set up."
-    point, weights, inverse_w = hit_point(source, primitive, x, y)
-    is_inside = fragment_at(source, pixel.column, pixel.row, triangle) >= 0
-    name = pixel.name
+    point, weights, inverse_w = hit_point(homogeneous, x, y)
     if not np.isfinite(point).all():
         strokes.append(Stroke(np.stack([on_raster, on_raster * 3]), "text", 1.4, "dot"))
-        return Diagram(
-            (), tuple(strokes), tuple(spots)
-        ), f"The ray of the {name} is parallel to the triangle's plane."
+        sentence = f"The ray of the {pixel.name} is parallel to the triangle's plane."
+        return Diagram((), tuple(strokes), tuple(spots)), sentence
     hit = frame.place(point[None] / frame.factor)[0]
     is_in_front = inverse_w > 0
-    start = on_raster if is_in_front else np.zeros(3)
-    strokes.append(
-        Stroke(np.stack([start, hit]), "text", 2.0 if is_in_front else 1.4, "solid" if is_in_front else "dot")
-    )
-    weight_text = ", ".join(f"{number_text(float(weight), 3)}" for weight in weights)
-    spots.append(
-        Spot(hit, "text", "disc" if is_inside else "cross", 4.5, label=f"w = {number_text(1 / inverse_w, 3)}")
-    )
-    where = (
-        "inside the triangle"
-        if is_in_front and (weights >= 0).all()
-        else "behind the eye"
-        if not is_in_front
-        else "beyond an edge"
-    )
+    start, width = (on_raster, 2.0) if is_in_front else (np.zeros(3), 1.4)
+    strokes.append(Stroke(np.stack([start, hit]), "text", width, "solid" if is_in_front else "dot"))
+    w_text = number_text(1 / inverse_w)
+    is_covered = fragment_at(source, pixel.column, pixel.row, triangle, is_required=True) >= 0
+    spots.append(Spot(hit, "text", "disc" if is_covered else "cross", 4.5, label=f"w = {w_text}"))
+    if not is_in_front:
+        where = "behind the eye"
+    elif (weights >= 0).all():
+        where = "inside the triangle"
+    else:
+        where = "beyond an edge"
+    shares = ", ".join(number_text(float(weight), 3) for weight in weights)
     sentence = (
-        f"The ray of the {name} meets the triangle's plane at w = {number_text(1 / inverse_w)}, {where}: "
-        f"weights ({weight_text})."
+        f"The ray of the {pixel.name} meets the triangle's plane at w = {w_text}, {where}: "
+        f"weights ({shares})."
     )
     return Diagram((), tuple(strokes), tuple(spots)), sentence
-
-
-def _primitive_of(source: TraceSource, triangle: int, pixel: PointedPixel) -> int:
-    """Return the primitive of a triangle that counts at a pixel; any of its pieces has the same plane."""
-    fragment = fragment_at(source, pixel.column, pixel.row, triangle)
-    if fragment >= 0 and source.triangle_of_fragment[fragment] == triangle:
-        return int(source.fragments.primitive[fragment])
-    pieces = np.flatnonzero(source.geometry.primitives.triangle == triangle)
-    return int(pieces[0]) if len(pieces) else -1

@@ -1,4 +1,4 @@
-"""The picture of the 3D view: the scene drawn by the core from outside, with its camera, view volume and axes."""
+"""The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes."""
 
 from dataclasses import dataclass
 from time import perf_counter
@@ -108,7 +108,7 @@ def fractions(space: ViewSpace, orbit: Orbit, size: tuple[int, int], points: Flo
 def moved_parallel(
     space: ViewSpace, orbit: Orbit, size: tuple[int, int], point: Floats, x: float, y: float
 ) -> Floats:
-    """Return the place (3,) at fractions (x, y) of the picture that is as far from the viewer as ``point`` (3,)."""
+    """Return the place (3,) at fractions (x, y) of the picture, as far from the viewer as ``point`` (3,)."""
     camera = viewing_camera(space, orbit)
     matrix = viewing_matrix(camera, size)
     clip = transform(matrix, np.append(point, 1.0))

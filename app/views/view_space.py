@@ -73,7 +73,7 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
     if isinstance(scene, ClipScene):
         aspect = width / height
         radius = float(np.sqrt(aspect**2 + 2))
-        box = np.diag(np.array([aspect, 1.0, -1.0, 1.0]))
+        box: Floats = np.diag(np.array([aspect, 1.0, -1.0, 1.0]))
         return ViewSpace(scene, vertices, box, (0.0, 0.0, 0.0), radius, Orbit(0.55, 0.3))
     camera = scene.camera
     matrix = np.linalg.inv(projection(camera, width / height) @ world_to_camera(camera))

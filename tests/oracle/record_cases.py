@@ -12,6 +12,7 @@ import json
 import sys
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ TRIED = 60
 
 
 def chosen_cases(family: str, renderer: OpenGLRenderer) -> list[tuple[Case, Picture]]:
-    """Return the first random cases of each variant of ``family`` that show something, with OpenGL's picture."""
+    """Return the first cases of each variant of ``family`` that show something, and OpenGL's picture."""
     kept: list[tuple[Case, Picture]] = []
     counts: Counter[tuple[object, ...]] = Counter()
     for number in range(TRIED):
@@ -59,7 +60,7 @@ def write_case(path: Path, case: Case, picture: Picture, renderer: str) -> None:
     """Write a case and OpenGL's picture of it to an ``.npz`` file."""
     names = ("family", "cull", "depth_test", "interpolation", "provoking", "texture_filter", "wrap", "guard")
     options = {name: getattr(case, name) for name in names} | {"size": case.size, "renderer": renderer}
-    arrays = {
+    arrays: dict[str, Any] = {
         "clip": case.clip,
         "attributes": case.attributes,
         "color": picture.color,
@@ -103,7 +104,7 @@ def main() -> int:
         return 2
     files = list(folder.glob("*.npz"))
     print(
-        f"{len(files)} cases drawn by {name}: {sum(path.stat().st_size for path in files):,} bytes in {folder}"
+        f"{len(files)} cases drawn by {name}, {sum(path.stat().st_size for path in files):,} bytes: {folder}"
     )
     return 0
 

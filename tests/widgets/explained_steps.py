@@ -63,7 +63,7 @@ def every_choice() -> list[Settings]:
     return found
 
 
-def steps_of(traced: Trace, most: int = 400) -> Iterator[Step]:
+def steps_of(traced: Trace, most: int = 200) -> Iterator[Step]:
     """Yield the steps of all stages; of a long stage, ``most`` spread over it."""
     for stage in STAGES:
         of_stage = traced.stage(stage)
@@ -83,7 +83,7 @@ def steps_of_scene(name: str) -> tuple[Step, ...]:
     scene, triangle, window = scene_and_window(name)
     found: list[Step] = []
     for settings in every_choice():
-        found += steps_of(trace(scene, settings, triangle, window, before="cleared"), 150)
+        found += steps_of(trace(scene, settings, triangle, window, before="cleared"), 90)
     return tuple(found)
 
 

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from core import Settings
 from core.trace import Explanation
 from tests.widgets.explained_steps import ALL_SCENES, Step, explained, rare_trace
-from widgets.equation import equation, number_latex, signed_latex
+from widgets.equation import digits_that_add_up, equation, lattice_latex, number_latex, signed_latex
 from widgets.formula import Formula, FormulaView
 from widgets.formulas import FORMULAS, WITHOUT_FORMULA, formula
 from widgets.latex import Typesetter, split_cells
@@ -60,15 +60,8 @@ def test_sums_come_out_with_the_numbers_shown(name: str) -> None:
             continue
         for line in " & ".join(split_cells(made.substituted)).split(r" & \quad & "):
             left, right = line.split(" & = & ")
-            shown = [
-                abs(worked_out((cell,))) for cell in right.split(" & ") if cell not in ("+", "-", r"\cdot")
-            ]
-            # Four digits of every number: products of two, up to a few terms.
-            largest = max([1e-30, *shown])
-            scale = largest * max([1.0, *(value for value in shown if value < largest)])
-            assert math.isclose(
-                worked_out((left,)), worked_out(tuple(right.split(" & "))), abs_tol=4e-3 * scale
-            ), made
+            result = worked_out(tuple(right.split(" & ")))
+            assert math.isclose(worked_out((left,)), result, rel_tol=2e-3, abs_tol=1e-8), made
             checked += 1
     assert checked > 20
 
@@ -180,7 +173,7 @@ def test_more_numbers_of_a_step_make_fuller_formulas() -> None:
     }
     made = formula(Explanation("bin.block.high", values, (), (), None, 0))
     assert made is not None
-    # Greatest at the right for a > 0, and at the bottom for b < 0: 2 * 7.5 - 0.5 - 20 = -5.5 would be its value.
+    # Greatest at the right for a > 0, and at the bottom for b < 0.
     assert split_cells(made.substituted)[2:] == (
         "2",
         r"\cdot",
@@ -192,6 +185,70 @@ def test_more_numbers_of_a_step_make_fuller_formulas() -> None:
         "+",
         "(-20)",
     )
+
+
+FULLER = {
+    "interpolate.perspective.numerators": {
+        "numerators": np.array([3.5, 2.5, -1.0]),
+        **{
+            name: np.array(values)
+            for name, values in (("a", [1.0, 0, -2]), ("b", [2.0, 1, 0]), ("c", [0.0, 1, 0]))
+        },
+        "x": 0.5,
+        "y": 1.5,
+    },
+    "interpolate.affine.numerators": {
+        "numerators": np.array([7.0, 2.5, -4.0]),
+        **{
+            name: np.array(values)
+            for name, values in (("a", [1.0, 0, -2]), ("b", [2.0, 1, 0]), ("c", [0.0, 1, 0]))
+        },
+        "x": 0.5,
+        "y": 1.5,
+        "corner_w": np.array([2.0, 1.0, 4.0]),
+    },
+    "shade.textured.position": {
+        "texel_position": np.array([4.0, 2.0]),
+        "uv": np.array([0.25, 0.5]),
+        "texture_size": np.array([16, 4]),
+    },
+    "shade.textured.albedo": {
+        "albedo": np.array([0.25, 0.5, 0.0, 1.0]),
+        "texture_color": np.array([0.5, 1.0, 1.0, 1.0]),
+        "vertex_color": np.array([0.5, 0.5, 0.0, 1.0]),
+    },
+    "shade.lit.sums": {
+        "diffuse_light": np.array([0.6, 0.1, 0.1]),
+        "n_dot_l": np.array([1.0, -0.5]),
+        "ambient": 0.1,
+        "diffuse": 0.5,
+        "light_colors": np.ones((2, 3)),
+    },
+}
+"""Numbers of steps that have all the inputs of their formula among them."""
+
+
+@pytest.mark.parametrize("key", FULLER)
+def test_all_inputs_of_a_formula_are_put_in_where_they_are_given(key: str) -> None:
+    made = formula(Explanation(key, FULLER[key], (), (), None, 0))
+    assert made is not None
+    for line in " & ".join(split_cells(made.substituted)).split(r" & \quad & "):
+        left, right = line.split(" & = & ")
+        assert worked_out((left,)) == pytest.approx(worked_out(tuple(right.split(" & "))))
+    assert len(split_cells(made.symbolic)) == len(split_cells(made.substituted))
+
+
+def test_the_cosines_of_a_light_with_its_vectors() -> None:
+    values = {
+        "normal": np.array([0.0, 1.0, 0.0]),
+        "to_light": np.array([[0.6, 0.8, 0.0]]),
+        "half": np.array([[0.0, 1.0, 0.0]]),
+        "n_dot_l": np.array([0.8]),
+        "n_dot_h": np.array([1.0]),
+    }
+    made = formula(Explanation("shade.lit.cosines", values, (), (), None, 0))
+    assert made is not None
+    assert split_cells(made.substituted)[:3] == ("0.8", "=", r"0 \cdot 0.6 + 1 \cdot 0.8 + 0 \cdot 0")
 
 
 def test_a_step_without_formula_gives_none() -> None:
@@ -221,6 +278,18 @@ def test_negative_numbers_stand_in_brackets_behind_operators() -> None:
     assert signed_latex(-1e-9).startswith("({-1 ")
     made = equation(("x", -1.0), "=", ("a", -2.0), "+", ("b", -3.0))
     assert split_cells(made.substituted) == ("-1", "=", "-2", "+", "(-3)")
+
+
+def test_small_differences_of_large_numbers_get_the_digits_they_need() -> None:
+    assert digits_that_add_up(0.125, [(258.12890625,), (-1.0, 258.00390625)]) == 6
+    assert digits_that_add_up(516.1328125, [(258.12890625,), (258.00390625,)]) == 4
+    assert number_latex(258.12890625, 8) == "258.12891"
+
+
+def test_lattice_positions_are_exact() -> None:
+    assert lattice_latex(22.5) == "22.5"
+    assert lattice_latex(258 + 33 / 256) == r"258\frac{33}{256}"
+    assert lattice_latex(-1 / 256) == r"-\frac{1}{256}"
 
 
 def test_the_view_shows_them(qtbot: QtBot) -> None:

@@ -201,7 +201,10 @@ def test_marks_of_the_raster_agree_with_its_columns(fill):
 
 
 def test_marks_of_the_other_stages_agree_with_their_columns():
-    found = {f.stage: f for f in traces_of("clip", {"cull": "back", "clipping": "sutherland-hodgman"})}
+    found = {
+        f.stage: f
+        for f in traces_of("clip", {"cull": "back", "clipping": "sutherland-hodgman", "fill": "hierarchy"})
+    }
     depth, cull, bins, clip = found["depth"], found["cull"], found["bin"], found["clip"]
     assert np.array_equal(depth.marks["depth-failed"], ~depth.columns["passes"])
     assert np.array_equal(depth.marks["covered"], depth.columns["passes"])

@@ -1,0 +1,78 @@
+"""What several commands take: FILE, sizes and settings."""
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+
+from app.cli import PROGRAM, UsageError
+from app.open_any import Opened, open_any
+from core import Settings
+from core.scene import SIZE_LIMIT
+from core.settings import settings_from_texts
+
+FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
+
+
+def size_from_text(text: str) -> tuple[int, int]:
+    """Return width and height of a text such as ``640x480``."""
+    found = re.fullmatch(r"(\d{1,9})[x×](\d{1,9})", text)
+    if not found:
+        raise argparse.ArgumentTypeError(f"must be WIDTHxHEIGHT such as 640x480, got {text}")
+    width, height = int(found[1]), int(found[2])
+    if not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):
+        raise argparse.ArgumentTypeError(f"must be 1 to {SIZE_LIMIT} pixels each way, got {text}")
+    return width, height
+
+
+def setting_from_text(text: str) -> tuple[str, str]:
+    """Return family and method of a text such as ``fill=blocks``."""
+    family, sign, name = text.partition("=")
+    if not (family and sign and name):
+        raise argparse.ArgumentTypeError(f"must be family=method such as fill=blocks, got {text}")
+    return family, name
+
+
+def add_file(parser: argparse.ArgumentParser) -> None:
+    """Let the command take FILE."""
+    parser.add_argument("file", metavar="FILE", help=FILE_HELP)
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """Let the command take ``--set``."""
+    parser.add_argument(
+        *("--set", "-s"),
+        metavar="family=method",
+        type=setting_from_text,
+        nargs="+",
+        action="extend",
+        default=[],
+        help="choose methods (rasterscope methods lists them), or block_size=N; the others are those of the "
+        "state file, or the defaults",
+    )
+
+
+def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Settings:
+    """Return ``settings`` with some chosen on the command line, or raise UsageError."""
+    texts = {name: str(getattr(settings, name)) for name in Settings.__dataclass_fields__}
+    try:
+        return settings_from_texts(texts | dict(chosen))
+    except ValueError as problem:
+        raise UsageError(f"argument --set: {problem}") from problem
+
+
+def open_file(options: argparse.Namespace) -> Opened:
+    """Open FILE; what of it could not be had is told on stderr, progress too where somebody watches."""
+    shows_progress = sys.stderr.isatty()
+    opened = open_any(options.file, show_progress if shows_progress else None)
+    if shows_progress:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    for warning in opened.warnings:
+        print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
+    return opened
+
+
+def show_progress(fraction: float | None, doing: str) -> None:
+    """Write how far the work is over the line before."""
+    done = "" if fraction is None else f" {100 * fraction:.0f} %"
+    print(f"\r\x1b[K{doing}{done}", end="", file=sys.stderr, flush=True)

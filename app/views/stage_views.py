@@ -1,0 +1,134 @@
+"""The stages' own views of one session: 3D scene, clip space, (x, y, w), texture; only the visible is drawn."""
+
+from PySide6.QtCore import QEvent, QObject, Signal, Slot
+from PySide6.QtWidgets import QWidget
+
+from app.session import Session
+from app.views.clip_diagram import clip_diagram, clip_state
+from app.views.pointed_pixel import pointed_pixels, shown_triangle
+from app.views.pyramid_diagram import pyramid_diagram
+from app.views.scene_presenter import ScenePresenter
+from app.views.texture_footprint import no_texture_reason, texture_of, texture_picture
+from core import STAGES
+from widgets.scene_view import SceneView
+from widgets.space_view import SpaceView
+from widgets.texture_view import TextureView
+
+TITLES = {"scene": "3D scene", "clip": "Clip space", "pyramid": "(x, y, w)", "texture": "Texture"}
+
+
+class StageViews(QObject):
+    """Makes the four views and keeps the visible one up to date."""
+
+    triangle_picked = Signal(int)
+    """A triangle of the scene was clicked in the 3D view."""
+    refused = Signal(str)
+    """Why a drag in a view did nothing."""
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._scene, self._clip, self._pyramid, self._texture = (
+            SceneView(),
+            SpaceView(),
+            SpaceView(),
+            TextureView(),
+        )
+        self._clip.setAccessibleName("Clip space")
+        self._pyramid.setAccessibleName("Homogeneous rasterization: triangle in (x, y, w)")
+        self._views: dict[str, QWidget] = {
+            "scene": self._scene,
+            "clip": self._clip,
+            "pyramid": self._pyramid,
+            "texture": self._texture,
+        }
+        self._stale = set(self._views)
+        self._scene_presenter = ScenePresenter(session, self._scene, self)
+        self._scene_presenter.triangle_picked.connect(self.triangle_picked)
+        self._scene_presenter.refused.connect(self.refused)
+        for widget in self._views.values():
+            widget.installEventFilter(self)
+        session.document_changed.connect(self._document_changed)
+        session.cursor_changed.connect(self._refresh_visible)
+        session.pin_changed.connect(self._refresh_visible)
+        session.hover_changed.connect(self._refresh_visible)
+
+    @property
+    def widgets(self) -> list[tuple[str, str, QWidget]]:
+        """Name, title and widget of every view, in order."""
+        return [(name, TITLES[name], widget) for name, widget in self._views.items()]
+
+    @property
+    def scene_presenter(self) -> ScenePresenter:
+        """What drives the 3D view."""
+        return self._scene_presenter
+
+    def is_available(self, name: str) -> tuple[bool, str]:
+        """Return whether a view has something to show for the present document, and else why not."""
+        if name not in self._views:
+            raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
+        if name == "texture":
+            triangle = shown_triangle(self._session)
+            if texture_of(self._session.trace.source, triangle) is None:
+                return False, no_texture_reason(self._session, triangle)
+        return True, ""
+
+    def show(self, name: str) -> None:
+        """Bring a view up to date, as when it is about to be seen."""
+        if name not in self._views:
+            raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
+        self._refresh(name)
+
+    def stop(self) -> None:
+        """End drawing in the background."""
+        self._scene_presenter.stop()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Bring a view up to date when it appears."""
+        if event.type() == QEvent.Type.Show:
+            for name, widget in self._views.items():
+                if widget is watched and name in self._stale:
+                    self._refresh(name)
+        return False
+
+    @Slot()
+    def _document_changed(self) -> None:
+        self._refresh_visible()
+
+    @Slot()
+    def _refresh_visible(self) -> None:
+        """Bring the visible views up to date, and remember that the others are not."""
+        for name, widget in self._views.items():
+            if widget.isVisible():
+                self._refresh(name)
+            else:
+                self._stale.add(name)
+
+    def _refresh(self, name: str) -> None:
+        self._stale.discard(name)
+        if name == "scene":
+            self._scene_presenter.refresh()
+        elif name == "clip":
+            self._refresh_clip()
+        elif name == "pyramid":
+            self._refresh_pyramid()
+        else:
+            picture, reason = texture_picture(self._session)
+            self._texture.empty_text = reason
+            self._texture.show_picture(picture)
+
+    def _refresh_clip(self) -> None:
+        session = self._session
+        cursor = session.cursor
+        position: int | None = None
+        if cursor.stage == "clip":
+            position = cursor.position
+        elif STAGES.index(cursor.stage) < STAGES.index("clip"):
+            position = 0
+        self._clip.show_diagram(clip_diagram(clip_state(session.trace, shown_triangle(session), position)))
+
+    def _refresh_pyramid(self) -> None:
+        session = self._session
+        pixels = pointed_pixels(session)
+        pixel = pixels[0] if pixels else None
+        self._pyramid.show_diagram(pyramid_diagram(session.trace.source, shown_triangle(session), pixel))

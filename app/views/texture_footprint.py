@@ -1,0 +1,204 @@
+"""From a pixel to texture space: its four corners and its centre, the texels it reads and their shares."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.session import Session
+from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
+from core.arrays import Floats
+from core.fragments.interpolation import interpolate, plane_value
+from core.fragments.textures import TextureSamples, sample_texture
+from core.scene import ClipScene, Texture
+from core.trace import TraceSource
+from widgets.grid_buffer import number_text
+from widgets.texture_picture import TexelFootprint, TexturePicture
+
+PIXEL_SQUARE = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
+"""Corners of a pixel around its centre, in turn."""
+
+
+@dataclass(frozen=True, eq=False)
+class PixelInTexture:
+    """A fragment in texture space, before any shift; u and v as they are interpolated."""
+
+    corners: Floats
+    """(4, 2) uv at the pixel's corners; NaN if 1/w changes its sign among them."""
+    center: Floats
+    """(2,) uv at its centre."""
+    samples: TextureSamples
+    """What the filter reads there."""
+
+
+def texture_of(source: TraceSource, triangle: int) -> Texture | None:
+    """Return the texture of a triangle's mesh."""
+    scene = source.scene
+    if isinstance(scene, ClipScene):
+        return scene.texture
+    return scene.meshes[int(source.geometry.vertices.mesh[triangle])].texture
+
+
+def uv_at(source: TraceSource, primitive: int, x: Floats, y: Floats) -> Floats:
+    """Return the texture coordinates (N, 2) of a primitive's plane at window positions (N,) each."""
+    settings, primitives = source.settings, source.geometry.primitives
+    which = np.full(len(x), primitive)
+    _, values = interpolate(
+        source.geometry.planes,
+        primitives.varyings[..., primitives.layout["uv"]],
+        which,
+        x,
+        y,
+        settings.interpolation,
+        settings.provoking,
+    )
+    return values
+
+
+def pixel_in_texture(source: TraceSource, primitive: int, column: int, row: int) -> PixelInTexture | None:
+    """Return a pixel of a primitive in texture space; ``None`` where its triangle has no texture."""
+    texture = texture_of(source, int(source.geometry.primitives.triangle[primitive]))
+    if texture is None:
+        return None
+    center = np.array([[column, row]]) + source.raster.center
+    places = np.concatenate([center, center + PIXEL_SQUARE])
+    uv = uv_at(source, primitive, places[:, 0], places[:, 1])
+    corners = uv[1:]
+    inverse_w = plane_value(
+        source.geometry.inverse_w_plane, np.full(len(places), primitive), places[:, 0], places[:, 1]
+    )
+    if source.settings.interpolation == "perspective" and not (inverse_w > 0).all():
+        corners = np.full((4, 2), np.nan)
+    settings = source.settings
+    return PixelInTexture(
+        corners, uv[0], sample_texture(texture, uv[:1], settings.texture_filter, settings.wrap)
+    )
+
+
+def tile_shift(center: Floats, wrap: str) -> Floats:
+    """Return the whole repetitions (2,) that bring a place (2,) in texture coordinates into the texture."""
+    if wrap == "clamp" or not np.isfinite(center).all():
+        return np.zeros(2)
+    return np.floor(center) if wrap == "repeat" else 2 * np.floor(center / 2)
+
+
+def texture_picture(session: Session) -> tuple[TexturePicture | None, str]:
+    """Return what the texture view shows, or why there is nothing."""
+    source = session.trace.source
+    triangle = shown_triangle(session)
+    pixels = pointed_pixels(session)
+    found: list[tuple[PointedPixel, int, PixelInTexture]] = []
+    for pixel in pixels:
+        fragment = fragment_at(source, pixel.column, pixel.row, triangle)
+        if fragment < 0:
+            continue
+        primitive = int(source.fragments.primitive[fragment])
+        at = pixel_in_texture(source, primitive, pixel.column, pixel.row)
+        if at is not None:
+            found.append((pixel, primitive, at))
+    if found and source.geometry.primitives.triangle[found[0][1]] != triangle:
+        triangle = int(source.geometry.primitives.triangle[found[0][1]])
+    texture = texture_of(source, triangle)
+    if texture is None:
+        return None, no_texture_reason(session, triangle)
+    wrap = source.settings.wrap
+    size = np.array([texture.pixels.shape[1], texture.pixels.shape[0]])
+    shift = tile_shift(found[0][2].center, wrap) if found else np.zeros(2)
+    corners = _corner_uv(source, triangle)
+    if not found and corners is not None:
+        shift = tile_shift(corners.mean(axis=0), wrap)
+    footprints = []
+    for pixel, primitive, at in found:
+        if texture_of(source, int(source.geometry.primitives.triangle[primitive])) is texture:
+            footprints.append(_footprint(source, pixel, at, shift, size))
+    picture = TexturePicture(
+        pixels=texture.pixels,
+        wrap=wrap,
+        triangle=None if corners is None else (corners - shift) * size,
+        footprints=tuple(footprints),
+        caption=_caption(source, triangle, texture, pixels, found, shift),
+    )
+    return picture, ""
+
+
+def no_texture_reason(session: Session, triangle: int) -> str:
+    """Say why there is no texture to show."""
+    scene = session.document.scene
+    if isinstance(scene, ClipScene):
+        return "These triangles have colours at their corners and no texture."
+    if not any(mesh.texture for mesh in scene.meshes):
+        return "No mesh of this scene has a texture."
+    return f"The mesh of triangle {triangle} has no texture."
+
+
+def _corner_uv(source: TraceSource, triangle: int) -> Floats | None:
+    """Return (3, 2) texture coordinates of a triangle's corners."""
+    assembled = source.geometry.assembled
+    index = np.flatnonzero(assembled.triangle == triangle)
+    if not len(index) or "uv" not in assembled.layout:
+        return None
+    return np.asarray(assembled.varyings[index[0]][:, assembled.layout["uv"]])
+
+
+def _footprint(
+    source: TraceSource, pixel: PointedPixel, at: PixelInTexture, shift: Floats, size: Floats
+) -> TexelFootprint:
+    center = at.center * size
+    shares = at.samples.shares[0]
+    if len(shares) == 1:
+        lower = np.floor(center)
+        offsets = np.array([[0, 0]])
+    else:
+        lower = np.floor(center - 0.5)
+        offsets = np.array([[0, 0], [1, 0], [0, 1], [1, 1]])
+    lower = np.nan_to_num(lower - shift * size, nan=0.0, posinf=0.0, neginf=0.0)
+    return TexelFootprint(
+        corners=(at.corners - shift) * size,
+        center=(at.center - shift) * size,
+        reads=lower.astype(np.int64) + offsets,
+        texels=at.samples.texels[0],
+        shares=shares,
+        label=f"({pixel.column}, {pixel.row})",
+        is_pinned=pixel.role != "hover",
+    )
+
+
+def _caption(
+    source: TraceSource,
+    triangle: int,
+    texture: Texture,
+    pixels: tuple[PointedPixel, ...],
+    found: list[tuple[PointedPixel, int, PixelInTexture]],
+    shift: Floats,
+) -> str:
+    height, width = texture.pixels.shape[:2]
+    parts = [f"{texture.name.capitalize()}, {width}×{height} texels."]
+    if not pixels:
+        parts.append(f"Triangle {triangle} is outlined; point at a pixel to see its footprint.")
+    elif not found:
+        parts.append(f"The {pixels[0].name} has no textured fragment.")
+    else:
+        pixel, _, at = found[0]
+        u, v = (number_text(float(value)) for value in at.center)
+        parts.append(f"The {pixel.name} looks up u = {u}, v = {v}")
+        if shift.any():
+            parts[-1] += f", shown {_shift_text(shift)} ({source.settings.wrap})"
+        count = len(at.samples.shares[0])
+        parts[-1] += (
+            f", and reads {count} texel{'s' if count > 1 else ''} ({source.settings.texture_filter})."
+        )
+        if np.isfinite(at.corners).all():
+            area = abs(_area(at.corners * [width, height]))
+            parts.append(f"Its footprint covers {number_text(area, 3)} texels.")
+        else:
+            parts.append("It reaches over the horizon and has no footprint.")
+    return " ".join(parts)
+
+
+def _shift_text(shift: Floats) -> str:
+    across, up = (number_text(float(-value), 6) for value in shift)
+    return f"moved by ({across}, {up}) whole repetitions"
+
+
+def _area(corners: Floats) -> float:
+    x, y = corners.T
+    return 0.5 * float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())

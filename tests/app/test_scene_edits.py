@@ -1,0 +1,86 @@
+"""Edits of scenes: typed values and dragged corners land where they were put."""
+
+import numpy as np
+import pytest
+from app.scene_edits import (
+    clip_of_window,
+    join_shared,
+    move_corner,
+    outline,
+    set_value,
+    split_shared,
+    window_of_clip,
+)
+from core import ClipScene, Scene
+from core.geometry.vertex_stage import transform_vertices
+from hypothesis import given
+from hypothesis import strategies as st
+from lessons.scenes import make_scene
+from widgets.scene_outline import OutlineGroup
+
+number = st.floats(-500, 500)
+
+
+@given(number, number, st.floats(0, 1), st.floats(0.01, 100) | st.floats(-100, -0.01))
+def test_window_and_clip_are_inverse(x: float, y: float, depth: float, w: float) -> None:
+    window = np.array([x, y, depth, w])
+    assert window_of_clip(clip_of_window(window, (64, 48)), (64, 48)) == pytest.approx(window, abs=1e-9)
+
+
+@given(number, number)
+def test_a_dragged_corner_keeps_depth_and_w(x: float, y: float) -> None:
+    scene = make_scene("single-triangle")
+    assert isinstance(scene, ClipScene)
+    before = window_of_clip(scene.clip[0, 1], (64, 48))
+    moved = move_corner(scene, 0, 1, (x, y), (64, 48))
+    assert isinstance(moved, ClipScene)
+    assert window_of_clip(moved.clip[0, 1], (64, 48)) == pytest.approx([x, y, *before[2:]], abs=1e-9)
+
+
+def test_a_dragged_mesh_vertex_lands_in_the_window() -> None:
+    scene = make_scene("cube")
+    moved = move_corner(scene, 0, 0, (200.0, 300.0), (512, 512))
+    assert isinstance(moved, Scene)
+    vertices = transform_vertices(moved)
+    assert vertices.window[vertices.corners[0, 0], :2] == pytest.approx([200, 300], abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["single-triangle", "cube", "textured-floor"])
+def test_every_value_of_the_outline_can_be_typed_back(name: str) -> None:
+    scene = make_scene(name)
+    typed = _values(outline(scene, None, scene.size))
+    assert len(typed) >= 12
+    for path, value in typed.items():
+        again = _values(outline(set_value(scene, path, value, scene.size), None, scene.size))
+        assert again[path] == pytest.approx(value)
+
+
+def _values(groups: tuple[OutlineGroup, ...]) -> dict[str, float]:
+    return {f"{row.path}/{value.name}": value.value for g in groups for row in g.rows for value in row.values}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        ("camera/range/near", 1000.0, "near must be less than far"),
+        ("camera/lens/field_of_view", 180.0, "field of view must be between 0 and 180 degrees, got 180"),
+        ("mesh/0/shininess/shininess", 0.0, "shininess must be above 0"),
+    ],
+)
+def test_values_that_make_no_scene_are_refused(path: str, value: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        set_value(make_scene("cube"), path, value, (512, 512))
+
+
+def test_w_zero_is_refused() -> None:
+    with pytest.raises(ValueError, match="w must not be 0"):
+        set_value(make_scene("single-triangle"), "corner/0/1/w", 0.0, (64, 48))
+
+
+def test_shared_corners_split_and_join() -> None:
+    scene = make_scene("shared-edge")
+    split = split_shared(scene)
+    assert isinstance(split, ClipScene) and split.shared is None
+    joined = join_shared(split)
+    assert isinstance(joined, ClipScene) and joined.shared is not None
+    assert len(np.unique(joined.shared)) == 4

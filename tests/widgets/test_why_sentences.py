@@ -1,0 +1,172 @@
+"""The history of a pixel in words: every key has its sentence, and the sentence has the right numbers."""
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as effort
+from hypothesis import strategies as st
+
+from core import ClipScene, Settings
+from core.methods import table
+from core.settings import families
+from core.trace.source import TraceSource
+from core.why import Link, PixelHistory, why
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from widgets.why_sentences import (
+    COUNTED,
+    SENTENCES,
+    chain_sentences,
+    count_sentences,
+    event_reason,
+    event_title,
+    link_sentence,
+    verdict_sentence,
+)
+
+SIZE = (16, 12)
+LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]
+
+
+def window_scene(*triangles, z=0.0, colors=None) -> ClipScene:
+    return ClipScene(clip_of_window(triangles, SIZE, 1.0, z), colors, SIZE)
+
+
+def ask(scene: ClipScene, column: int, row: int, triangle: int | None = None, **choice) -> PixelHistory:
+    return why(TraceSource(scene, Settings(**choice)), column, row, triangle)
+
+
+def all_texts(history: PixelHistory) -> list[str]:
+    """Return every sentence of a history."""
+    texts = [verdict_sentence(history), *count_sentences(history)]
+    for event in history.events:
+        texts += [event_reason(event), *(text for _, text in chain_sentences(event))]
+    return texts
+
+
+@pytest.mark.parametrize(
+    ("pixel", "triangle", "choice", "wanted"),
+    [
+        ((3, 3), None, {}, "Triangle 0 is seen here."),
+        (
+            (7, 6),
+            None,
+            {"fill": "bounding-box"},
+            "Nothing was drawn here: triangle 0 comes nearest; the pixel centre missed edge 0 by 1.414 px.",
+        ),
+        (
+            (5, 6),
+            0,
+            {"fill": "bounding-box"},
+            "Triangle 0 has no fragment here:"
+            " the pixel centre is exactly on edge 0, which the triangle does not own.",
+        ),
+        (
+            (9, 9),
+            0,
+            {"fill": "blocks", "block_size": 4},
+            "Triangle 0 has no fragment here: outside block (2, 2) of 4x4 pixels, rejected by edge 0;"
+            " the pixel centre missed edge 0 by 4.95 px.",
+        ),
+        (
+            (14, 10),
+            0,
+            {},
+            "Triangle 0 has no fragment here: not in its bounding box, columns 2 to 9, rows 2 to 9;"
+            " the pixel centre missed edge 0 by 9.192 px.",
+        ),
+        ((14, 10), None, {}, "Nothing was drawn here: the pixel is in the box of none of 1 triangle."),
+        (
+            (3, 3),
+            None,
+            {"cull": "front"},
+            "Nothing was drawn here: triangle 0 was left out; culled: its front is turned to the eye;"
+            " it would have had a fragment here.",
+        ),
+    ],
+)
+def test_verdicts(pixel, triangle, choice, wanted):
+    assert verdict_sentence(ask(window_scene(LOWER_LEFT), *pixel, triangle, **choice)) == wanted
+
+
+def test_a_near_miss_is_told_in_256ths_too():
+    reason = ask(window_scene([(2, 2), (10, 2), (2, 9.875)]), 5, 6, 0, fill="bounding-box").verdict.values[
+        "reason"
+    ]
+    text = link_sentence(reason)
+    found = re.fullmatch(r"The pixel centre missed edge 0 by (0\.0\d+) px \(([\d.]+)/256\)\.", text)
+    assert found, text
+    assert float(found[2]) == pytest.approx(256 * float(found[1]), rel=1e-3)
+
+
+def test_depth_tests_name_whom_they_met():
+    z = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
+    scene = window_scene(LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, z=z)
+    history = ask(scene, 3, 3)
+    assert [(event_title(event), event_reason(event)) for event in history.events] == [
+        ("Initial value", "Nobody has written here yet."),
+        ("Clear", "The background colour and the farthest depth."),
+        ("Triangle 0", "Written, later overwritten by triangle 3."),
+        ("Triangle 1", "Failed the depth test: 0.75 is not nearer than triangle 0 (0.5)."),
+        ("Triangle 2", "Failed the depth test: as far as triangle 0 (0.5), and a tie keeps what is there."),
+        ("Triangle 3", "Written, and seen."),
+    ]
+    assert dict(chain_sentences(history.fragments[0]))["depth"] == (
+        "Passed the depth test: 0.5 against the cleared depth (1)."
+    )
+    assert (
+        verdict_sentence(history) == "Triangle 3 is seen here; 2 fragments rejected, 1 fragment overwritten."
+    )
+    assert verdict_sentence(ask(scene, 3, 3, 0)) == (
+        "Triangle 0 was drawn here and then overwritten by triangle 3."
+    )
+
+
+def test_clipping_comes_first_in_the_reason():
+    clip = [[[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]]
+    history = ask(ClipScene(clip, size=SIZE), 8, 8, 0, clipping="sutherland-hodgman", fill="bounding-box")
+    text = event_reason(history.events[2])
+    assert text.startswith("Vertex 2 is behind the near plane; clipped to a quad; not in its bounding box, ")
+    assert re.fullmatch("Triangle 0, piece [12] of 2", event_title(history.events[2]))
+
+
+def test_counts():
+    scene = window_scene(LOWER_LEFT, LOWER_LEFT[::-1], LOWER_LEFT)
+    assert count_sentences(ask(scene, 15, 11, cull="back")) == (
+        "1 more triangle: culled, back-facing.",
+        "2 more triangles: the pixel is not in their box.",
+    )
+
+
+def check_texts(texts: list[str]) -> None:
+    for text in texts:
+        assert re.fullmatch(r"[A-Z0-9].*\.", text), text
+        assert not re.search(r"nan|inf\b|None|\.\.|  |\bTrue|\bFalse|array", text), text
+
+
+ANY_SETTINGS = st.builds(Settings, **{family: st.sampled_from(table.names(family)) for family in families()})
+
+
+@effort(max_examples=200)
+@given(ANY_TRIANGLES, ANY_SETTINGS, st.data())
+def test_every_history_can_be_told(case, settings, data):
+    clip, size = case
+    pixel = data.draw(st.integers(0, size[0] - 1)), data.draw(st.integers(0, size[1] - 1))
+    triangle = data.draw(st.none() | st.integers(0, len(clip) - 1))
+    check_texts(all_texts(why(TraceSource(ClipScene(clip, size=size), settings), *pixel, triangle)))
+
+
+def test_no_key_is_without_a_sentence_and_no_sentence_without_a_key():
+    values = {"values": np.zeros(3), "inside": np.ones(3, bool)}
+    with pytest.raises(KeyError):
+        link_sentence(Link("raster", "lost", values))
+    stages = {stage for stage, _ in SENTENCES}
+    assert stages == {
+        *("verdict", "transform", "cull", "clip", "bin", "raster"),
+        *("interpolate", "shade", "depth", "blend"),
+    }
+    assert set(COUNTED) == {
+        *("back-facing", "front-facing", "degenerate", "behind-eye"),
+        *("outside-plane", "clipped-away", "outside-box", "missed"),
+    }
