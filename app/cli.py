@@ -1,4 +1,4 @@
-"""The command line: which commands there are, how they are chosen, and how everything that goes wrong is told.
+"""The command line: which commands there are, how one is chosen, and how what goes wrong is told.
 
 A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
 called, so that no command waits for what another one needs.
@@ -47,8 +47,8 @@ EXAMPLES = """examples:
   rasterscope trace cube --triangle 3 --stage raster --format csv
 """
 
-FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF), a state file (.rasterscope) or the name of a built-in scene;
-a file with the name of a command or scene opens as ./name.
+FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF), a state file (.rasterscope) or the name of a built-in
+scene; a file with the name of a command or scene opens as ./name.
 """
 
 
@@ -129,6 +129,9 @@ def _run_window(arguments: Sequence[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+    if len(arguments) > 1 and not {"-h", "--help", "--version"} & set(arguments):
+        names = ", ".join(command.name for command in COMMANDS)
+        parser.error(f"one FILE or a command ({names}) is wanted, got {' '.join(arguments)}")
     parser.add_argument("file", metavar="FILE", nargs="?", help="what to open in the window")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     options = _parse(parser, arguments)
@@ -154,8 +157,10 @@ def _fail(program: str, problem: object, code: int) -> int:
 
 
 def _os_error_text(problem: OSError) -> str:
-    where = f"{problem.filename} " if problem.filename is not None else ""
-    return f"{where}cannot be read or written: {str(problem.strerror).lower()}"
+    reason = str(problem.strerror).lower()
+    if problem.filename is None:
+        return f"the output cannot be written: {reason}"
+    return f"{problem.filename} cannot be read or written: {reason}"
 
 
 def _silence_stdout() -> None:

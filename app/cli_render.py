@@ -13,10 +13,13 @@ from core import Frame, render
 from core.arrays import Singles
 from core.framebuffer.display import Bytes, to_display
 
-DESCRIPTION = """Draw a scene into a PNG file (sRGB, straight alpha), its buffers into an npz file, or both."""
-EXAMPLES = """The npz file has the arrays color (H, W, 4) float32, linear, as the blend method leaves it; depth (H, W)
-float32, as the depth method stores it; primitive (H, W) int32, number of the triangle seen, -1 for none.
-Row 0 is the bottom row.
+DESCRIPTION = (
+    """Draw a scene into a PNG file (sRGB, straight alpha), its buffers into an npz file, or both."""
+)
+EXAMPLES = """The npz file has three arrays; row 0 is the bottom row.
+  color      (H, W, 4) float32, linear, as the blend method leaves it
+  depth      (H, W) float32, as the depth method stores it
+  primitive  (H, W) int32, number of the triangle seen, -1 for none
 
 examples:
   rasterscope render teapot.obj -o teapot.png
@@ -32,7 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", help="the picture")
     parser.add_argument(
-        "--size", metavar="WxH", type=size_from_text, help="pixels of the picture; default: those of the scene"
+        "--size",
+        metavar="WxH",
+        type=size_from_text,
+        help="pixels of the picture; default: those of the scene",
     )
     add_settings(parser)
     parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
@@ -77,7 +83,7 @@ def picture_bytes(color: Singles, blend: str) -> Bytes:
     Parameters
     ----------
     color : (H, W, 4) float32
-        As the method ``blend`` leaves it: ``opaque`` stores straight alpha, others leave premultiplied colours.
+        As the method ``blend`` leaves it: ``opaque`` stores straight alpha, others premultiplied colours.
     """
     if blend != "opaque":
         alpha = color[..., 3:]

@@ -32,7 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--size", metavar="WxH", type=size_from_text, default=(1280, 800), help="of the window (1280x800)"
     )
-    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="look of the window (light)")
+    parser.add_argument(
+        "--theme", choices=("light", "dark"), default="light", help="look of the window (light)"
+    )
     parser.add_argument(
         "--stage", choices=STAGES, metavar="NAME", help=f"stage that is shown: {', '.join(STAGES)}"
     )

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPoint, QRect, QSizeF
-from PySide6.QtGui import QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
+from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPoint, QRect, QSizeF, Qt
+from PySide6.QtGui import QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter, QRegion
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QWidget
 
@@ -91,7 +91,7 @@ def png_bytes(image: QImage) -> bytes:
 def svg_bytes(widget: QWidget) -> bytes:
     """Return a widget as an SVG file of its size in pixels; text stays text."""
     buffer = _open_buffer()
-    generator = QSvgGenerator()
+    generator = QSvgGenerator(QSvgGenerator.SvgVersion.Svg11)  # the tiny version cannot clip
     generator.setOutputDevice(buffer)
     generator.setSize(widget.size())
     generator.setViewBox(QRect(QPoint(), widget.size()))
@@ -119,11 +119,22 @@ def pdf_bytes(widget: QWidget) -> bytes:
 
 
 def paint_widget(widget: QWidget, painter: QPainter) -> None:
-    """Paint a widget at the origin, as vectors where it can do so."""
+    """Paint a widget and what is in it at the origin; pixel grids as vectors, whatever they stand in."""
     if isinstance(widget, GridDisplay) and widget.buffer() is not None:
         widget.paint_to(painter)
-    else:
+        return
+    if not any(grid.isVisibleTo(widget) for grid in widget.findChildren(GridDisplay)):
         widget.render(painter, QPoint())
+        return
+    # Qt would paint the grids from their kept pictures: every widget by itself, in the order they lie.
+    widget.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)
+    for child in widget.children():
+        if isinstance(child, QWidget) and child.isVisibleTo(widget) and not child.isWindow():
+            painter.save()
+            painter.translate(child.pos())
+            painter.setClipRect(child.rect(), Qt.ClipOperation.IntersectClip)
+            paint_widget(child, painter)
+            painter.restore()
 
 
 def _open_buffer() -> QBuffer:

@@ -30,8 +30,8 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     try:
         if target.is_dir():
             raise FileWriteError(f"{path} cannot be written: it is a folder")
-        if target.exists() and not target.is_file():
-            with target.open("wb") as file:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as file:
                 yield file
             return
         with _beside(target) as file:

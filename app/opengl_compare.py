@@ -2,8 +2,8 @@
 
 How exact a value must be follows from how OpenGL implementations compute it: as a linear function of the
 pixel in float32, as if the sample lay up to 2^-18 of the raster's side beside its place. A value may be off by
-what it changes over that distance, and by a small amount that is always allowed. So triangles on which values
-are steep (slivers, those seen edge-on) need no tolerances of their own.
+what it changes over that distance, and by a small amount that is always allowed. So triangles that are steep in
+a value (slivers, those seen edge-on) need no tolerances of their own.
 """
 
 from dataclasses import dataclass
@@ -19,15 +19,16 @@ from core.raster.lines import draw_lines, interpolate_line
 from core.raster.snapping import place_corners
 
 DISPLACEMENT = 2.0**-18
-"""How far a sample may lie beside its place, in sides of the raster."""
+"""How far a sample may lie beside its place, in sides of the raster; twice as far where OpenGL makes new corners
+by clipping, in float32 too."""
 DEPTH_TOLERANCE = 2e-6
 COLOR_TOLERANCE = 2e-5
 BILINEAR_TOLERANCE = 5e-4
 """Implementations weigh the texels of the bilinear filter with fewer bits than float32 has."""
 PIXELS_ALLOWED = {"clipped": 2, "near": 2, "line-ends": 4}
 """Pixels per case that may show another primitive, by family. Where OpenGL clips, or moves the end of a line
-to the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line that
-goes through another pixel than ours makes two of them.)"""
+to the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line
+through another pixel than ours makes two of them.)"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,9 +115,10 @@ def _draw_triangles(case: Case, fill: str) -> OurPicture:
     frame = draw_triangles(case.clip, *case.size, case.attributes, case.texture, case.settings(fill))
     depth_tolerance = np.full(frame.depth.shape, DEPTH_TOLERANCE)
     color_tolerance = np.full(frame.depth.shape, COLOR_TOLERANCE)
-    row, column = np.nonzero(frame.primitive >= 0)
-    triangle = frame.primitive[row, column]
-    reach = DISPLACEMENT * max(case.size)
+    primitive = frame.primitive.astype(np.int64)
+    row, column = np.nonzero(primitive >= 0)
+    triangle = primitive[row, column]
+    reach = DISPLACEMENT * max(case.size) * (2 if case.family in PIXELS_ALLOWED else 1)
 
     # Depth is linear in the window, attributes are or are not.
     clip = case.clip.astype(float)

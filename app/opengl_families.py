@@ -233,9 +233,10 @@ def _octants(rng: np.random.Generator, limit: int) -> Case:
     """Lines between pixels inside all octants, an odd number of steps each, so that no pixel is a tie.
 
     All are shifted along themselves by 2/256 pixel: a start or end exactly on a pixel's centre is drawn by
-    some implementations and lost by others, as the rounding of the window position has it.
+    some implementations and lost by others, as the rounding of the window position has it. In a raster of up
+    to 96 pixels the shift, and where an implementation puts the shifted end, make no other pixel nearer.
     """
-    size = _size(rng, limit)
+    size = _size(rng, min(limit, 96))
     reach = (min(size) // 2 - 2) // 2 * 2 + 1
     major = rng.integers(0, (reach + 1) // 2, 8) * 2 + 1
     minor = (rng.random(8) * major).astype(int)

@@ -2,11 +2,11 @@
 
 Notation and conventions, for the whole core (tested in tests/core/test_conventions.py)
 ---------------------------------------------------------------------------------------
-* N vertices, T triangles, P primitives (triangles and the pieces that clipping makes of them), F fragments, H x W raster.
+* N vertices, T triangles, P primitives (triangles and pieces made by clipping), F fragments, H x W raster.
 * Vectors are columns, ``p' = D P C^-1 M p``. Right-handed; the camera looks along -z; w > 0 is in front of the eye;
   NDC is [-1, 1]^3, window depth [0, 1]; angles are radians.
-* The window is y-up: array row 0 is the bottom row; pixel (column i, row j) has its centre at (i + 0.5, j + 0.5).
-* The suffix of a position is its space: object, world, camera, clip, ndc, window; ``homogeneous`` is D clip = (x, y, w).
+* The window is y-up: array row 0 is the bottom row; pixel (column i, row j) has its centre at (i + 1/2, j + 1/2).
+* The suffix of a position is its space: object, world, camera, clip, ndc, window; ``homogeneous``: D clip = (x, y, w).
 * Coverage is decided per edge on corners snapped to 1/256 pixel; a centre on an edge belongs to the triangle that
   contains the point moved an infinitesimal step right, then up. Attributes and depth come from unsnapped corners.
 * Counter-clockwise is the front. The nearer fragment wins; a tie keeps what is there.

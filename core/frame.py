@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass, field
 
-from core.arrays import Integers, Singles
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Singles
 
 STAGES = (
     "transform",
@@ -39,11 +42,11 @@ class Frame:
     """(H, W, 4) float32, linear, straight alpha."""
     depth: Singles
     """(H, W) float32, as the depth method stores it."""
-    primitive: Integers
+    primitive: NDArray[np.int32]
     """(H, W) int32, number of the triangle seen, -1 for none."""
     attributes: Singles
     """(H, W, K) float32, interpolated values of the triangle seen, 0 where there is none."""
-    cover_count: Integers
+    cover_count: NDArray[np.int32]
     """(H, W) int32, covered fragments at every pixel, whether seen or not."""
     statistics: dict[str, StageCount] = field(default_factory=dict)
     """Counts per stage: triangles up to ``edges``, pixels from ``bin`` on."""

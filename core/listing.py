@@ -7,7 +7,7 @@ import inspect
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from textwrap import dedent
 from typing import Any
 
@@ -24,7 +24,7 @@ class Listing:
     """Label to line number, counted from 1."""
 
 
-@lru_cache(maxsize=None)
+@cache
 def listing(function: Callable[..., Any]) -> Listing:
     """Read the source of ``function`` and take its labels out."""
     lines, labels = [], {}

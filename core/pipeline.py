@@ -122,11 +122,11 @@ def draw_triangles(
 
 def check_needs(scene: AnyScene, settings: Settings) -> None:
     """Refuse, with a sentence, a method that the scene cannot serve."""
-    if "perspective" in table.get("depth", settings.depth).needs:
-        if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-            raise ValueError(
-                "depth inverse-w needs a perspective camera: 1/w is constant for an orthographic one"
-            )
+    needs_perspective = "perspective" in table.get("depth", settings.depth).needs
+    if needs_perspective and isinstance(scene, Scene) and scene.camera.projection == "orthographic":
+        raise ValueError(
+            "depth inverse-w needs a perspective camera: 1/w is constant for an orthographic one"
+        )
 
 
 def process_geometry(
@@ -181,7 +181,7 @@ def process_geometry(
             planes=interpolation,
             depth_plane=value_plane(interpolation, (z + w) / 2),
             inverse_w_plane=value_plane(interpolation, np.ones_like(w)),
-            is_in_range=((w > 0) & (z >= -w) & (z <= w)).all(axis=1),
+            is_in_range=np.all((w > 0) & (z >= -w) & (z <= w), axis=1),
             uses_depth_test=drawing.uses_depth_test,
         )
 
@@ -243,7 +243,7 @@ def fragment_depth(
     keeps : (F,) bool
     stored : (F,) float32
     """
-    x, y = fragments.column + raster.center, fragments.row + raster.center
+    x, y = raster.centers(fragments.column, fragments.row)
     primitive = fragments.primitive
     depth = plane_value(geometry.depth_plane, primitive, x, y)
     depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
@@ -342,7 +342,7 @@ def _interpolate(
     """Return the interpolated values (F, K) float64 of fragments."""
     with timed(count):
         count.incoming = count.outgoing = len(fragments)
-        x, y = fragments.column + raster.center, fragments.row + raster.center
+        x, y = raster.centers(fragments.column, fragments.row)
         mode, provoking = settings.interpolation, settings.provoking
         varyings = geometry.primitives.varyings
         return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, provoking)[1]

@@ -1,6 +1,7 @@
 """What is to be drawn: meshes, camera, lights, textures; or triangles given in clip space."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import isfinite, pi
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from core.arrays import Floats, Integers, Singles, checked, checked_size
 
 SIZE_LIMIT = 16384
-"""Largest raster, in pixels each way: edge functions stay exact integers in float64 (see core.raster.edge_functions)."""
+"""Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edge_functions)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +109,7 @@ def triangulate(polygons: list[list[int]]) -> tuple[Integers, Integers]:
     for face, polygon in enumerate(polygons):
         if len(polygon) < 3:
             raise ValueError(f"polygon {face} must have at least 3 corners, got {len(polygon)}")
-        for second, third in zip(polygon[1:], polygon[2:], strict=False):
+        for second, third in pairwise(polygon[1:]):
             triangles.append((polygon[0], second, third))
             faces.append(face)
     return np.array(triangles, np.int64).reshape(-1, 3), np.array(faces, np.int64)

@@ -51,7 +51,8 @@ def light_vertices(
     }
     if any(mesh.texture for mesh in scene.meshes):
         parts["uv"] = _vertex_values(scene.meshes, "uvs", [0.0, 0.0])[corners]
-    assert vertices.world is not None and vertices.normals is not None
+    assert vertices.world is not None
+    assert vertices.normals is not None
     position, normal = vertices.world[:, :3], vertices.normals
     mesh = np.repeat(np.arange(len(scene.meshes)), [len(m.positions) for m in scene.meshes])
 

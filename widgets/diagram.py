@@ -14,6 +14,10 @@ Dash = Literal["solid", "dash", "dot"]
 SpotShape = Literal["disc", "ring", "square", "cross"]
 
 
+CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+"""(8, 3) corners of the cube around the origin that is two units wide."""
+
+
 @dataclass(frozen=True, eq=False)
 class Stroke:
     """A line through points."""
@@ -84,10 +88,8 @@ class Diagram:
     strokes: tuple[Stroke, ...] = ()
     spots: tuple[Spot, ...] = ()
     words: tuple[Word, ...] = ()
-    center: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Middle of what the whole view shows."""
-    radius: float = 1.0
-    """How far the whole view reaches around it."""
+    frame: NDArray[np.float64] = field(default_factory=lambda: CUBE, repr=False)
+    """(N, 3) float64, points that the whole view shows; from step to step they should change little."""
     azimuth: float = 0.6
     elevation: float = 0.35
     """Radians, the direction from which it is first seen; see :class:`~widgets.orbit.Orbit`."""
@@ -97,13 +99,6 @@ class Diagram:
     def spot_of(self, handle: int) -> Spot | None:
         """Return the point with a handle's number."""
         return next((spot for spot in self.spots if spot.handle == handle), None)
-
-
-def segments(
-    points: NDArray[np.float64], ink: str = "text", width: float = 1.5, dash: Dash = "solid"
-) -> tuple[Stroke, ...]:
-    """Return one stroke for each of (L, 2, 3) segments."""
-    return tuple(Stroke(ends, ink, width, dash) for ends in points)
 
 
 def _check_points(name: str, points: NDArray[np.float64]) -> None:

@@ -209,6 +209,7 @@ def plain_text(latex: str) -> str:
     """Readable text for screen readers, tooltips, and formulas that cannot be typeset."""
     text = _VERTEX_MACRO.sub("", latex)
     text = re.sub(r"\\(?:textcolor|color)\{[^{}]*\}", "", text)
+    text = re.sub(r"\\(?:mathrm|text)\s*\{([^{}]*)\}", r"\1", text)
     for _ in range(4):
         text = re.sub(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}", r"(\1)/(\2)", text)
     text = re.sub(r"\\(?:begin|end)\{[^{}]*\}(?:\{[^{}]*\})?", " ", text).replace(r"\\", "; ")

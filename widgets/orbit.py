@@ -76,6 +76,22 @@ def fitted(orbit: Orbit, center: tuple[float, float, float], radius: float, aspe
     return _with_target(replace(orbit, extent=extent), np.array(center))
 
 
+def framed(orbit: Orbit, points: NDArray[np.float64], aspect: float = 1.0, margin: float = 1.14) -> Orbit:
+    """Return the orbit from the same direction in which points (N, 3) just fill a parallel view.
+
+    ``margin`` is room for words at the border; points that are not finite are left out.
+    """
+    finite = points[np.isfinite(points).all(axis=1)]
+    if not len(finite):
+        return orbit
+    axes = orbit.axes()
+    seen = finite @ axes.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    half = (high - low) / 2 * margin
+    extent = max(float(half[1]), float(half[0]) / max(aspect, 0.1), EXTENT_LIMITS[0])
+    return _with_target(replace(orbit, extent=extent), ((low + high) / 2) @ axes)
+
+
 def _with_target(orbit: Orbit, target: NDArray[np.float64]) -> Orbit:
     if not np.isfinite(target).all():
         return orbit

@@ -87,10 +87,10 @@ def summary_sentence(stage: str, level: Level, counts: Mapping[str, int], triang
     account = ", ".join(_ACCOUNTS[stage](known))
     if known["nan"]:
         account += f", {known['nan']:,} undefined (NaN)"
-    if triangle is None or triangle < 0:
-        who = "Whole stage" if level == Level.STAGE else "All triangles"
+    if level == Level.STAGE:
+        who = "Whole stage"
     else:
-        who = f"Triangle {triangle}"
+        who = "All triangles" if triangle is None or triangle < 0 else f"Triangle {triangle}"
     if level == Level.GROUP:
         group = GROUPS.get(stage, "one row of pixels")
         who = group.capitalize() if who == "All triangles" else f"{who}, {group}"

@@ -110,7 +110,8 @@ def _stroke_pieces(
         steps = np.linspace(0.0, 1.0, count + 1)[:, None]
         stops = start + steps * (end - start)
         for k in range(count):
-            nearness = 0.5 * float(stops[k, 2] + stops[k + 1, 2]) + 0.05
+            # Of lines at one place the thicker one is seen, and lines before faces.
+            nearness = 0.5 * float(stops[k, 2] + stops[k + 1, 2]) + stroke.width
             found.append((nearness, stroke, stops[k : k + 2, :2], along + k * length / count))
         along += length
     return found

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QWidget
 
 from widgets.caption_paint import caption_height, paint_caption, paint_empty
 from widgets.diagram import Diagram
-from widgets.orbit import Orbit, fitted
+from widgets.orbit import Orbit, framed
 from widgets.orbit_area import GRAB_RADIUS, OrbitArea
 from widgets.space_paint import Projection, paint_diagram, projection_of
 from widgets.theme import current_theme
@@ -53,9 +53,10 @@ class SpaceView(OrbitArea):
         self._refit()
 
     def fit(self) -> None:
-        """Show the whole drawing from the present direction, and from now on every one as a whole."""
-        super().fit()
-        self._is_own_view = False
+        """Show the whole drawing from the present direction, as the user's wish."""
+        if self._diagram is not None:
+            area = self._drawing_area()
+            self._change(framed(self._orbit, self._diagram.frame, area.width() / max(area.height(), 1.0)))
 
     def projection(self) -> Projection:
         """Return how the space is mapped to the widget."""
@@ -99,7 +100,7 @@ class SpaceView(OrbitArea):
         area = self._drawing_area()
         first = Orbit(self._diagram.azimuth, self._diagram.elevation)
         aspect = area.width() / max(area.height(), 1.0)
-        home = fitted(first, self._diagram.center, self._diagram.radius, aspect)
+        home = framed(first, self._diagram.frame, aspect)
         self.set_home(home)
         if not self._is_own_view:
             self.set_orbit(home)

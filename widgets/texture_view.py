@@ -42,7 +42,7 @@ LARGEST_TEXEL = 160.0
 """Largest side of a texel in logical pixels."""
 REDUCED = 1024
 """A texture with a longer side is drawn from a smaller copy while its texels are smaller than a pixel."""
-FOOTPRINT_ROOM = 5.0
+FOOTPRINT_ROOM = 3.0
 """The view of a footprint is so many times as wide as the footprint or its texels."""
 
 

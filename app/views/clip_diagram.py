@@ -13,7 +13,8 @@ import numpy as np
 from core.arrays import Floats
 from core.geometry.culling import PLANES, REASONS
 from core.trace import StageTrace, Trace
-from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
+from widgets.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
+from widgets.orbit import Orbit
 
 EQUATIONS = ("z = −w", "z = w", "x = −w", "x = w", "y = −w", "y = w")
 NDC_EQUATIONS = ("z = −1", "z = 1", "x = −1", "x = 1", "y = −1", "y = 1")
@@ -141,7 +142,7 @@ def _ndc_diagram(state: ClipState) -> Diagram:
         strokes=(*strokes, *axes.strokes, *shapes.strokes),
         spots=shapes.spots,
         words=(*shapes.words, *axes.words, *words),
-        radius=1.75,
+        frame=CUBE * 1.05,
         azimuth=0.55,
         elevation=0.35,
         caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is "
@@ -176,14 +177,25 @@ def _slice_diagram(state: ClipState) -> Diagram:
         strokes=(*strokes, *axes.strokes, *shapes.strokes),
         spots=(*shapes.spots, Spot(np.zeros(3), "text", radius=3.0, label="eye")),
         words=(*shapes.words, *axes.words, Word(ground[1], "w = 0", "muted_text")),
-        center=(0.0, 0.1, 0.0),
-        radius=1.55,
-        azimuth=0.5,
-        elevation=0.22,
+        frame=np.concatenate([base, place(state.before), ground]),
+        azimuth=open_azimuth(place(state.before), 0.2),
+        elevation=0.2,
         caption=f"{state.sentence} A corner has w ≤ 0 and so no place in the NDC cube: this is clip space "
-        f"itself, seen along {'x' if across else 'y'}; {name}, z and w remain. Inside are −w ≤ z ≤ w and "
+        f"itself seen along {'x' if across else 'y'}; {name}, z and w remain. Inside are −w ≤ z ≤ w and "
         f"−w ≤ {name} ≤ w, the upright pyramid; below the plane w = 0 lies what is behind the eye.",
     )
+
+
+def open_azimuth(triangle: Floats, elevation: float) -> float:
+    """Return the direction, of a few to the right and the left, from which a triangle (3, 3) looks largest."""
+    best, largest = 0.5, 0.0
+    for azimuth in (0.5, -0.5, 0.25, -0.25, 0.85, -0.85):
+        seen = triangle @ Orbit(azimuth, elevation).axes()[:2].T
+        first, second = seen[1] - seen[0], seen[2] - seen[0]
+        area = abs(float(first[0] * second[1] - first[1] * second[0]))
+        if area > 1.1 * largest:
+            best, largest = azimuth, area
+    return best
 
 
 def _shapes(state: ClipState, place: "object", face: Floats | None, equations: tuple[str, ...]) -> Diagram:
@@ -198,17 +210,20 @@ def _shapes(state: ClipState, place: "object", face: Floats | None, equations: t
         patches.append(Patch(face, "accent", 0.16))
         strokes.append(Stroke(face, "accent", 1.6, is_closed=True))
         words.append(Word(face.mean(axis=0), f"{PLANES[state.plane]}: {equations[state.plane]}", "accent"))
+    is_whole = state.plane < 0
     for k in range(3):
         ends = before[[(k + 1) % 3, (k + 2) % 3]]
-        strokes.append(Stroke(ends, f"vertex {k}", 1.4, "dash" if state.plane >= 0 else "solid"))
+        strokes.append(Stroke(ends, f"vertex {k}", 2.2 if is_whole else 1.4, "solid" if is_whole else "dash"))
     if len(state.polygon):
         polygon = place(state.polygon)
         patches.append(Patch(polygon, "covered", 0.4))
-        strokes.append(Stroke(polygon, "text", 2.2, is_closed=True))
+        if not is_whole:
+            strokes.append(Stroke(polygon, "text", 2.0, is_closed=True))
     if state.edge is not None:
         strokes.append(Stroke(place(state.edge), "accent", 3.0))
-    for corner in place(state.emitted):
-        spots.append(Spot(corner, "text", "square", 3.5))
+    for clip, corner in zip(state.emitted, place(state.emitted), strict=True):
+        is_left = bool((state.polygon == clip).all(axis=1).any())
+        spots.append(Spot(corner, "text" if is_left else "outline", "square", 3.5 if is_left else 2.5))
     if state.corner is not None:
         spots.append(Spot(place(state.corner[None])[0], "accent", "square", 5.0, label="new corner"))
     for k in range(3):

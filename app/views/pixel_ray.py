@@ -19,7 +19,7 @@ PARTS = 24
 def pixel_ray(source: TraceSource, space: ViewSpace, column: int, row: int) -> tuple[Floats, bool]:
     """Return the ray (2, 3) of a pixel, from the eye or the near plane to what is hit or the far plane.
 
-    The flag says whether something is hit: the fragment that is seen there among those traced.
+    The flag says whether something is hit: the fragment among those traced, else the triangle of the picture.
     """
     width, height = source.scene.size
     center = source.raster.center
@@ -30,11 +30,13 @@ def pixel_ray(source: TraceSource, space: ViewSpace, column: int, row: int) -> t
         scene.camera.eye if isinstance(scene, Scene) and scene.camera.projection == "perspective" else near
     )
     fragment = fragment_at(source, column, row)
-    if fragment < 0:
-        return np.stack([start, far]), False
-    depth = float(source.depths[0][fragment])
-    hit = _placed(space, np.array([[x, y, 2 * depth - 1, 1.0]]))[0]
-    return np.stack([start, hit]), True
+    if fragment >= 0:
+        depth = float(source.depths[0][fragment])
+        return np.stack([start, _placed(space, np.array([[x, y, 2 * depth - 1, 1.0]]))[0]]), True
+    first_column, first_row, _, _ = source.raster.bounds
+    seen = int(source.picture.primitive[row - first_row, column - first_column])
+    hit = None if seen < 0 else _meet(start, far, space.corners(seen))
+    return (np.stack([start, far]), False) if hit is None else (np.stack([start, hit]), True)
 
 
 def pixel_marks(
@@ -53,6 +55,16 @@ def pixel_marks(
         label = f"pixel ({pixel.column}, {pixel.row})"
         marks.append(SceneMark(points, "text", label, "ring" if is_hit else "cross"))
     return tuple(marks)
+
+
+def _meet(start: Floats, end: Floats, corners: Floats) -> Floats | None:
+    """Return where the line from ``start`` to ``end`` meets the plane of three corners (3, 3)."""
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    slope = float(normal @ (end - start))
+    if not np.isfinite(corners).all() or slope == 0:
+        return None
+    met: Floats = start + float(normal @ (corners[0] - start)) / slope * (end - start)
+    return met
 
 
 def _placed(space: ViewSpace, clip: Floats) -> Floats:

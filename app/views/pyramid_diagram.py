@@ -27,6 +27,10 @@ SMALLEST_W = 0.4
 MOST_LINES = 25
 """Lines of the raster that are drawn each way."""
 LEAST_W = 1e-6
+MIRRORED = 0.45
+"""The half of the pyramid behind the eye is drawn so many times as long."""
+FARTHEST_SHOWN = 3.2
+"""The whole view follows a corner so far away, in half heights of the raster."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +80,9 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
         ray, sentence = _ray(source, frame, triangle, homogeneous, pixel)
         shapes.append(ray)
         sentences.append(sentence)
-    reach = max(1.3, float(np.abs(corners[:, 2]).max()) * 1.1)
-    behind = max(0.6, -float(min(-corners[:, 2].max(), 0.0)) * 1.1) if (w <= 0).any() else 0.6
     axes = (("x", [0.5, 0, 0]), ("y", [0, 0.5, 0]), ("w", [0, 0, -1.25]))
     axis_strokes = tuple(Stroke(np.array([[0, 0, 0], end], float), "text", 1.4) for _, end in axes)
     axis_words = tuple(Word(np.array(end, float), name, "text") for name, end in axes)
-    height_reach = float(np.clip(np.abs(corners[:, :2]).max(), 1.0, 1.6 * reach))
     return Diagram(
         patches=tuple(patch for shape in shapes for patch in shape.patches),
         strokes=(*axis_strokes, *(stroke for shape in shapes for stroke in shape.strokes)),
@@ -90,12 +91,21 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
             *(spot for shape in shapes for spot in shape.spots),
         ),
         words=(*axis_words, *(word for shape in shapes for word in shape.words)),
-        center=(0.0, 0.0, -(reach - behind) / 2),
-        radius=max((reach + behind) / 2, 0.75 * height_reach, 1.2) * 0.92,
+        frame=_frame_points(corners, frame),
         azimuth=1.05,
         elevation=0.33,
         caption=" ".join(sentences),
     )
+
+
+def _frame_points(corners: Floats, frame: PyramidFrame) -> Floats:
+    """Return what the whole view shows: eye, raster, and the double pyramid unless it is very large."""
+    x, y = max(frame.aspect, 1.0), 1.0
+    raster = np.array([[x, y, -1.0], [-x, y, -1.0], [x, -y, -1.0], [-x, -y, -1.0]])
+    both = np.concatenate([corners, -MIRRORED * corners])
+    length = np.abs(both).max(axis=1, keepdims=True)
+    shown = both * np.minimum(1.0, FARTHEST_SHOWN / np.maximum(length, 1e-300))
+    return np.concatenate([np.zeros((1, 3)), raster, shown])
 
 
 def hit_point(homogeneous: Floats, x: float, y: float) -> tuple[Floats, Floats, float]:
@@ -144,8 +154,8 @@ def _pyramid(corners: Floats) -> Diagram:
         ink = f"vertex {k}"
         strokes.append(Stroke(ends, ink, 2.4))
         patches.append(Patch(np.concatenate([np.zeros((1, 3)), ends]), ink, 0.13))
-        patches.append(Patch(np.concatenate([np.zeros((1, 3)), -ends * 0.45]), ink, 0.07))
-        strokes.append(Stroke(-ends * 0.45, ink, 1.0, "dash"))
+        patches.append(Patch(np.concatenate([np.zeros((1, 3)), -ends * MIRRORED]), ink, 0.07))
+        strokes.append(Stroke(-ends * MIRRORED, ink, 1.0, "dash"))
     for k in range(3):
         # A ray goes on to the plane of the raster where the corner lies before it.
         w = -float(corners[k, 2])
@@ -153,7 +163,7 @@ def _pyramid(corners: Floats) -> Diagram:
         strokes.append(Stroke(np.stack([np.zeros(3), corners[k]]), "muted_text", 1.1))
         if 0 < w < 1:
             strokes.append(Stroke(np.stack([corners[k], reach]), "muted_text", 1.0, "dot"))
-        strokes.append(Stroke(np.stack([np.zeros(3), -corners[k] * 0.45]), "muted_text", 1.0, "dash"))
+        strokes.append(Stroke(np.stack([np.zeros(3), -corners[k] * MIRRORED]), "muted_text", 1.0, "dash"))
     spots = tuple(Spot(corners[k], f"vertex {k}", label=str(k)) for k in range(3))
     return Diagram(tuple(patches), tuple(strokes), spots)
 
@@ -184,8 +194,7 @@ def _raster(source: TraceSource, frame: PyramidFrame) -> Diagram:
         ]
     )
     strokes.append(Stroke(border, "text", 1.6, is_closed=True))
-    lines = "" if step == 1 else f", a line every {step} pixels"
-    word = Word(border[2], f"w = 1: raster {end_column - first_column}×{end_row - first_row}{lines}")
+    word = Word(border[2], f"w = 1, {end_column - first_column}×{end_row - first_row} pixels")
     return Diagram((Patch(border, "empty", 0.55),), tuple(strokes), words=(word,))
 
 

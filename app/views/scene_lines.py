@@ -89,17 +89,22 @@ def draw_space_lines(
     # 1/w is linear in the window, as depth is.
     near = interpolate_line(drawn.owner, drawn.steps.t, (1 / clip[..., 3])[..., None])[:, 0]
     rows, columns = inverse_w.shape
-    seen = inverse_w[drawn.pixels[:, 1] * rows // height, drawn.pixels[:, 0] * columns // width]
+    row, column = drawn.pixels[:, 1] * rows // height, drawn.pixels[:, 0] * columns // width
+    seen = inverse_w[row, column]
+    # A line on a slanted surface or along its border counts as seen if it would be in a pixel beside.
+    for up, right in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        beside = inverse_w[np.clip(row + up, 0, rows - 1), np.clip(column + right, 0, columns - 1)]
+        seen = np.minimum(seen, beside)
     opacity = np.where(
         near >= seen * (1 - DEPTH_BIAS), 1.0, np.array([line.hidden for line in lines])[line_of]
     )
     inks = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors])[line_of]
     along = np.abs(window[:, 1] - window[:, 0])
-    beside = np.where((along[:, 0] >= along[:, 1])[:, None], [0, 1], [1, 0])[drawn.owner]
+    other_axis = np.where((along[:, 0] >= along[:, 1])[:, None], [0, 1], [1, 0])[drawn.owner]
     widths = np.array([line.width for line in lines])[line_of]
     for offset in range(int(widths.max(initial=1))):
         chosen = np.flatnonzero(widths > offset)
-        place = drawn.pixels[chosen] + beside[chosen] * offset
+        place = drawn.pixels[chosen] + other_axis[chosen] * offset
         inside = (place < [width, height]).all(axis=1)
         chosen, place = chosen[inside], place[inside]
         under = pixels[place[:, 1], place[:, 0], :3]

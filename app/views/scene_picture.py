@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.views.scene_lines import SpaceLine, draw_space_lines
 from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
@@ -23,7 +25,7 @@ class DrawnScene:
 
     pixels: Bytes
     """(H, W, 4) uint8 sRGB, row 0 at the bottom, with lines."""
-    primitive: Integers
+    primitive: NDArray[np.integer[Any]]
     """(h, w) int32, the triangle of the document that is seen, -1: none; may be coarser than the picture."""
     seconds: float
     """What drawing took."""
@@ -83,7 +85,7 @@ def draw_scene(
     background = np.append(linear_light(_bytes_of(theme.canvas) / 255), 1.0)
     viewed, pieces = viewed_scene(space, scene, camera, coarse, background)
     frame = render(viewed, view_settings(scene, settings))
-    primitive = frame.primitive
+    primitive: NDArray[np.integer[Any]] = frame.primitive
     for of_drawn in (pieces, numbers):
         if of_drawn is not None:
             primitive = np.where(primitive < 0, -1, of_drawn[primitive])

@@ -26,9 +26,9 @@ from widgets.orbit import Orbit, fitted
 from widgets.scene_view import SceneHandle, ScenePicture, SceneView
 from widgets.theme import current_theme, theme_notifier
 
-DRAFT_SECONDS = 0.035
+DRAFT_SECONDS = 0.04
 """What a picture may take while it is turned; if it takes more, the next ones are coarser."""
-COARSEST = 4
+COARSEST = 3
 DRAFT_TRIANGLES = 9000
 """A scene of more triangles is thinned while it is turned."""
 FULL_TRIANGLES = 600_000

@@ -1,4 +1,4 @@
-"""The stages' own views of one session: 3D scene, clip space, (x, y, w), texture; only the visible is drawn."""
+"""The stages' own views of one session: 3D scene, clip space, (x, y, w), texture. Only what is seen is drawn."""
 
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget

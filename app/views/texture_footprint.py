@@ -171,7 +171,7 @@ def _caption(
     shift: Floats,
 ) -> str:
     height, width = texture.pixels.shape[:2]
-    parts = [f"{texture.name.capitalize()}, {width}×{height} texels."]
+    parts = [f"{texture.name[:1].upper()}{texture.name[1:]}, {width}×{height} texels."]
     if not pixels:
         parts.append(f"Triangle {triangle} is outlined; point at a pixel to see its footprint.")
     elif not found:

@@ -76,7 +76,9 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
         box: Floats = np.diag(np.array([aspect, 1.0, -1.0, 1.0]))
         return ViewSpace(scene, vertices, box, (0.0, 0.0, 0.0), radius, Orbit(0.55, 0.3))
     camera = scene.camera
-    matrix = np.linalg.inv(projection(camera, width / height) @ world_to_camera(camera))
+    matrix: Floats = np.asarray(
+        np.linalg.inv(projection(camera, width / height) @ world_to_camera(camera)), np.float64
+    )
     assert vertices.world is not None
     low, high = vertices.world[:, :3].min(axis=0), vertices.world[:, :3].max(axis=0)
     size = float(np.linalg.norm(high - low)) / 2

@@ -1,4 +1,4 @@
-"""Attribute interpolation: weights of the corners at a pixel, perspective-correct, affine or flat, and planes over the window.
+"""Attribute interpolation: weights of the corners at a pixel (perspective, affine, flat), and planes over the window.
 
 All of them come from the adjugate of the 3x3 (x, y, w) matrix of the corners *before* snapping: row k of the inverse
 gives alpha_k/w as a linear function of the pixel, and their sum is 1/w. A covered pixel of a snapped triangle may so

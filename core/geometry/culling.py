@@ -59,7 +59,7 @@ def cull(clip: Floats, facing: Floats, cull_faces: str) -> CullVerdicts:
         A method of the family ``cull``.
     """
     distances = plane_distances(clip)
-    outside = (distances < 0).all(axis=1)
+    outside = np.all(distances < 0, axis=1)
     verdict = np.where(table.get("cull", cull_faces).function(facing), BACK_FACING, KEPT)
     verdict[(verdict == BACK_FACING) & (facing > 0)] = FRONT_FACING
     verdict[facing == 0] = DEGENERATE

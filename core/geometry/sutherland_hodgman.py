@@ -46,7 +46,7 @@ class ClipRows:
     """(R,) float64, signed distance from the plane; inside is 0 or more."""
     end_distance: Floats
     t: Floats
-    """(R,) float64, where the new corner lies from the inside end (0) to the outside end (1); NaN where there is none."""
+    """(R,) float64, where the new corner lies, from the inside end (0) to the outside end (1); NaN: there is none."""
     corner: Floats
     """(R, 4 + K), the new corner; NaN where there is none."""
 
@@ -101,7 +101,7 @@ def clip_primitives(primitives: Primitives, distances: Floats, planes: tuple[int
     distances : (P, 3, 6) float64, see ``core.geometry.culling.plane_distances``
     planes : indices of ``core.geometry.culling.PLANES``
     """
-    crossing = (distances[:, :, list(planes)] < 0).any(axis=(1, 2))
+    crossing = np.any(distances[:, :, list(planes)] < 0, axis=(1, 2))
     clipped = np.flatnonzero(crossing)
     polygon = np.concatenate([primitives.clip[clipped], primitives.varyings[clipped]], axis=2)
     count = np.full(len(clipped), 3)

@@ -52,7 +52,7 @@ class VertexStage:
         """(N, 3) float64: x, y in pixels, depth in [0, 1]; infinite or NaN where w = 0."""
         width, height = self.size
         with np.errstate(invalid="ignore", over="ignore"):
-            return (self.ndc + 1) * np.array([width / 2, height / 2, 0.5])
+            return np.asarray((self.ndc + 1) * np.array([width / 2, height / 2, 0.5]))
 
     @property
     def viewport(self) -> Floats:

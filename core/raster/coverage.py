@@ -55,8 +55,9 @@ def examine_pixels(edges: EdgeFunctions, runs: Runs, raster: Raster) -> PixelTes
     """Look at every pixel of ``runs`` and keep all numbers."""
     run, place = expand(runs.lengths)
     primitive, column, row = runs.triangle[run], runs.start[run] + place, runs.row[run]
-    x, y = (column + raster.center)[:, None], (row + raster.center)[:, None]
-    values = edge_value(edges.a[primitive], edges.b[primitive], edges.c[primitive], x, y)
+    x, y = raster.centers(column, row)
+    a, b, c = edges.a[primitive], edges.b[primitive], edges.c[primitive]
+    values = edge_value(a, b, c, x[:, None], y[:, None])
     inside = is_inside(values, edges.owns_tie[primitive]).all(axis=1)
     accepted = runs.accepted[run]
     return PixelTests(run, primitive, column, row, values, accepted, inside | accepted, values == 0)
@@ -87,8 +88,8 @@ def _cover_batch(edges: EdgeFunctions, runs: Runs, raster: Raster) -> tuple[Frag
     primitive, row = runs.triangle.take(run), runs.row.take(run)
     if runs.accepted.all():
         return Fragments(primitive, column, row), 0
-    x = column + raster.center
-    y = runs.row + raster.center
+    x, _ = raster.centers(column, column)
+    _, y = raster.centers(runs.row, runs.row)
     covered = runs.accepted.take(run)
     tested = len(covered) - int(np.count_nonzero(covered))
     inside = np.ones(len(covered), bool)

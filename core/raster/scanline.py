@@ -32,7 +32,7 @@ def scanline(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int
     rows = rows_of(boxes, np.arange(len(edges)))
     start, stop = rows.start, rows.stop
     crossings = np.empty((len(rows), 3))
-    y = rows.row + raster.center
+    _, y = raster.centers(rows.start, rows.row)
     for k in range(3):
         a, b, c = (coefficient[rows.triangle, k] for coefficient in (edges.a, edges.b, edges.c))
         owns_tie = edges.owns_tie[rows.triangle, k]
@@ -71,7 +71,7 @@ def turning_column(
     """
 
     def has_turned(column: Integers) -> Flags:
-        return is_inside(edge_value(a, b, c, column + center, y), owns_tie) == (a > 0)
+        return np.asarray(is_inside(edge_value(a, b, c, column + np.float64(center), y), owns_tie) == (a > 0))
 
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         crossing = np.where(a != 0, -(b * y + c) / a, np.nan)

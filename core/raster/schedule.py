@@ -43,6 +43,10 @@ class Raster:
         first_column, first_row, end_column, end_row = self.bounds
         return end_row - first_row, end_column - first_column
 
+    def centers(self, column: Integers, row: Integers) -> tuple[Floats, Floats]:
+        """Return x and y (F,) of the centres of pixels."""
+        return column + np.float64(self.center), row + np.float64(self.center)
+
     def index(self, column: Integers, row: Integers) -> Integers:
         """Return the place of pixels (F,) in flattened buffers."""
         first_column, first_row, end_column, _ = self.bounds

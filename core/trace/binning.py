@@ -62,6 +62,9 @@ def trace_bin(source: TraceSource) -> StageTrace:
         "verdict": np.array(VERDICTS)[verdict],
         "rejected_by": of_block("rejected_by", -1).astype(np.int64),
         "corners": geometry.edges.corners.decided[owner],
+        "a": geometry.edges.a[owner],
+        "b": geometry.edges.b[owner],
+        "c": geometry.edges.c[owner],
         "node": node,
     }
     kind = np.where(is_block, 3, np.array([0, 1, 2])[boxes.case[owner]])

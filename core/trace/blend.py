@@ -53,8 +53,10 @@ def trace_blend(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings={"over": listing(over_pixel)},
-        marks={"covered": np.ones(len(fragments), bool), "nan": np.isnan(after).any(axis=1)},
-        buffers=(BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),),
+        marks={"covered": np.ones(len(fragments), bool), "nan": np.any(np.isnan(after), axis=1)},
+        buffers=(
+            BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),
+        ),
     )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from core.geometry.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
 from core.listing import listing
+from core.raster.snapping import place_corners
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
@@ -14,6 +15,7 @@ KINDS = ("behind", "plane", "degenerate", "facing", "kept")
 def trace_cull(source: TraceSource) -> StageTrace:
     """Return one row for every test: behind the eye, six planes, degenerate, facing; and one for a kept triangle."""
     assembled, culled = source.geometry.assembled, source.geometry.culled
+    projected = place_corners(assembled.clip, source.scene.size, source.settings.coverage).is_projected
     count = len(assembled)
     behind = (assembled.clip[..., 3] <= 0).all(axis=1)
     outside = (culled.distances < 0).all(axis=1)
@@ -34,6 +36,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
         "plane": np.array(PLANES)[plane],
         "distances": np.take_along_axis(culled.distances[which], plane[:, None, None], axis=2)[..., 0],
         "facing": culled.facing[which],
+        "is_projected": projected[which],
         "applies": applies[which, test],
         "verdict": np.where(applies[which, test] | (test == 9), verdict[which], "not-yet"),
     }

@@ -17,7 +17,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
     depth, keeps, stored = source.depths
     after = np.where(tests.passes, stored, tests.before)
     tested = source.geometry.uses_depth_test
-    columns = {
+    columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,
         "depth": depth,
@@ -61,9 +61,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=dict.fromkeys(KINDS, listing(depth_test)),
+        constants={"quantity": source.depth_format.quantity},
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
-            BufferTrack("depth", source.start.depth, passed, place[passed], stored[passed], starts_known=True),
+            BufferTrack(
+                "depth", source.start.depth, passed, place[passed], stored[passed], starts_known=True
+            ),
             BufferTrack("primitive", identity, passed, place[passed], triangle[passed], "ids", True),
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),

@@ -73,6 +73,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
         },
         marks={"rejected": (place == 3) & (edges.doubled_area[primitive] == 0)},
         extra={"edges": edges, "planes": geometry.planes},
+        constants={"fill_rule": source.settings.fill_rule},
     )
 
 

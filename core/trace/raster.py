@@ -55,7 +55,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
 
     primitive = runs.triangle[run]
     column, row = of_pixel(tests.column, -1), runs.row[run]
-    x, y = column + raster.center, row + raster.center
+    x, y = raster.centers(column, row)
     values = of_pixel(tests.values, np.nan)
     covered, tie = of_pixel(tests.covered, False), of_pixel(tests.tie, False)
     accepted = of_pixel(tests.accepted, False)
@@ -112,7 +112,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         },
         buffers=_buffers(source, np.flatnonzero(is_pixel), columns),
         extra={"runs": runs, "boxes": source.boxes, "blocks": runs.blocks, "edges": edges},
-        constants={"center": raster.center},
+        constants={"center": raster.center, "fill_rule": source.settings.fill_rule},
     )
 
 
@@ -140,7 +140,9 @@ def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]
         ]
     hit_rows, hit_place = rows[covered], place[covered]
     count = source.start.cover_count.ravel()[hit_place] + 1 + occurrence(hit_place)
-    tracks.append(BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count", True))
+    tracks.append(
+        BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count", True)
+    )
     return tuple(tracks)
 
 

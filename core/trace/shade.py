@@ -31,19 +31,34 @@ def trace_shade(source: TraceSource) -> StageTrace:
         "color": surface.color,
         "primitive": fragments.primitive,
     }
+    layout, values = source.geometry.primitives.layout, source.interpolated[1]
+    if "color" in layout:
+        columns["vertex_color"] = values[:, layout["color"]]
     textured = np.zeros(count, bool)
     for index, texture in enumerate(_textures(source)):
         if texture is not None:
             chosen = np.flatnonzero(mesh == index)
             textured[chosen] = True
             _add_samples(columns, chosen, _samples(source, texture, chosen))
+            height, width, _ = texture.pixels.shape
+            columns.setdefault("texture_size", np.zeros((count, 2), np.int64))[chosen] = width, height
+            columns["uv"] = values[:, layout["uv"]]
     is_lit = surface.diffuse_light is not None
     if surface.diffuse_light is not None and surface.specular_light is not None:
         columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
     lighting = _lighting(source, mesh)
     if lighting is not None:
+        assert isinstance(source.scene, Scene)
         columns |= {
             "normal": lighting.normal,
+            "to_light": np.moveaxis(lighting.to_light, 0, 1),
+            "half": np.moveaxis(lighting.half, 0, 1),
+            "ambient": np.broadcast_to(material_of(source.scene, mesh).ambient, count),
+            "diffuse": np.broadcast_to(material_of(source.scene, mesh).diffuse, count),
+            "light_colors": np.broadcast_to(
+                np.array([light.color for light in source.scene.lights]).reshape(-1, 3),
+                (count, len(source.scene.lights), 3),
+            ),
             "to_eye": lighting.to_eye,
             "n_dot_l": lighting.n_dot_l.T,
             "n_dot_h": lighting.n_dot_h.T,
@@ -69,7 +84,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=_listings(source, lighting),
-        marks={"covered": np.ones(count, bool), "nan": np.isnan(surface.color).any(axis=1)},
+        marks={"covered": np.ones(count, bool), "nan": np.any(np.isnan(surface.color), axis=1)},
         buffers=_buffers(source, columns, textured),
         extra={"textures": _textures(source), "mesh": mesh},
     )
@@ -147,7 +162,13 @@ def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listi
     """Return the texture's listing, the light's and the product's, by kind of row and operation."""
     texture, product = listing(TEXTURE_LISTINGS[source.settings.texture_filter]), listing(shaded_color)
     light = listing(blinn_phong) if lighting is not None else product
-    of_operation = {"normal": light, "cosines": light, "sums": light, "interpolated": light, "product": product}
+    of_operation = {
+        "normal": light,
+        "cosines": light,
+        "sums": light,
+        "interpolated": light,
+        "product": product,
+    }
     found = {"plain": product, "textured": texture, "lit": product, "textured-lit": texture}
     for kind in ("lit", "textured-lit"):
         found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}

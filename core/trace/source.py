@@ -10,7 +10,7 @@ from core.fragments.interpolation import interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, DepthTests, run_depth_tests
 from core.methods import table
-from core.pipeline import Geometry, drawing_order, draw, fragment_depth, process_geometry, schedule
+from core.pipeline import Geometry, draw, drawing_order, fragment_depth, process_geometry, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
 from core.raster.schedule import Boxes, Raster, Runs, make_raster
 from core.scene import AnyScene
@@ -88,7 +88,7 @@ class TraceSource:
     @property
     def centers(self) -> tuple[Floats, Floats]:
         """X and y (F,) of the fragments' pixel centres."""
-        return self.fragments.column + self.raster.center, self.fragments.row + self.raster.center
+        return self.raster.centers(self.fragments.column, self.fragments.row)
 
     @property
     def triangle_of_fragment(self) -> Integers:

@@ -43,7 +43,9 @@ def trace_transform(source: TraceSource) -> StageTrace:
     window = np.hstack([vertices.window[corners], ones])
     stages = [(vertices.clip[corners], ndc, None), (ndc, window, vertices.viewport)]
     if vertices.object is not None:
-        assert vertices.world is not None and vertices.camera is not None and vertices.model is not None
+        assert vertices.world is not None
+        assert vertices.camera is not None
+        assert vertices.model is not None
         model = vertices.model[vertices.mesh[owner]]
         spaces = [vertices.object, vertices.world, vertices.camera, vertices.clip]
         matrices = [model, vertices.view, vertices.projection]
@@ -62,7 +64,7 @@ def trace_transform(source: TraceSource) -> StageTrace:
     )
     for k, axis in enumerate(AXES):
         columns[f"before_{axis}"], columns[f"after_{axis}"] = columns["before"][:, k], columns["after"][:, k]
-    operations = {kind: by_matrix for kind in kinds[:3]} | {"divide": by_division, "viewport": to_window}
+    operations = dict.fromkeys(kinds[:3], by_matrix) | {"divide": by_division, "viewport": to_window}
     rows = len(columns["vertex"])
     steps = Steps(
         kinds=kinds,

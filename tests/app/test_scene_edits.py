@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from app.scene_edits import (
     clip_of_window,
     join_shared,
@@ -13,8 +16,6 @@ from app.scene_edits import (
 )
 from core import ClipScene, Scene
 from core.geometry.vertex_stage import transform_vertices
-from hypothesis import given
-from hypothesis import strategies as st
 from lessons.scenes import make_scene
 from widgets.scene_outline import OutlineGroup
 
@@ -80,7 +81,9 @@ def test_w_zero_is_refused() -> None:
 def test_shared_corners_split_and_join() -> None:
     scene = make_scene("shared-edge")
     split = split_shared(scene)
-    assert isinstance(split, ClipScene) and split.shared is None
+    assert isinstance(split, ClipScene)
+    assert split.shared is None
     joined = join_shared(split)
-    assert isinstance(joined, ClipScene) and joined.shared is not None
+    assert isinstance(joined, ClipScene)
+    assert joined.shared is not None
     assert len(np.unique(joined.shared)) == 4

@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pytestqt.qtbot import QtBot
+
 from app.document import TeachingRaster, fit_region, focus_on, open_document
 from app.scene_edits import move_corner
 from app.session import Session
 from core import STAGES, ClipScene
 from core.steps import Level
 from lessons.scenes import make_scene
-from pytestqt.qtbot import QtBot
 
 
 @pytest.fixture
@@ -59,7 +60,8 @@ def test_edit_undo_redo_give_the_same_picture(session: Session) -> None:
 
 def test_shared_corners_move_together(session: Session) -> None:
     scene = session.document.scene
-    assert isinstance(scene, ClipScene) and scene.shared is not None
+    assert isinstance(scene, ClipScene)
+    assert scene.shared is not None
     names = scene.shared
     shared = next(name for name in np.unique(names) if (names == name).sum() == 2)
     triangle, corner = (int(n) for n in np.argwhere(names == shared)[0])

@@ -48,7 +48,9 @@ def first_paint() -> list[float]:
     found = []
     for _ in range(5):
         code = FIRST_PAINT.format(root=str(ROOT))
-        output = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+        output = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout
         found.append(float(output))
     return found
 

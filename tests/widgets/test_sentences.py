@@ -121,7 +121,8 @@ def test_summaries() -> None:
 def test_every_stage_can_be_summed_up(stage: str, level: Level) -> None:
     traced = rare_trace("unsnapped", Settings()).stage(stage)
     text = summary_sentence(stage, level, traced.summary(0, traced.steps.row_count), 0)
-    assert re.fullmatch(r"Triangle 0[^{}]*\.", text), text
+    beginning = "Whole stage" if level == Level.STAGE else "Triangle 0"
+    assert re.fullmatch(beginning + r"[^{}]*\.", text), text
 
 
 def test_words_and_numbers() -> None:

@@ -218,6 +218,13 @@ def test_marks_of_the_other_stages_agree_with_their_columns():
     assert np.array_equal(clip.marks["rejected"], kinds == "out-out")
 
 
+def test_a_corner_at_w_0_is_marked_in_every_space_behind_the_division():
+    scene = ClipScene([[[0, 1, 0, 0], [-1, -1, 0, 1], [1, -1, 0, 1]]], size=(4, 3))
+    found = trace(scene).stage("transform")
+    assert found.columns["vertex"].tolist() == [0, 0, 1, 1, 2, 2]
+    assert found.marks["nan"].tolist() == [True, True, False, False, False, False]
+
+
 @pytest.mark.parametrize(
     ("stage", "untouched"),
     [

@@ -78,12 +78,13 @@ def test_history_ends_in_the_picture(name, choice):
     check_pixels(scene, settings_of(choice, scene), some_pixels(scene))
 
 
-@pytest.mark.parametrize("name", ["single-triangle", "near-plane", "clip"])
-def test_history_of_every_pixel(name):
+@pytest.mark.parametrize("choice", [{"fill": "hierarchy", "block_size": 2}, *MIXES], ids=name_of)
+@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip"])
+def test_history_of_every_pixel(name, choice):
     scene = SCENES[name]
     width, height = scene.size
-    pixels = [(column, row) for row in range(0, height) for column in range(row % 3, width, 3)]
-    check_pixels(scene, Settings(fill="hierarchy", block_size=4), pixels)
+    pixels = [(column, row) for row in range(height) for column in range(width)]
+    check_pixels(scene, settings_of(choice, scene), pixels)
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "knot"])
