@@ -150,7 +150,7 @@ def _draw_triangles(case: Case, fill: str) -> OurPicture:
     return OurPicture(
         frame.color.astype(float),
         frame.depth.astype(float),
-        frame.primitive,
+        primitive,
         color_tolerance,
         depth_tolerance,
     )

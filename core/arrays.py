@@ -27,6 +27,7 @@ def checked(
     dtype: type[np.generic] = np.float64,
     *,
     finite: bool = True,
+    limit: float | None = None,
 ) -> NDArray[Any]:
     """Return ``values`` as a read-only copy of ``dtype``, or say what was wanted and what came.
 
@@ -41,11 +42,13 @@ def checked(
         Kind of the result; a fraction is refused where integers are wanted.
     finite : bool
         Refuse NaN and infinity.
+    limit : float, optional
+        Refuse values beyond plus or minus this.
 
     Raises
     ------
     ValueError
-        For the first of: wrong number of axes, wrong shape, wrong type, a value that is not finite.
+        For the first of: wrong number of axes, wrong shape, wrong type, a value that is not finite or too large.
     """
     array = np.asarray(values)
     wanted = "(" + ", ".join(str(length) for length in shape) + ("," if len(shape) == 1 else "") + ")"
@@ -62,6 +65,8 @@ def checked(
             raise ValueError(f"{name} must be finite, got {array[where]} at {where}")
         if np.issubdtype(dtype, np.integer) and (array != np.floor(array)).any():
             raise ValueError(f"{name} must be whole numbers, got {array.dtype}")
+    if limit is not None and array.size and np.abs(array).max() > limit:
+        raise ValueError(f"{name} must be at most {limit:g} in size, got {np.abs(array).max():g}")
     copy = np.array(array, dtype=dtype, order="C")
     copy.flags.writeable = False
     return copy

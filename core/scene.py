@@ -11,6 +11,9 @@ from core.arrays import Floats, Integers, Singles, checked, checked_size
 SIZE_LIMIT = 16384
 """Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edge_functions)."""
 
+COORDINATE_LIMIT = 1e60
+"""Largest coordinate: products of three of them, as in a determinant, stay far from the end of float64."""
+
 
 @dataclass(frozen=True, eq=False)
 class Texture:
@@ -71,7 +74,7 @@ class Mesh:
     name: str = "mesh"
 
     def __post_init__(self) -> None:
-        positions = checked("positions", self.positions, ("N", 3))
+        positions = checked("positions", self.positions, ("N", 3), limit=COORDINATE_LIMIT)
         triangles = checked("triangles", self.triangles, ("T", 3), np.int64)
         count = len(positions)
         if len(triangles) == 0:
@@ -83,7 +86,7 @@ class Mesh:
             )
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
-        object.__setattr__(self, "transform", checked("transform", self.transform, (4, 4)))
+        object.__setattr__(self, "transform", checked("transform", self.transform, (4, 4), limit=COORDINATE_LIMIT))
         for name, width in (("normals", 3), ("uvs", 2), ("colors", 4)):
             if getattr(self, name) is not None:
                 values = checked(name, getattr(self, name), ("N", width))
@@ -230,7 +233,7 @@ class ClipScene:
     """(T, 3) int64 names of corners: corners of one name move together in the window. ``None``: all separate."""
 
     def __post_init__(self) -> None:
-        clip = checked("clip", self.clip, ("T", 3, 4))
+        clip = checked("clip", self.clip, ("T", 3, 4), limit=COORDINATE_LIMIT)
         object.__setattr__(self, "clip", clip)
         if self.attributes is None:
             color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), 3, 4))

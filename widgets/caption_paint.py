@@ -1,5 +1,7 @@
 """The caption at the foot of a drawing, and the sentence in the middle of an empty one."""
 
+from functools import lru_cache
+
 from PySide6.QtCore import QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter
 
@@ -8,6 +10,7 @@ from widgets.theme import Theme, text_font
 _FLAGS = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap
 
 
+@lru_cache(maxsize=64)
 def caption_height(text: str, width: float, theme: Theme) -> float:
     """Return the height in logical pixels that a caption takes, 0 for none."""
     if not text:

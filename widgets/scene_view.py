@@ -170,13 +170,14 @@ class SceneView(OrbitArea):
             place = self._place(handle.x, handle.y)
             if place is not None:
                 places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
+        radius = self._handle_radius(picture)
         for mark in picture.marks:
             self._paint_mark(painter, mark, places, theme)
         for handle in picture.handles:
             place = self._place(handle.x, handle.y)
             if place is not None:
                 ink = f"vertex {handle.index}"
-                spot = Spot(np.zeros(3), ink, radius=5.0, handle=handle.index)
+                spot = Spot(np.zeros(3), ink, radius=radius, handle=handle.index)
                 paint_spot(painter, place, spot, theme, handle.index == self._handle)
                 reach = 8.0 * scale
                 paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
@@ -184,6 +185,13 @@ class SceneView(OrbitArea):
             place = self._place(x, y)
             if place is not None:
                 paint_label(painter, places, place, text, ink, theme, 4.0)
+
+    def _handle_radius(self, picture: ScenePicture) -> float:
+        """Return the radius of handles: smaller where they would cover each other."""
+        places = [self._place(handle.x, handle.y) for handle in picture.handles]
+        known = [place for place in places if place is not None]
+        apart = [QLineF(a, b).length() for k, a in enumerate(known) for b in known[k + 1 :]]
+        return min(max(min(apart, default=15.0) / 3, 2.0), 5.0)
 
     def _paint_mark(self, painter: QPainter, mark: SceneMark, places: LabelPlaces, theme: Theme) -> None:
         """Paint a line over the picture, and the mark at its end."""

@@ -18,6 +18,7 @@ from app.views.scene_picture import (
     space_lines,
     space_words,
 )
+from app.views.scene_worker import SceneWorker
 from app.views.vertex_drag import move_corner_to
 from app.views.view_space import ViewSpace, make_space, thinned
 from core.arrays import Integers
@@ -47,9 +48,6 @@ class ScenePresenter(QObject):
 
     def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        # Imported here: the worker needs a thread pool that only a shown view pays for.
-        from app.views.scene_worker import SceneWorker
-
         self._session, self._view = session, view
         self._space: ViewSpace | None = None
         self._document: Document | None = None
@@ -87,6 +85,18 @@ class ScenePresenter(QObject):
             self._go_home()
         self._view.set_caption(self._caption())
         self._draw_draft()
+
+    def look_at_focus(self) -> None:
+        """Magnify the triangle in focus, from the present direction."""
+        if self._space is None or self.focus is None:
+            return
+        corners = self._space.corners(self.focus)
+        if np.isfinite(corners).all():
+            x, y, z = corners.mean(axis=0).tolist()
+            reach = float(np.linalg.norm(corners - corners.mean(axis=0), axis=1).max())
+            width, height = self._view.picture_size()
+            self._view.set_orbit(fitted(self._view.orbit(), (x, y, z), 3 * reach, width / height))
+            self._draw_draft()
 
     def refresh_marks(self) -> None:
         """Show pin and hover over the present picture."""

@@ -79,6 +79,10 @@ class StageViews(QObject):
             raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
         self._refresh(name)
 
+    def look_at_focus(self) -> None:
+        """Magnify the triangle in focus in the 3D view."""
+        self._scene_presenter.look_at_focus()
+
     def stop(self) -> None:
         """End drawing in the background."""
         self._scene_presenter.stop()
