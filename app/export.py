@@ -5,18 +5,16 @@ from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPoint, QRect, QSizeF, Qt
-from PySide6.QtGui import QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter, QRegion
-from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QSizeF
+from PySide6.QtGui import QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
 from PySide6.QtWidgets import QWidget
 
+from app.export_paint import paint_tree, seen_image
+from app.export_svg import svg_text
 from app.file_writing import whole_file
 from widgets.formula import FormulaView
-from widgets.grid_display import GridDisplay
 
 ENDINGS = (".png", ".svg", ".pdf")
-PNG_SCALE = 2.0
-"""Device pixels of a picture to a logical pixel of the screen, so that it is sharp on a projector."""
 
 
 def export_widget(widget: QWidget, path: str | Path, scale: float | None = None) -> None:
@@ -71,13 +69,7 @@ def widget_image(widget: QWidget, scale: float | None = None) -> QImage:
     """Return a widget as it is seen; a formula alone, on a clear ground."""
     if isinstance(widget, FormulaView):
         return widget.to_image() if scale is None else widget.to_image(scale)
-    ratio = max(widget.devicePixelRatioF(), 1.0) if scale is None else scale
-    size = widget.size() * ratio
-    image = QImage(size, QImage.Format.Format_ARGB32_Premultiplied)
-    image.setDevicePixelRatio(ratio)
-    image.fill(0)
-    widget.render(image, QPoint())
-    return image
+    return seen_image(widget, max(widget.devicePixelRatioF(), 1.0) if scale is None else scale)
 
 
 def png_bytes(image: QImage) -> bytes:
@@ -90,23 +82,14 @@ def png_bytes(image: QImage) -> bytes:
 
 def svg_bytes(widget: QWidget) -> bytes:
     """Return a widget as an SVG file of its size in pixels; text stays text."""
-    buffer = _open_buffer()
-    generator = QSvgGenerator(QSvgGenerator.SvgVersion.Svg11)  # the tiny version cannot clip
-    generator.setOutputDevice(buffer)
-    generator.setSize(widget.size())
-    generator.setViewBox(QRect(QPoint(), widget.size()))
-    generator.setTitle(widget.accessibleName() or widget.windowTitle() or "Rasterscope")
-    generator.setResolution(96)
-    with QPainter(generator) as painter:
-        paint_widget(widget, painter)
-    return bytes(buffer.data().data())
+    return svg_text(widget, title_of(widget)).encode()
 
 
 def pdf_bytes(widget: QWidget) -> bytes:
     """Return a widget as a PDF file of one page that has its size, at 96 pixels an inch."""
     buffer = _open_buffer()
     writer = QPdfWriter(buffer)
-    writer.setTitle(widget.accessibleName() or widget.windowTitle() or "Rasterscope")
+    writer.setTitle(title_of(widget))
     writer.setCreator("Rasterscope")
     points = QSizeF(widget.size()) * 0.75
     writer.setPageSize(QPageSize(points, QPageSize.Unit.Point, "", QPageSize.SizeMatchPolicy.ExactMatch))
@@ -114,27 +97,14 @@ def pdf_bytes(widget: QWidget) -> bytes:
     writer.setResolution(1200)
     with QPainter(writer) as painter:
         painter.scale(1200 / 96, 1200 / 96)
-        paint_widget(widget, painter)
+        painter.setRenderHint(QPainter.RenderHint.LosslessImageRendering)
+        paint_tree(widget, painter)
     return bytes(buffer.data().data())
 
 
-def paint_widget(widget: QWidget, painter: QPainter) -> None:
-    """Paint a widget and what is in it at the origin; pixel grids as vectors, whatever they stand in."""
-    if isinstance(widget, GridDisplay) and widget.buffer() is not None:
-        widget.paint_to(painter)
-        return
-    if not any(grid.isVisibleTo(widget) for grid in widget.findChildren(GridDisplay)):
-        widget.render(painter, QPoint())
-        return
-    # Qt would paint the grids from their kept pictures: every widget by itself, in the order they lie.
-    widget.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)
-    for child in widget.children():
-        if isinstance(child, QWidget) and child.isVisibleTo(widget) and not child.isWindow():
-            painter.save()
-            painter.translate(child.pos())
-            painter.setClipRect(child.rect(), Qt.ClipOperation.IntersectClip)
-            paint_widget(child, painter)
-            painter.restore()
+def title_of(widget: QWidget) -> str:
+    """Return what a drawing of a widget is called."""
+    return widget.accessibleName() or widget.windowTitle() or "Rasterscope"
 
 
 def _open_buffer() -> QBuffer:

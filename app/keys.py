@@ -54,6 +54,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("run_forward", ("F5",), "Run to the next breakpoint", RUNNING, "Step"),
     KeyAction("run_back", ("Ctrl+F5",), "Run back to the last breakpoint", RUNNING, "Step"),
     KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
+    KeyAction("edit_condition", ("Ctrl+F9",), "Breakpoint on a condition…", RUNNING, "Step"),
     KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
     *(
         KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
@@ -71,12 +72,13 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
     KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
     KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
-    KeyAction("unpin", ("Escape",), "Take the pin away", POINTING),
-    KeyAction("fit_view", ("Ctrl+0",), "Show the whole raster", VIEWING),
+    KeyAction("unpin", ("Escape",), "Close what is on top, or take the pin away", POINTING),
+    KeyAction("fit_view", ("W",), "Show the whole raster", VIEWING, "View"),
     KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
     KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
     KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
+    KeyAction("presenter", ("Ctrl+Shift+P",), "Presenter: full screen, large type", VIEWING, "View", is_checkable=True),
     KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
     KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),

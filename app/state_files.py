@@ -20,7 +20,7 @@ from app.mesh_formats import Report
 from app.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
 from app.state_scenes import StateFileError, in_field, scene_from_record, scene_record
 from core import STAGES, Settings
-from core.pipeline import check_needs
+from core.geometry_stages import check_needs
 from core.scene import AnyScene
 from core.settings import settings_from_texts
 

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session import Cursor, Session
 from core import STAGES
+from core.conditions import Condition, parse_condition
 from core.frame import StageCount
 from core.steps import Level
 from core.trace import StageTrace
@@ -30,14 +31,15 @@ EVENT_TITLES = {
     "nan": "NaN or infinity",
     "depth-failed": "depth failed",
 }
-GROUP_NAMES = {
-    "transform": "Vertex",
-    "cull": "Test",
-    "clip": "Plane",
-    "edges": "Corner or edge",
-    "bin": "Block",
-    "raster": "Row or block",
+LEVEL_NAMES = {
+    "transform": {Level.GROUP: "Vertex", Level.PIXEL: "Matrix"},
+    "cull": {Level.GROUP: "Test", Level.PIXEL: "Plane"},
+    "clip": {Level.GROUP: "Plane", Level.PIXEL: "Edge"},
+    "edges": {Level.GROUP: "All corners, edges", Level.PIXEL: "Corner or edge"},
+    "bin": {Level.GROUP: "Large block", Level.PIXEL: "Block"},
 }
+"""What the levels between triangle and operation are in the stages before the first pixel."""
+GROUP_OF_FILL = {"hierarchy": "Block", "blocks": "Block", "scanline": "Span", "scanline-lecture": "Span"}
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ class SteppingPresenter(QObject):
 
     message_sent = Signal(str)
     """Something to tell: there is no further event."""
+    condition_changed = Signal(str)
+    """The condition of a breakpoint, empty: none."""
 
     def __init__(
         self, session: Session, timeline: Timeline, rail: PipelineRail, parent: QObject | None = None
@@ -65,6 +69,7 @@ class SteppingPresenter(QObject):
         self.line_breakpoints: set[tuple[str, int]] = set()
         """Name of the listing's function and line."""
         self.bookmarks: list[Bookmark] = []
+        self._condition: Condition | None = None
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
         session.pin_changed.connect(self.refresh_marks)
@@ -90,11 +95,19 @@ class SteppingPresenter(QObject):
         cursor = self._session.cursor
         if cursor.stage != self._stage:
             self._stage = cursor.stage
-            self._timeline.show_level_names({Level.GROUP: GROUP_NAMES.get(cursor.stage, "Row")})
+            self._timeline.show_level_names(self._level_names(cursor.stage))
             self.refresh_marks()
             self.show_rail()
         self._timeline.show_level(cursor.level)
         self._timeline.show_position(cursor.position)
+
+    def _level_names(self, stage: str) -> dict[Level, str]:
+        """Return what a step of each level is in a stage."""
+        settings = self._session.document.settings
+        if stage == "raster":
+            is_wireframe = settings.polygon_mode == "wireframe"
+            return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(settings.fill, "Row")}
+        return LEVEL_NAMES.get(stage, {Level.GROUP: "Row"})
 
     @Slot()
     def refresh_marks(self) -> None:
@@ -217,6 +230,26 @@ class SteppingPresenter(QObject):
         self.pixel_breakpoints ^= {self._session.pin}
         self.refresh_marks()
 
+    @property
+    def condition(self) -> str:
+        """Text of the condition that is a breakpoint, empty: none."""
+        return self._condition.text if self._condition else ""
+
+    def set_condition(self, text: str) -> None:
+        """Stop where a condition holds, as ``value_0 < 0.5 and covered``; an empty text takes it away.
+
+        Raises
+        ------
+        ValueError
+            If the text is not a condition, or names what no stage has; the old condition stays.
+        """
+        condition = parse_condition(text) if text.strip() else None
+        if condition is not None:
+            condition.holds(self._session.stage_trace)
+        self._condition = condition
+        self.refresh_marks()
+        self.condition_changed.emit(self.condition)
+
     def toggle_line_breakpoint(self, function: str, line: int) -> None:
         """Set or take away a breakpoint on a line of a listing."""
         self.line_breakpoints ^= {(function, line)}
@@ -233,7 +266,17 @@ class SteppingPresenter(QObject):
             found.append(trace.steps.starts[1:][trace.rows_at_pixel(*pixel)])
         for function, line in self.line_breakpoints:
             found.append(self._line_positions(trace, function, line))
+        if self._condition is not None:
+            found.append(trace.steps.starts[1:][self._rows_of_condition(trace)])
         return np.unique(np.concatenate(found))
+
+    def _rows_of_condition(self, trace: StageTrace) -> np.ndarray:
+        """Return (R,) bool; a stage without the variables of the condition has no such row."""
+        assert self._condition is not None
+        try:
+            return self._condition.holds(trace)
+        except ValueError:
+            return np.zeros(trace.steps.row_count, bool)
 
     def _line_positions(self, trace: StageTrace, function: str, line: int) -> np.ndarray:
         steps = trace.steps

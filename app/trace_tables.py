@@ -86,7 +86,7 @@ def row_record(stage: StageTrace, row: int, sentence: Sentence) -> dict[str, Any
 
 def csv_lines(stage: StageTrace) -> Iterator[str]:
     """Yield the lines of a CSV table, names first: a line for each row, a column for each element of an array."""
-    names, parts = ["row", "kind", "triangle", "pixel_column", "pixel_row"], []
+    names, parts = ["row_number", "row_kind", "row_triangle", "pixel_column", "pixel_row"], []
     for name, column in stage.columns.items():
         flat = column.reshape(len(column), math.prod(column.shape[1:]))
         names += column_names(name, column.shape[1:])

@@ -47,6 +47,8 @@ class Geometry:
     is_in_range: Flags
     """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
     uses_depth_test: bool
+    outlines: Outlines | None
+    """The edges that a wireframe draws; ``None``: triangles are filled."""
 
 
 @contextmanager
@@ -77,6 +79,7 @@ def process_geometry(
         Only these triangles, in drawing order.
     """
     check_needs(scene, settings)
+    is_outlined: bool = table.get("polygon_mode", settings.polygon_mode).function()
     with timed(counts["transform"]):
         vertices = transform_vertices(scene)
         assembled = assemble(scene, vertices, settings, chosen)
@@ -86,17 +89,26 @@ def process_geometry(
         corners = place_corners(assembled.clip, scene.size, settings.coverage)
         culled = cull(assembled.clip, orient(corners), settings.cull)
         primitives = assembled.select(culled.kept)
-        drawing: DrawingOrder = table.get("visibility", settings.visibility).function(primitives.clip)
-        kept = primitives = primitives.take(drawing.order)
+        drawing = drawing_order(vertices, settings)
+        rank = np.argsort(drawing.order, kind="stable")
+        kept = primitives = primitives.take(np.argsort(rank[primitives.triangle], kind="stable"))
         counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(primitives)
 
     with timed(counts["clip"]):
         planes, inserted = clip_planes(primitives, settings)
         clipped = None
         counts["clip"].incoming = len(primitives)
+        shares = None
         if planes:
-            clipped = clip_primitives(primitives, plane_distances(primitives.clip), planes)
+            distances = plane_distances(primitives.clip)
+            if inserted:
+                # Only what needs it, whatever is drawn with it.
+                distances[(primitives.clip[..., 3] > 0).all(axis=1)] = 0
+            clipped = clip_primitives(primitives, distances, planes)
             primitives = clipped.primitives
+            if is_outlined:
+                corner_shares = replace(kept, varyings=np.tile(np.eye(3), (len(kept), 1, 1)))
+                shares = clip_primitives(corner_shares, distances, planes).primitives.varyings
         counts["clip"].outgoing = len(primitives)
         counts["clip"].note = inserted if inserted else ("" if planes else "not-chosen")
 
@@ -120,16 +132,16 @@ def process_geometry(
             inverse_w_plane=value_plane(interpolation, np.ones_like(w)),
             is_in_range=np.all((w > 0) & (z >= -w) & (z <= w), axis=1),
             uses_depth_test=drawing.uses_depth_test,
+            outlines=set_up_outlines(primitives, corners, shares, scene.size) if is_outlined else None,
         )
 
 
-def drawing_order(scene: AnyScene, settings: Settings) -> Integers:
+def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
     """Return the triangles (T,) of the scene from the first drawn to the last."""
-    vertices = transform_vertices(scene)
-    drawing: DrawingOrder = table.get("visibility", settings.visibility).function(
+    order: DrawingOrder = table.get("visibility", settings.visibility).function(
         vertices.clip[vertices.corners]
     )
-    return drawing.order
+    return order
 
 
 def assemble(
@@ -155,7 +167,7 @@ def clip_planes(primitives: Primitives, settings: Settings) -> tuple[tuple[int, 
     planes: tuple[int, ...] = table.get("clipping", settings.clipping).function()
     if planes or (primitives.clip[..., 3] > 0).all():
         return planes, ""
-    for family in ("fill", "interpolation"):
+    for family in ("polygon_mode", "fill", "interpolation"):
         chosen = table.get(family, getattr(settings, family))
         if {"projected", "positive-w"} & set(chosen.needs):
             return DEPTH_PLANES, chosen.name

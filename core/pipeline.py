@@ -4,31 +4,45 @@ The same functions serve the picture (in batches, nothing kept) and the trace (a
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from time import perf_counter
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.fragments.interpolation import Planes, interpolate, plane_value, set_up_planes, value_plane
+from core.fragments.interpolation import interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, clamp_depth, layers, run_depth_tests
 from core.framebuffer.nearest import NearestFragments
-from core.geometry.culling import CullVerdicts, cull, plane_distances
-from core.geometry.sutherland_hodgman import DEPTH_PLANES, Clipped, clip_primitives
-from core.geometry.vertex_stage import VertexStage, transform_vertices
+from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
-from core.primitives import DrawingOrder, Primitives
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
-from core.raster.edge_functions import EdgeFunctions, orient, set_up_edges
-from core.raster.schedule import Boxes, Raster, Runs, make_raster
-from core.raster.snapping import place_corners
-from core.scene import AnyScene, ClipScene, Scene, Texture
+from core.raster.edge_functions import EdgeFunctions
+from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
+from core.raster.wireframe import (
+    LineFragments,
+    Outlines,
+    draw_outlines,
+    interpolate_outlines,
+    inverse_w_parts,
+    line_depth,
+)
+from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
-from core.surface import light_vertices, shade_fragments
+from core.surface import shade_fragments
+
+__all__ = [
+    "Geometry",
+    "draw",
+    "draw_triangles",
+    "fragment_depth",
+    "fragment_inverse_w",
+    "fragment_values",
+    "process_geometry",
+    "render",
+    "schedule",
+]
 
 
 def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
@@ -87,8 +101,10 @@ def draw_triangles(
 
 
 def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[Boxes, Runs]:
-    """Bin triangles and list the runs of pixels that the fill looks at."""
+    """Bin triangles and list the runs of pixels that the fill looks at: none where only outlines are drawn."""
     boxes = bound(edges, raster)
+    if table.get("polygon_mode", settings.polygon_mode).function():
+        return boxes, rows_of(boxes, np.empty(0, np.int64))
     fill = table.get("fill", settings.fill).function
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
@@ -101,16 +117,60 @@ def fragment_depth(
     Returns
     -------
     depth : (F,) float64, clamped where the triangle is in range as a whole
-    keeps : (F,) bool
+    keeps : (F,) bool, False too where 1/w is stored and shows a point behind the eye
     stored : (F,) float32
     """
-    x, y = raster.centers(fragments.column, fragments.row)
-    primitive = fragments.primitive
-    depth = plane_value(geometry.depth_plane, primitive, x, y)
-    depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
+    if isinstance(fragments, LineFragments):
+        outlines = outlines_of(geometry)
+        depth = line_depth(outlines, fragments, raster.center)
+        is_in_range = outlines.is_in_range.take(fragments.segment)
+    else:
+        x, y = raster.centers(fragments.column, fragments.row)
+        depth = plane_value(geometry.depth_plane, fragments.primitive, x, y)
+        is_in_range = geometry.is_in_range.take(fragments.primitive)
+    depth, keeps = clamp_depth(depth, is_in_range)
     if depth_format.quantity == "z":
         return depth, keeps, depth_format.store(depth)
-    return depth, keeps, depth_format.store(plane_value(geometry.inverse_w_plane, primitive, x, y))
+    inverse_w = fragment_inverse_w(geometry, fragments, raster)
+    return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
+
+
+def fragment_inverse_w(geometry: Geometry, fragments: Fragments, raster: Raster) -> Floats:
+    """Return 1/w at fragments, (F,) float64."""
+    if isinstance(fragments, LineFragments):
+        start, end = inverse_w_parts(outlines_of(geometry), fragments, raster.center)
+        return start + end
+    x, y = raster.centers(fragments.column, fragments.row)
+    return plane_value(geometry.inverse_w_plane, fragments.primitive, x, y)
+
+
+def fragment_values(
+    geometry: Geometry, settings: Settings, fragments: Fragments, raster: Raster
+) -> tuple[Floats, Floats]:
+    """Return weights of the corners (F, 3) and interpolated values (F, K) of fragments."""
+    mode, varyings = settings.interpolation, geometry.primitives.varyings
+    if isinstance(fragments, LineFragments) and mode != "flat":
+        return interpolate_outlines(outlines_of(geometry), varyings, fragments, raster.center, mode)
+    x, y = raster.centers(fragments.column, fragments.row)
+    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, settings.provoking)
+
+
+def outlines_of(geometry: Geometry) -> Outlines:
+    """Return the outlines of a geometry that is drawn as a wireframe."""
+    assert geometry.outlines is not None
+    return geometry.outlines
+
+
+def owner_of(fragments: Fragments) -> Integers:
+    """Return what each fragment belongs to, (F,) int64: its segment or its primitive."""
+    return fragments.segment if isinstance(fragments, LineFragments) else fragments.primitive
+
+
+def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Integers) -> Fragments:
+    """Return the fragments of owners (F,), see ``owner_of``, at pixels."""
+    if geometry.outlines is None:
+        return Fragments(owner, column, row)
+    return LineFragments(geometry.outlines.primitive.take(owner), column, row, owner)
 
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
@@ -120,27 +180,29 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
     pixel_count = raster.shape[0] * raster.shape[1]
     cover_count = np.zeros(pixel_count, np.int32)
-    nearest = NearestFragments(pixel_count, len(geometry.primitives), depth_format, geometry.uses_depth_test)
+    owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
+    nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
     kept: list[tuple[Fragments, Singles]] = []
 
     # Coverage and depth of every fragment, in batches.
-    for fragments in _covered(geometry, settings, raster, counts):
+    cover_primitives = _covered if geometry.outlines is None else _outlined
+    for fragments in cover_primitives(geometry, settings, raster, counts):
         with timed(counts["depth"]):
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
             if not keeps.all():
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
             np.add.at(cover_count, pixel, np.int32(1))
-            nearest.add(pixel, fragments.primitive, stored)
+            nearest.add(pixel, owner_of(fragments), stored)
             counts["depth"].incoming += len(pixel)
             if settings.blend != "opaque":
                 kept.append((fragments, stored))
 
     # What is seen; attributes and colour once per visible pixel.
     with timed(counts["depth"]):
-        pixel, primitive, depth = nearest.resolve()
+        pixel, owner, depth = nearest.resolve()
         counts["depth"].outgoing = len(pixel)
-    seen = Fragments(primitive, *raster.position(pixel))
+    seen = fragments_of(geometry, owner, *raster.position(pixel))
     values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
@@ -153,7 +215,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     # Buffers of the frame.
     with timed(counts["resolve"]):
         identity = np.full(len(depth), -1, np.int32)
-        identity[pixel] = geometry.primitives.triangle[primitive]
+        identity[pixel] = geometry.primitives.triangle[seen.primitive]
         attributes = np.zeros((len(depth), values.shape[1]), np.float32)
         attributes[pixel] = values
         counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
@@ -197,16 +259,31 @@ def _covered(
             yield replace(fragments, primitive=fragments.primitive + int(first))
 
 
+def _outlined(
+    geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+) -> Iterator[Fragments]:
+    """Yield the pixels of the outlines of all primitives."""
+    counts["bin"].incoming = len(geometry.edges)
+    batches = draw_outlines(outlines_of(geometry), raster, settings.line)
+    while True:
+        with timed(counts["raster"]):
+            batch = next(batches, None)
+        if batch is None:
+            break
+        fragments, _ = batch
+        counts["bin"].outgoing += len(fragments)
+        counts["raster"].incoming += len(fragments)
+        counts["raster"].outgoing += len(fragments)
+        yield fragments
+
+
 def _interpolate(
     geometry: Geometry, settings: Settings, raster: Raster, fragments: Fragments, count: StageCount
 ) -> Floats:
     """Return the interpolated values (F, K) float64 of fragments."""
     with timed(count):
         count.incoming = count.outgoing = len(fragments)
-        x, y = raster.centers(fragments.column, fragments.row)
-        mode, provoking = settings.interpolation, settings.provoking
-        varyings = geometry.primitives.varyings
-        return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, provoking)[1]
+        return fragment_values(geometry, settings, fragments, raster)[1]
 
 
 def _shade(
@@ -235,12 +312,14 @@ def _blend(
 ) -> None:
     """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    fragments = Fragments(
-        *(_join([getattr(f, name) for f, _ in kept]) for name in ("primitive", "column", "row"))
+    owner, column, row = (
+        _join([owner_of(f) for f, _ in kept]),
+        _join([f.column for f, _ in kept]),
+        _join([f.row for f, _ in kept]),
     )
     stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, np.float32)
-    order = np.argsort(fragments.primitive, kind="stable")
-    fragments = Fragments(fragments.primitive[order], fragments.column[order], fragments.row[order])
+    order = np.argsort(owner, kind="stable")
+    fragments = fragments_of(geometry, owner[order], column[order], row[order])
     pixel = raster.index(fragments.column, fragments.row)
     with timed(counts["depth"]):
         cleared = np.full(len(color), depth_format.cleared, np.float32)

@@ -23,7 +23,7 @@ class LabelPlaces:
         """
         if not self._area.adjusted(-1, -1, 1, 1).contains(point):
             return None
-        for further in (1.0, 2.2):
+        for further in (1.0, 2.5, 5.0):
             for across, down in _DIRECTIONS:
                 rect = QRectF(QPointF(), size)
                 rect.moveCenter(

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 TURN_PER_PIXEL = 0.0085
 """Radians that one pixel of a drag turns."""
 STEEPEST = 0.499 * pi
-EXTENT_LIMITS = (1e-9, 1e9)
+EXTENT_LIMITS = (1e-12, 1e15)
+FINEST = 1e-7
+"""Smallest extent as a part of the target's distance from the origin: beyond it float64 runs out of digits."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,8 @@ def panned(orbit: Orbit, right: float, down: float, height: float) -> Orbit:
 
 def zoomed(orbit: Orbit, factor: float, right: float, down: float, height: float) -> Orbit:
     """Return the orbit magnified by ``factor``; what is so far from the middle keeps its place."""
-    extent = min(max(orbit.extent / factor, EXTENT_LIMITS[0]), EXTENT_LIMITS[1])
+    finest = max(EXTENT_LIMITS[0], FINEST * max(abs(value) for value in orbit.target))
+    extent = min(max(orbit.extent / factor, finest), EXTENT_LIMITS[1])
     unit = 2 * (orbit.extent - extent) / max(height, 1.0)
     axes = orbit.axes()
     moved = _with_target(orbit, np.array(orbit.target) + (right * axes[0] - down * axes[1]) * unit)
@@ -73,7 +76,7 @@ def fitted(orbit: Orbit, center: tuple[float, float, float], radius: float, aspe
     """Return the orbit from the same direction that shows a sphere; ``aspect`` is width over height."""
     known = radius if isfinite(radius) and radius > 0 else 1.0
     extent = known * 1.06 / min(max(aspect, 0.1), 1.0)
-    return _with_target(replace(orbit, extent=extent), np.array(center))
+    return _with_target(replace(orbit, extent=min(extent, EXTENT_LIMITS[1])), np.array(center))
 
 
 def framed(orbit: Orbit, points: NDArray[np.float64], aspect: float = 1.0, margin: float = 1.14) -> Orbit:

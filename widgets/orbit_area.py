@@ -1,6 +1,6 @@
 """A pane whose space is turned, moved and magnified with the pointer or the keyboard."""
 
-from PySide6.QtCore import QEvent, QPointF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFocusEvent,
@@ -96,6 +96,10 @@ class OrbitArea(QWidget):
     def _clicked(self, position: QPointF) -> None:
         """Take a click that moved nothing."""
 
+    def _space_area(self) -> QRectF:
+        """Return the part of the widget that shows the space."""
+        return QRectF(self.rect())
+
     def _orbit_replaced(self) -> None:
         """Draw from another direction."""
 
@@ -132,7 +136,7 @@ class OrbitArea(QWidget):
         if self._handle is not None:
             self._handle_moved(self._handle, position - self._pressed_at)
         elif self._is_moving_space:
-            self._change(panned(self._orbit, delta.x(), delta.y(), self.height()))
+            self._change(panned(self._orbit, delta.x(), delta.y(), self._space_area().height()))
         else:
             self._change(turned(self._orbit, delta.x(), delta.y()))
         self._update_cursor()
@@ -158,9 +162,10 @@ class OrbitArea(QWidget):
         if notches == 0:
             event.ignore()
             return
-        offset = event.position() - QPointF(self.width() / 2, self.height() / 2)
+        area = self._space_area()
+        offset = event.position() - area.center()
         factor = _WHEEL_FACTOR**notches
-        self._change(zoomed(self._orbit, factor, offset.x(), offset.y(), self.height()))
+        self._change(zoomed(self._orbit, factor, offset.x(), offset.y(), area.height()))
         event.accept()
 
     def leaveEvent(self, event: QEvent) -> None:
@@ -188,12 +193,12 @@ class OrbitArea(QWidget):
         if key in arrows:
             right, down = arrows[Qt.Key(key)]
             if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
-                self._change(panned(self._orbit, right, down, self.height()))
+                self._change(panned(self._orbit, right, down, self._space_area().height()))
             else:
                 self._change(turned(self._orbit, right, down))
         elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus):
             factor = 1 / _WHEEL_FACTOR if key == Qt.Key.Key_Minus else _WHEEL_FACTOR
-            self._change(zoomed(self._orbit, factor, 0.0, 0.0, self.height()))
+            self._change(zoomed(self._orbit, factor, 0.0, 0.0, self._space_area().height()))
         elif key == Qt.Key.Key_Home:
             self._change(self._home)
         elif key == Qt.Key.Key_Escape and self._handle is not None and self._has_moved:

@@ -113,7 +113,7 @@ class SceneView(OrbitArea):
 
     def picture_size(self) -> tuple[int, int]:
         """Return the columns and rows of a picture with one pixel for each pixel of the screen."""
-        area, ratio = self._picture_area(), self.devicePixelRatioF()
+        area, ratio = self._space_area(), self.devicePixelRatioF()
         return max(round(area.width() * ratio), 1), max(round(area.height() * ratio), 1)
 
     def paint_to(self, painter: QPainter) -> None:
@@ -122,7 +122,7 @@ class SceneView(OrbitArea):
         if self._picture is None:
             paint_empty(painter, self.rect(), self.empty_text, theme)
             return
-        area = self._picture_area()
+        area = self._space_area()
         painter.fillRect(self.rect(), QColor(theme.panel))
         # A draft of fewer pixels is stretched; smoothly, so that turning a mesh does not flicker.
         is_stretched = self._image.width() < area.width() * painter.device().devicePixelRatioF() - 1
@@ -151,14 +151,14 @@ class SceneView(OrbitArea):
         super().resizeEvent(event)
         self.size_changed.emit()
 
-    def _picture_area(self) -> QRectF:
+    def _space_area(self) -> QRectF:
         """Return the part above the caption."""
         height = caption_height(self._caption, self.width(), current_theme())
         return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
 
     def _place(self, x: float, y: float) -> QPointF | None:
         """Return the widget position of fractions of the picture."""
-        area = self._picture_area()
+        area = self._space_area()
         place = QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
         return place if abs(place.x()) < 1e7 and abs(place.y()) < 1e7 else None
 
@@ -239,7 +239,7 @@ class SceneView(OrbitArea):
         self.vertex_drag_started.emit(handle)
 
     def _handle_moved(self, handle: int, from_press: QPointF) -> None:
-        area = self._picture_area()
+        area = self._space_area()
         x = self._origin[0] + from_press.x() / area.width()
         y = self._origin[1] - from_press.y() / area.height()
         self.vertex_dragged.emit(handle, x, y)
@@ -250,10 +250,11 @@ class SceneView(OrbitArea):
         self.vertex_drag_finished.emit(handle)
 
     def _clicked(self, position: QPointF) -> None:
-        area = self._picture_area()
+        area = self._space_area()
         if self._picture is None or not area.contains(position):
             return
         rows, columns, _ = self._picture.pixels.shape
-        column = int((position.x() - area.left()) / area.width() * columns)
-        row = int((area.bottom() - position.y()) / area.height() * rows)
+        column = int((position.x() - area.left()) * columns / area.width())
+        # A press at y is in the pixel below y, as one at x is in the pixel to the right of x.
+        row = rows - 1 - int((position.y() - area.top()) * rows / area.height())
         self.picked.emit(min(max(column, 0), columns - 1), min(max(row, 0), rows - 1))

@@ -1,8 +1,6 @@
 """How a drawing in space is painted: along parallel lines, far to near, cut in float64 before Qt sees it."""
 
 from dataclasses import dataclass
-from itertools import pairwise
-from math import ceil, hypot
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +14,11 @@ from widgets.line_clip import clip_segments
 from widgets.orbit import Orbit
 from widgets.theme import Theme, text_font
 
-PIECE = 48.0
+PIECE = 60.0
 """Logical pixels after which a line is cut, so that faces can come between its parts."""
-MOST_PIECES = 12
+MOST_PIECES = 10
+FARTHEST = 1e12
+"""A segment longer than so many logical pixels is left out."""
 MARGIN = 24.0
 _DASHES = {"solid": None, "dash": [5.0, 4.0], "dot": [1.2, 3.2]}
 
@@ -70,19 +70,28 @@ def paint_diagram(
     painter.save()
     painter.setClipRect(area)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    pieces: list[tuple[float, Patch | Stroke, NDArray[np.float64], float]] = []
+    box = (area.left() - MARGIN, area.top() - MARGIN, area.right() + MARGIN, area.bottom() + MARGIN)
+    faces = []
     for patch in diagram.patches:
         corners = projection.project(patch.points)
         if len(corners) >= 3 and np.isfinite(corners).all():
-            pieces.append((float(corners[:, 2].mean()), patch, corners[:, :2], 0.0))
-    for stroke in diagram.strokes:
-        pieces += _stroke_pieces(stroke, projection)
-    box = (area.left() - MARGIN, area.top() - MARGIN, area.right() + MARGIN, area.bottom() + MARGIN)
-    for _, shape, points, offset in sorted(pieces, key=lambda piece: piece[0]):
-        if isinstance(shape, Patch):
-            _paint_patch(painter, shape, points, box, theme)
-        else:
-            _paint_piece(painter, shape, points, offset, box, theme)
+            faces.append((float(corners[:, 2].mean()), patch, corners[:, :2]))
+    pieces = line_pieces(diagram.strokes, projection, box)
+    nearness = np.concatenate([[face[0] for face in faces], pieces.nearness])
+    pens = [_pen(stroke, theme) for stroke in diagram.strokes]
+    lines, offsets = pieces.lines.tolist(), pieces.offset.tolist()
+    strokes = pieces.stroke.tolist()
+    for index in np.argsort(nearness, kind="stable").tolist():
+        if index < len(faces):
+            _paint_patch(painter, faces[index][1], faces[index][2], box, theme)
+            continue
+        piece = index - len(faces)
+        pen = pens[strokes[piece]]
+        dashes = _DASHES[diagram.strokes[strokes[piece]].dash]
+        if dashes is not None:
+            pen.setDashOffset((offsets[piece] / pen.widthF()) % sum(dashes))
+        painter.setPen(pen)
+        painter.drawLine(QLineF(*lines[piece]))
     for spot in diagram.spots:
         place = projection.place(spot.point)
         if place is not None:
@@ -91,56 +100,69 @@ def paint_diagram(
     painter.restore()
 
 
-def _stroke_pieces(
-    stroke: Stroke, projection: Projection
-) -> list[tuple[float, Patch | Stroke, NDArray[np.float64], float]]:
-    """Cut a stroke into short pieces with their nearness and where they begin along it."""
-    points = stroke.points
-    if stroke.is_closed and len(points) > 1:
-        points = np.concatenate([points, points[:1]])
-    seen = projection.project(points)
-    found: list[tuple[float, Patch | Stroke, NDArray[np.float64], float]] = []
-    along = 0.0
-    for start, end in pairwise(seen):
-        with np.errstate(over="ignore", invalid="ignore"):
-            length = hypot(float(end[0] - start[0]), float(end[1] - start[1]))
-        if not (np.isfinite(start).all() and np.isfinite(end).all() and length < 1e12):
-            continue
-        count = min(max(ceil(length / PIECE), 1), MOST_PIECES)
-        steps = np.linspace(0.0, 1.0, count + 1)[:, None]
-        stops = start + steps * (end - start)
-        for k in range(count):
-            # Of lines at one place the thicker one is seen, and lines before faces.
-            nearness = 0.5 * float(stops[k, 2] + stops[k + 1, 2]) + stroke.width
-            found.append((nearness, stroke, stops[k : k + 2, :2], along + k * length / count))
-        along += length
-    return found
+@dataclass(frozen=True, eq=False)
+class LinePieces:
+    """Strokes cut into P short pieces inside of the view."""
+
+    lines: NDArray[np.float64]
+    """(P, 4) float64, x and y of both ends in the widget."""
+    nearness: NDArray[np.float64]
+    """(P,) float64, by which they are sorted."""
+    stroke: NDArray[np.intp]
+    """(P,) the stroke that each is a part of."""
+    offset: NDArray[np.float64]
+    """(P,) float64, where it begins along its stroke, for dashes that run on."""
 
 
-def _paint_piece(
-    painter: QPainter,
-    stroke: Stroke,
-    ends: NDArray[np.float64],
-    offset: float,
-    box: tuple[float, float, float, float],
-    theme: Theme,
-) -> None:
-    cut, _ = clip_segments(ends[None], box)
-    if not len(cut):
-        return
-    width = stroke.width * theme.text_px / 13
-    pen = QPen(faded(ink_color(stroke.ink, theme), stroke.opacity), width)
+def line_pieces(
+    strokes: tuple[Stroke, ...], projection: Projection, box: tuple[float, float, float, float]
+) -> LinePieces:
+    """Project strokes and cut them into pieces, between which faces can come."""
+    parts, owner = [np.empty((0, 2, 3))], [np.empty(0, np.intp)]
+    for index, stroke in enumerate(strokes):
+        points = stroke.points
+        if stroke.is_closed and len(points) > 1:
+            points = np.concatenate([points, points[:1]])
+        parts.append(np.stack([points[:-1], points[1:]], axis=1))
+        owner.append(np.full(len(points) - 1, index, np.intp))
+    which = np.concatenate(owner)
+    seen = projection.project(np.concatenate(parts).reshape(-1, 3)).reshape(-1, 2, 3)
+    with np.errstate(over="ignore", invalid="ignore"):
+        length = np.hypot(*(seen[:, 1, :2] - seen[:, 0, :2]).T)
+    known = np.isfinite(seen).all(axis=(1, 2)) & (length < FARTHEST)
+    which, seen, length = which[known], seen[known], length[known]
+
+    # Where each segment begins along its stroke.
+    along = np.cumsum(length) - length
+    first = np.searchsorted(which, which)
+    along = along - along[first] if len(along) else along
+
+    # Thin lines are not cut: they belong to a face.
+    widths = np.array([stroke.width for stroke in strokes])[which] if len(which) else np.empty(0)
+    count = np.where(widths < 1, 1, np.clip(np.ceil(length / PIECE), 1, MOST_PIECES)).astype(np.intp)
+    segment = np.repeat(np.arange(len(which)), count)
+    place = np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
+    stops = np.stack([place, place + 1], axis=1) / count[segment, None]
+    ends = seen[segment, :1] + stops[..., None] * (seen[segment, 1:] - seen[segment, :1])
+    lines, source = clip_segments(ends[..., :2], box)
+    skipped = np.hypot(*(lines[:, 0] - ends[source, 0, :2]).T)
+    return LinePieces(
+        lines=lines.reshape(-1, 4),
+        # Of lines at one place the thicker one is seen, and lines before faces.
+        nearness=ends[source, :, 2].mean(axis=1) + widths[segment[source]],
+        stroke=which[segment[source]],
+        offset=along[segment[source]] + stops[source, 0] * length[segment[source]] + skipped,
+    )
+
+
+def _pen(stroke: Stroke, theme: Theme) -> QPen:
+    pen = QPen(faded(ink_color(stroke.ink, theme), stroke.opacity), stroke.width * theme.text_px / 13)
     dashes = _DASHES[stroke.dash]
-    if dashes is None:
-        pen.setCapStyle(Qt.PenCapStyle.RoundCap if stroke.opacity == 1 else Qt.PenCapStyle.FlatCap)
-    else:
-        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+    is_round = dashes is None and stroke.opacity == 1 and stroke.width >= 1
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap if is_round else Qt.PenCapStyle.FlatCap)
+    if dashes is not None:
         pen.setDashPattern(dashes)
-        skipped = hypot(*(cut[0, 0] - ends[0]).tolist())
-        pen.setDashOffset(((offset + skipped) / width) % sum(dashes))
-    painter.setPen(pen)
-    (x0, y0), (x1, y1) = cut[0].tolist()
-    painter.drawLine(QLineF(x0, y0, x1, y1))
+    return pen
 
 
 def _paint_patch(

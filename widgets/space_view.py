@@ -55,12 +55,12 @@ class SpaceView(OrbitArea):
     def fit(self) -> None:
         """Show the whole drawing from the present direction, as the user's wish."""
         if self._diagram is not None:
-            area = self._drawing_area()
+            area = self._space_area()
             self._change(framed(self._orbit, self._diagram.frame, area.width() / max(area.height(), 1.0)))
 
     def projection(self) -> Projection:
         """Return how the space is mapped to the widget."""
-        return projection_of(self._orbit, self._drawing_area())
+        return projection_of(self._orbit, self._space_area())
 
     def paint_to(self, painter: QPainter) -> None:
         """Paint the drawing as it is seen, as vectors, for an SVG of the widget's size."""
@@ -69,7 +69,7 @@ class SpaceView(OrbitArea):
             paint_empty(painter, self.rect(), self.empty_text, theme)
             return
         painter.fillRect(self.rect(), QColor(theme.panel))
-        paint_diagram(painter, self._diagram, self.projection(), self._drawing_area(), theme, self._handle)
+        paint_diagram(painter, self._diagram, self.projection(), self._space_area(), theme, self._handle)
         paint_caption(painter, self.rect(), self._diagram.caption, theme)
 
     def sizeHint(self) -> QSize:
@@ -88,7 +88,7 @@ class SpaceView(OrbitArea):
         super().resizeEvent(event)
         self._refit()
 
-    def _drawing_area(self) -> QRectF:
+    def _space_area(self) -> QRectF:
         """Return the part above the caption."""
         caption = self._diagram.caption if self._diagram is not None else ""
         height = caption_height(caption, self.width(), current_theme())
@@ -97,7 +97,7 @@ class SpaceView(OrbitArea):
     def _refit(self) -> None:
         if self._diagram is None:
             return
-        area = self._drawing_area()
+        area = self._space_area()
         first = Orbit(self._diagram.azimuth, self._diagram.elevation)
         aspect = area.width() / max(area.height(), 1.0)
         home = framed(first, self._diagram.frame, aspect)

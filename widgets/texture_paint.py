@@ -77,6 +77,7 @@ def paint_texture(
     painter: QPainter,
     picture: TexturePicture,
     image: QImage,
+    outside: QPixmap,
     placement: TexturePlacement,
     theme: Theme,
 ) -> None:
@@ -92,9 +93,10 @@ def paint_texture(
     if picture.wrap == "clamp":
         _paint_clamped(painter, image, placement, picture.size)
     else:
-        brush = QBrush(QPixmap.fromImage(outside_image(image, picture.wrap)))
+        brush = QBrush(outside)
         corner = placement.to_widget(0, height)
-        stretch = placement.scale * width / image.width()
+        columns = outside.width() / (2 if picture.wrap == "mirror" else 1)
+        stretch = placement.scale * width / columns
         brush.setTransform(QTransform(stretch, 0, 0, stretch, corner.x(), corner.y()))
         painter.fillRect(area, brush)
     painter.setOpacity(1.0)

@@ -14,6 +14,7 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
+    QPixmap,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
@@ -22,7 +23,7 @@ from widgets.caption_paint import caption_height, paint_caption, paint_empty
 from widgets.grid_buffer import GridBuffer
 from widgets.image import buffer_image
 from widgets.key_claim import KeyClaim
-from widgets.texture_paint import TexturePlacement, paint_texture
+from widgets.texture_paint import TexturePlacement, outside_image, paint_texture
 from widgets.texture_picture import TexturePicture
 from widgets.theme import current_theme, theme_notifier
 
@@ -62,6 +63,8 @@ class TextureView(QWidget):
         self._picture: TexturePicture | None = None
         self._image = QImage()
         self._reduced = QImage()
+        self._outside = QPixmap()
+        """What is repeated around the texture."""
         self._middle = (0.0, 0.0)
         """Texel coordinates in the middle of the view."""
         self._scale: float | None = None
@@ -87,6 +90,7 @@ class TextureView(QWidget):
         """Show a texture; None: the empty text."""
         before, self._picture = self._picture, picture
         is_other = before is None or picture is None or before.pixels is not picture.pixels
+        is_other = is_other or (before is not None and picture is not None and before.wrap != picture.wrap)
         if is_other:
             self._make_images()
             self._scale = None
@@ -133,7 +137,7 @@ class TextureView(QWidget):
         painter.fillRect(self.rect(), QColor(theme.panel))
         placement = self.placement()
         image = self._image if placement.scale >= 1 or self._reduced.isNull() else self._reduced
-        paint_texture(painter, self._picture, image, placement, theme)
+        paint_texture(painter, self._picture, image, self._outside, placement, theme)
         paint_caption(painter, self.rect(), self._picture.caption, theme)
 
     def sizeHint(self) -> QSize:
@@ -304,6 +308,8 @@ class TextureView(QWidget):
                 Qt.AspectRatioMode.KeepAspectRatio,
                 Qt.TransformationMode.SmoothTransformation,
             )
+        around = self._image if self._reduced.isNull() else self._reduced
+        self._outside = QPixmap.fromImage(outside_image(around, self._picture.wrap))
 
     def _repaint_all(self) -> None:
         """Paint everything again with the present theme."""

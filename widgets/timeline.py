@@ -161,6 +161,10 @@ class Timeline(QWidget):
             self.speed_box.setCurrentIndex(place)
             self._choose_speed(place)
 
+    def add_control(self, widget: QWidget) -> None:
+        """Put another control into the row above the bar, left of the position."""
+        self._guests.addWidget(widget)
+
     def is_playing(self) -> bool:
         """Tell whether the clock runs."""
         return self.clock.isActive()
@@ -203,6 +207,9 @@ class Timeline(QWidget):
         for level_button in self.level_buttons.values():
             row.addWidget(level_button)
         row.addStretch(1)
+        self._guests = QHBoxLayout()
+        self._guests.setSpacing(4)
+        row.addLayout(self._guests)
         row.addWidget(self.position_box)
         row.addWidget(self.count_label)
         row.addSpacing(12)

@@ -278,6 +278,13 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "undefined"): "an edge function is not a number here",
     ("raster", "outside-span"): lambda v: f"outside the span of this row, {_span(v)}; {_not_here(v)}",
     ("raster", "row-not-drawn"): lambda v: f"the printed fill draws no span in this row; {_not_here(v)}",
+    ("raster", "on-outline"): lambda v: (
+        f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
+    ),
+    ("raster", "off-outline"): lambda v: (
+        f"not on its outline; edge {v['edge']} is nearest, {_pixels(v['distance'])} away"
+    ),
+    ("raster", "no-outline"): "none of its edges is drawn near the window",
     ("interpolate", "weights"): lambda v: "weights " + ", ".join(number_text(w) for w in v["weights"]),
     ("shade", "color"): lambda v: "colour " + ", ".join(number_text(c) for c in v["color"]),
     ("depth", "passed"): lambda v: f"passed the depth test: {number_text(v['stored'])} against {_against(v)}",

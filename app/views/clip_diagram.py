@@ -6,12 +6,14 @@ x, z and w remain, and the planes z = ±w and x = ±w, which contain the directi
 y = ±w it is seen along x.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from core.arrays import Floats
 from core.geometry.culling import PLANES, REASONS
+from core.geometry.sutherland_hodgman import distance_from
 from core.trace import StageTrace, Trace
 from widgets.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
 from widgets.orbit import Orbit
@@ -198,9 +200,10 @@ def open_azimuth(triangle: Floats, elevation: float) -> float:
     return best
 
 
-def _shapes(state: ClipState, place: "object", face: Floats | None, equations: tuple[str, ...]) -> Diagram:
+def _shapes(
+    state: ClipState, place: Callable[[Floats], Floats], face: Floats | None, equations: tuple[str, ...]
+) -> Diagram:
     """Return triangle, polygon, corners and the current plane, which both drawings share."""
-    assert callable(place)
     before = place(state.before)
     patches: list[Patch] = []
     strokes: list[Stroke] = []
@@ -222,7 +225,8 @@ def _shapes(state: ClipState, place: "object", face: Floats | None, equations: t
     if state.edge is not None:
         strokes.append(Stroke(place(state.edge), "accent", 3.0))
     for clip, corner in zip(state.emitted, place(state.emitted), strict=True):
-        is_left = bool((state.polygon == clip).all(axis=1).any())
+        is_new = abs(float(distance_from(clip, state.plane))) < 1e-9 * float(np.abs(clip).max())
+        is_left = is_new or bool((state.polygon == clip).all(axis=1).any())
         spots.append(Spot(corner, "text" if is_left else "outline", "square", 3.5 if is_left else 2.5))
     if state.corner is not None:
         spots.append(Spot(place(state.corner[None])[0], "accent", "square", 5.0, label="new corner"))

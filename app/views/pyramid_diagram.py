@@ -132,7 +132,9 @@ def homogeneous_corners(source: TraceSource, triangle: int) -> Floats:
 
 def _sentence(w: Floats, frame: PyramidFrame) -> str:
     parts = ["Eye at the origin, raster on the plane w = 1."]
-    if (w > 0).all():
+    if (w == w[0]).all() and w[0] > 0:
+        parts.append("All w are equal, as in every parallel projection: the triangle keeps its shape.")
+    elif (w > 0).all():
         parts.append("All w > 0: the whole triangle is in front of the eye.")
     elif (w <= 0).all():
         parts.append(

@@ -29,6 +29,8 @@ class DrawnScene:
     """(h, w) int32, the triangle of the document that is seen, -1: none; may be coarser than the picture."""
     seconds: float
     """What drawing took."""
+    part: int = 1
+    """One in so many triangles was drawn."""
 
     def triangle_at(self, column: int, row: int) -> int:
         """Return the triangle at a pixel of the picture, -1: none."""
@@ -87,8 +89,9 @@ def draw_scene(
     frame = render(viewed, view_settings(scene, settings))
     primitive: NDArray[np.integer[Any]] = frame.primitive
     for of_drawn in (pieces, numbers):
-        if of_drawn is not None:
+        if of_drawn is not None and len(of_drawn):
             primitive = np.where(primitive < 0, -1, of_drawn[primitive])
+    part = 1 if numbers is None else -(-len(space.vertices.corners) // max(len(numbers), 1))
     pixels = to_display(frame.color).pixels
     if scale > 1:
         pixels = pixels.repeat(scale, axis=0).repeat(scale, axis=1)[:height, :width]
@@ -96,7 +99,7 @@ def draw_scene(
     depth: Singles = frame.depth
     colors = [ink_color(line.ink, theme) for line in lines]
     draw_space_lines(pixels, depth, lines, viewing_matrix(camera, size), colors)
-    return DrawnScene(pixels, primitive, perf_counter() - begin)
+    return DrawnScene(pixels, primitive, perf_counter() - begin, part)
 
 
 def fractions(space: ViewSpace, orbit: Orbit, size: tuple[int, int], points: Floats) -> Floats:

@@ -44,7 +44,7 @@ class ScenePresenter(QObject):
     triangle_picked = Signal(int)
     """A triangle that was clicked."""
     refused = Signal(str)
-    """Why a drag did nothing."""
+    """Why a drag did nothing, or a picture could not be drawn."""
 
     def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -57,6 +57,7 @@ class ScenePresenter(QObject):
         self._drags = 0
         self._worker = SceneWorker(self)
         self._worker.drawn.connect(self._take_drawn)
+        self._worker.failed.connect(self._take_failure)
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(REST_MS)
@@ -95,7 +96,7 @@ class ScenePresenter(QObject):
             x, y, z = corners.mean(axis=0).tolist()
             reach = float(np.linalg.norm(corners - corners.mean(axis=0), axis=1).max())
             width, height = self._view.picture_size()
-            self._view.set_orbit(fitted(self._view.orbit(), (x, y, z), 3 * reach, width / height))
+            self._view.set_orbit(fitted(self._view.orbit(), (x, y, z), 2 * reach, width / height))
             self._draw_draft()
 
     def refresh_marks(self) -> None:
@@ -137,6 +138,7 @@ class ScenePresenter(QObject):
             self._view.picture_size(),
             scale,
             space_lines(self._space, self.focus),
+            self._view.devicePixelRatioF() * current_theme().text_px / 13,
         )
 
     def _draw_draft(self) -> None:
@@ -178,6 +180,12 @@ class ScenePresenter(QObject):
         if number == self._worker.latest:
             self._show(drawn)
 
+    @Slot(int, str)
+    def _take_failure(self, number: int, reason: str) -> None:
+        """Say why there is no whole picture."""
+        if number == self._worker.latest:
+            self.refused.emit(reason)
+
     def _show(self, drawn: DrawnScene) -> None:
         space, orbit = self._space, self._view.orbit()
         if space is None:
@@ -196,6 +204,8 @@ class ScenePresenter(QObject):
             for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
             if 0 <= x <= 1 and 0 <= y <= 1
         )
+        if drawn.part > 1:
+            labels += ((0.01, 0.985, f"draft: one triangle in {drawn.part}", "muted_text"),)
         marks = pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
         caption = self._caption()
         self._view.show_picture(ScenePicture(drawn.pixels, tuple(handles), marks, labels, caption))
@@ -284,10 +294,12 @@ class SceneJob:
         size: tuple[int, int],
         scale: int,
         lines: tuple[SpaceLine, ...],
+        thickness: float,
     ) -> None:
         self._space, self._scene, self._numbers = space, scene, numbers
         self._settings, self._orbit, self._size = document.settings, orbit, size
-        self._scale, self._lines, self._theme = scale, lines, current_theme()
+        self._scale, self._theme = scale, current_theme()
+        self._lines = tuple(replace(line, width=max(round(line.width * thickness), 1)) for line in lines)
 
     def __call__(self) -> DrawnScene:
         """Draw it."""

@@ -14,6 +14,8 @@ class SceneWorker(QObject):
 
     drawn = Signal(int, object)
     """Number of the job and its :class:`~app.views.scene_picture.DrawnScene`."""
+    failed = Signal(int, str)
+    """Number of the job and why there is no picture."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -24,6 +26,7 @@ class SceneWorker(QObject):
         self._executor = ThreadPoolExecutor(max_workers=1, thread_name_prefix="scene picture")
         self._relay = _Relay()
         self._relay.drawn.connect(self.drawn)
+        self._relay.failed.connect(self.failed)
 
     def start(self, job: Callable[[], DrawnScene]) -> int:
         """Draw as soon as what is being drawn now is done; return the number of the job."""
@@ -62,9 +65,14 @@ class _Relay(QObject):
     """Outlives the worker while the thread still draws."""
 
     drawn = Signal(int, object)
+    failed = Signal(int, str)
 
 
 def _run(relay: _Relay, take: Callable[[], tuple[int, Callable[[], DrawnScene]] | None]) -> None:
     while (job := take()) is not None:
         number, draw = job
-        relay.drawn.emit(number, draw())
+        try:
+            relay.drawn.emit(number, draw())
+        except Exception as problem:
+            # Told to the user by whoever asked; the thread goes on with the next job.
+            relay.failed.emit(number, f"the picture could not be drawn: {problem}")

@@ -43,12 +43,14 @@ class StageViews(QObject):
             "texture": self._texture,
         }
         self._stale = set(self._views)
+        self._shown: dict[str, object] = {}
+        """What each drawing was made from; the same again is not drawn again."""
         self._scene_presenter = ScenePresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
         for widget in self._views.values():
             widget.installEventFilter(self)
-        session.document_changed.connect(self._document_changed)
+        session.document_changed.connect(self._refresh_visible)
         session.cursor_changed.connect(self._refresh_visible)
         session.pin_changed.connect(self._refresh_visible)
         session.hover_changed.connect(self._refresh_visible)
@@ -96,10 +98,6 @@ class StageViews(QObject):
         return False
 
     @Slot()
-    def _document_changed(self) -> None:
-        self._refresh_visible()
-
-    @Slot()
     def _refresh_visible(self) -> None:
         """Bring the visible views up to date, and remember that the others are not."""
         for name, widget in self._views.items():
@@ -110,29 +108,33 @@ class StageViews(QObject):
 
     def _refresh(self, name: str) -> None:
         self._stale.discard(name)
+        session = self._session
         if name == "scene":
             self._scene_presenter.refresh()
-        elif name == "clip":
-            self._refresh_clip()
+            return
+        triangle, pixels = shown_triangle(session), pointed_pixels(session)
+        shown: object = (session.trace, triangle, pixels)
+        if name == "clip":
+            shown = (session.trace, triangle, self._clip_position())
         elif name == "pyramid":
-            self._refresh_pyramid()
+            shown = (session.trace, triangle, pixels[:1])
+        if self._shown.get(name) == shown:
+            return
+        self._shown[name] = shown
+        if name == "clip":
+            state = clip_state(session.trace, triangle, self._clip_position())
+            self._clip.show_diagram(clip_diagram(state))
+        elif name == "pyramid":
+            pixel = pixels[0] if pixels else None
+            self._pyramid.show_diagram(pyramid_diagram(session.trace.source, triangle, pixel))
         else:
-            picture, reason = texture_picture(self._session)
+            picture, reason = texture_picture(session)
             self._texture.empty_text = reason
             self._texture.show_picture(picture)
 
-    def _refresh_clip(self) -> None:
-        session = self._session
-        cursor = session.cursor
-        position: int | None = None
+    def _clip_position(self) -> int | None:
+        """Return how much of the clipping is done at the cursor; None: all of it."""
+        cursor = self._session.cursor
         if cursor.stage == "clip":
-            position = cursor.position
-        elif STAGES.index(cursor.stage) < STAGES.index("clip"):
-            position = 0
-        self._clip.show_diagram(clip_diagram(clip_state(session.trace, shown_triangle(session), position)))
-
-    def _refresh_pyramid(self) -> None:
-        session = self._session
-        pixels = pointed_pixels(session)
-        pixel = pixels[0] if pixels else None
-        self._pyramid.show_diagram(pyramid_diagram(session.trace.source, shown_triangle(session), pixel))
+            return cursor.position
+        return 0 if STAGES.index(cursor.stage) < STAGES.index("clip") else None

@@ -7,6 +7,7 @@ F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline", "vertex processi
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -60,8 +61,12 @@ class VertexStage:
         return viewport(*self.size)
 
 
+@lru_cache(maxsize=2)
 def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
-    """Take every vertex of ``scene`` from object space to clip space."""
+    """Take every vertex of ``scene`` from object space to clip space.
+
+    Scenes never change, so the result of the last ones is kept: picture, trace and views ask for the same.
+    """
     if isinstance(scene, ClipScene):
         count = len(scene.clip)
         return VertexStage(

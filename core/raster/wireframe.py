@@ -11,6 +11,7 @@ the end's depth and values.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -145,7 +146,11 @@ def set_up_outlines(
         return np.stack([values[primitive, first], values[primitive, second]], axis=1)
 
     # Cut at the neighbourhood's borders: the part from t = cut[0] to t = cut[1] of the edge in clip space.
-    homogeneous, z, w = ends(corners.homogeneous), ends(primitives.clip[..., 2]), ends(primitives.clip[..., 3])
+    homogeneous, z, w = (
+        ends(corners.homogeneous),
+        ends(primitives.clip[..., 2]),
+        ends(primitives.clip[..., 3]),
+    )
     cut = cut_to_window(homogeneous, size)
     with np.errstate(all="ignore"):
         at_cut = (1 - cut[..., None]) * homogeneous[:, :1] + cut[..., None] * homogeneous[:, 1:]
@@ -154,7 +159,7 @@ def set_up_outlines(
         window = np.clip(at_cut[..., :2] / cut_w[..., None], -MARGIN, np.array(size) + MARGIN)
         depth = (cut_z / cut_w + 1) * 0.5
         window_cut = cut * w[:, 1:] / cut_w
-    is_whole = cut == [0.0, 1.0]
+    is_whole: Flags = cut == np.array([0.0, 1.0])
     window = np.where(is_whole[..., None], ends(corners.window), window)
     window_cut = np.where(is_whole, cut, window_cut)
     numbers = np.concatenate([window.reshape(-1, 4), depth, window_cut], axis=1)
@@ -172,7 +177,7 @@ def set_up_outlines(
         window=window[is_visible],
         w=cut_w[is_visible],
         depth=depth[is_visible],
-        is_in_range=(np.abs(cut_z) <= reach).all(axis=1)[is_visible],
+        is_in_range=np.all(np.abs(cut_z) <= reach, axis=1)[is_visible],
         shares=of_corners(cut),
         window_shares=of_corners(window_cut),
     )
@@ -208,10 +213,8 @@ def cut_to_window(homogeneous: Floats, size: tuple[int, int]) -> Floats:
     return np.stack([np.where(is_outside, 1.0, enters), np.where(is_outside, 0.0, leaves)], axis=1)
 
 
-def draw_outlines(
-    outlines: Outlines, raster: Raster, line: str
-) -> Iterator[tuple[LineFragments, LineSteps]]:
-    """Yield the pixels of segments in batches, in drawing order, with the numbers that chose them.
+def draw_outlines(outlines: Outlines, raster: Raster, line: str) -> Iterator[tuple[LineFragments, LineSteps]]:
+    """Yield the pixels of segments in batches (at least one), in drawing order, with the numbers that chose them.
 
     Parameters
     ----------
@@ -224,6 +227,7 @@ def draw_outlines(
     length = np.abs(outlines.window[:, 1] - outlines.window[:, 0]).max(axis=1, initial=0.0)
     length = np.minimum(length, max(raster.width, raster.height)) + 1
     ends = np.flatnonzero(np.diff(np.cumsum(length) // BATCH, append=-1)) + 1
+    ends = ends if len(ends) else np.zeros(1, np.int64)
     left, bottom, right, top = raster.bounds
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         drawn = draw_lines(
@@ -235,9 +239,14 @@ def draw_outlines(
         yield fragments.select(keep), LineSteps(*(values[keep] for values in vars(drawn.steps).values()))
 
 
-def fragments_of(outlines: Outlines, segment: Integers, column: Integers, row: Integers) -> LineFragments:
-    """Return the fragments of segments (F,) at pixels."""
-    return LineFragments(outlines.primitive.take(segment), column, row, segment)
+def join_batches(batches: list[tuple[LineFragments, LineSteps]]) -> tuple[LineFragments, LineSteps]:
+    """Return the batches of ``draw_outlines`` as one."""
+    fragments, steps = zip(*batches, strict=True)
+
+    def join(records: tuple[LineFragments, ...] | tuple[LineSteps, ...]) -> list[Any]:
+        return [np.concatenate([getattr(r, name) for r in records]) for name in vars(records[0])]
+
+    return LineFragments(*join(fragments)), LineSteps(*join(steps))
 
 
 def line_parameter(outlines: Outlines, fragments: LineFragments, center: float) -> Floats:

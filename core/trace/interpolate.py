@@ -9,24 +9,53 @@ from core.fragments.interpolation import (
     take_provoking_value,
 )
 from core.listing import listing
+from core.raster.wireframe import (
+    LineFragments,
+    interpolate_affine_along,
+    interpolate_along,
+    inverse_w_parts,
+    line_parameter,
+    values_at_ends,
+)
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
-LISTINGS = {"perspective": interpolate_at, "affine": interpolate_affine_at, "flat": take_provoking_value}
+LISTINGS = {
+    "perspective": interpolate_at,
+    "affine": interpolate_affine_at,
+    "flat": take_provoking_value,
+    "line-perspective": interpolate_along,
+    "line-affine": interpolate_affine_along,
+}
+SUMMED = (
+    Operation("numerators", "numerators", ("numerators",)),
+    Operation("total", "total", ("total", "inverse_w")),
+    Operation("weights", "weights", ("weights",)),
+)
+OPERATIONS: dict[str, tuple[Operation, ...]] = {
+    "perspective": SUMMED,
+    "affine": SUMMED,
+    "flat": (Operation("weights", "weights", ("weights",)),),
+    "line-perspective": (
+        Operation("parts", "parts", ("t", "end_w", "parts")),
+        Operation("total", "total", ("total", "inverse_w")),
+        Operation("weight", "weight", ("s", "weights")),
+    ),
+    "line-affine": (Operation("weight", "weight", ("t", "s", "weights")),),
+}
+"""Kind of row to what it does before the values: over areas, and along the lines of a wireframe."""
 
 
 def trace_interpolate(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
     geometry, fragments = source.geometry, source.fragments
     weights, values = source.interpolated
-    n = np.stack(numerators(geometry.planes, fragments.primitive, *source.centers), axis=1)
     mode = source.settings.interpolation
-    if mode == "affine":
-        n = n * geometry.planes.w[fragments.primitive]
+    along_lines = isinstance(fragments, LineFragments) and mode != "flat"
     x, y = source.centers
     varyings = geometry.primitives.varyings[fragments.primitive]
-    columns = {
+    columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,
         "x": x,
@@ -35,27 +64,24 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
         "b": geometry.planes.b[fragments.primitive],
         "c": geometry.planes.c[fragments.primitive],
         "corner_w": geometry.planes.w[fragments.primitive],
-        "numerators": n,
-        "total": n[:, 0] + n[:, 1] + n[:, 2],
         "inverse_w": source.inverse_w,
         "weights": weights,
         "corner_values": varyings,
         "values": values,
         "primitive": fragments.primitive,
     }
-    summed = Operation("total", "total", ("total", "inverse_w"))
-    operations = (
-        *(() if mode == "flat" else (Operation("numerators", "numerators", ("numerators",)), summed)),
-        Operation("weights", "weights", ("weights",)),
-        *(Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout),
+    columns |= _along_lines(source) if along_lines else _over_areas(source)
+    values_of_layout = tuple(
+        Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
     )
     for name, part in geometry.primitives.layout.items():
         columns[name] = values[:, part]
     triangle = source.triangle_of_fragment
+    kinds = (mode, f"line-{mode}") if along_lines else (mode,)
     steps = Steps(
-        kinds=(mode,),
-        kind=np.zeros(len(fragments), np.int64),
-        operations={mode: operations},
+        kinds=kinds,
+        kind=np.full(len(fragments), int(along_lines)),
+        operations={kind: (*OPERATIONS[kind], *values_of_layout) for kind in kinds},
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(fragments.primitive, fragments.row),
     )
@@ -66,11 +92,41 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings={mode: listing(LISTINGS[mode])},
+        listings={kind: listing(LISTINGS[kind]) for kind in kinds},
         marks={"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
         buffers=_buffers(source),
         extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
     )
+
+
+def _over_areas(source: TraceSource) -> dict[str, np.ndarray]:
+    """Return the numbers from which the weights of fragments (F,) are made."""
+    planes, primitive = source.geometry.planes, source.fragments.primitive
+    n = np.stack(numerators(planes, primitive, *source.centers), axis=1)
+    if source.settings.interpolation == "affine":
+        n = n * planes.w[primitive]
+    return {"numerators": n, "total": n[:, 0] + n[:, 1] + n[:, 2]}
+
+
+def _along_lines(source: TraceSource) -> dict[str, np.ndarray]:
+    """Return the same of fragments (F,) on the segments of a wireframe, and the values (F, 2, K) at their ends."""
+    outlines, fragments = source.geometry.outlines, source.fragments
+    assert outlines is not None
+    assert isinstance(fragments, LineFragments)
+    mode, center = source.settings.interpolation, source.raster.center
+    t = line_parameter(outlines, fragments, center)
+    start, end = inverse_w_parts(outlines, fragments, center)
+    at_ends = values_at_ends(outlines, source.geometry.primitives.varyings, mode)
+    return {
+        "segment": fragments.segment,
+        "edge": outlines.edge[fragments.segment],
+        "t": t,
+        "end_w": outlines.w[fragments.segment],
+        "parts": np.stack([start, end], axis=1),
+        "total": start + end,
+        "s": t if mode == "affine" else end / (start + end),
+        "end_values": at_ends[fragments.segment],
+    }
 
 
 def _buffers(source: TraceSource) -> tuple[BufferTrack, ...]:

@@ -8,34 +8,20 @@ from core.listing import Listing, listing
 from core.raster.edge_functions import covers
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle
-from core.steps import Operation, Steps, ends_of
+from core.steps import Steps, ends_of
+from core.trace.lines import trace_lines
+from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
-KINDS = ("test", "accept", "span", "line")
-OPERATIONS = {
-    "test": (
-        Operation("edge-0", "value", ("value_0",)),
-        Operation("edge-1", "value", ("value_1",)),
-        Operation("edge-2", "value", ("value_2",)),
-        Operation("decide", "covered", ("covered", "tie")),
-    ),
-    "accept": (Operation("accept", "covered", ("covered",)),),
-    "span": (
-        Operation("edge-0", "left-value", ("crossing_0",)),
-        Operation("edge-1", "left-value", ("crossing_1",)),
-        Operation("edge-2", "left-value", ("crossing_2",)),
-        Operation("span", "span", ("start", "stop")),
-    ),
-    "line": (
-        Operation("ends", "draw", ("crossing_0", "crossing_1")),
-        Operation("round", "draw", ("start", "stop")),
-    ),
-}
-
 
 def trace_raster(source: TraceSource) -> StageTrace:
-    """Return one row for every pixel looked at; scanline fills have a row before the pixels of every span."""
+    """Return one row for every pixel looked at; scanline fills have a row before the pixels of every span.
+
+    Of a wireframe, one row for every pixel of its lines.
+    """
+    if source.geometry.outlines is not None:
+        return trace_lines(source)
     geometry, runs, tests, raster = source.geometry, source.runs, source.tests, source.raster
     edges = geometry.edges
 
@@ -89,9 +75,9 @@ def trace_raster(source: TraceSource) -> StageTrace:
     kind = np.where(is_pixel, np.where(accepted, 1, 0), 3 if is_lecture else 2)
     triangle = geometry.primitives.triangle[primitive]
     steps = Steps(
-        kinds=KINDS,
+        kinds=tuple(FILL_OPERATIONS),
         kind=kind,
-        operations=OPERATIONS,
+        operations=FILL_OPERATIONS,
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(primitive, runs.group[run] if not has_spans else run),
     )
@@ -138,19 +124,5 @@ def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]
             BufferTrack(f"{name} {k}", unknown, rows, place, columns[column][rows, k], "signed")
             for k in range(3)
         ]
-    hit_rows, hit_place = rows[covered], place[covered]
-    count = source.start.cover_count.ravel()[hit_place] + 1 + occurrence(hit_place)
-    tracks.append(
-        BufferTrack("overdraw", source.start.cover_count, hit_rows, hit_place, count, "count", True)
-    )
+    tracks.append(overdraw_track(source, rows[covered]))
     return tuple(tracks)
-
-
-def occurrence(place: Integers) -> Integers:
-    """Return how many earlier elements (k,) name the same place."""
-    order = np.argsort(place, kind="stable")
-    ordered = place[order]
-    first = np.maximum.accumulate(np.where(np.diff(ordered, prepend=-1) != 0, np.arange(len(place)), 0))
-    result = np.empty(len(place), np.int64)
-    result[order] = np.arange(len(place)) - first
-    return result

@@ -6,13 +6,16 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.fragments.interpolation import interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, DepthTests, run_depth_tests
+from core.geometry.vertex_stage import transform_vertices
+from core.geometry_stages import Geometry, drawing_order, process_geometry
 from core.methods import table
-from core.pipeline import Geometry, draw, drawing_order, fragment_depth, process_geometry, schedule
+from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
+from core.raster.line_records import LineSteps
 from core.raster.schedule import Boxes, Raster, Runs, make_raster
+from core.raster.wireframe import LineFragments, draw_outlines, join_batches
 from core.scene import AnyScene
 from core.settings import Settings
 from core.surface import Surface, shade_fragments
@@ -39,7 +42,7 @@ class TraceSource:
     @cached_property
     def order(self) -> Integers:
         """(T,) int64, all triangles of the scene in drawing order."""
-        return drawing_order(self.scene, self.settings)
+        return drawing_order(transform_vertices(self.scene), self.settings).order
 
     @cached_property
     def geometry(self) -> Geometry:
@@ -76,9 +79,18 @@ class TraceSource:
 
     @cached_property
     def fragments(self) -> Fragments:
-        """(F) covered pixels, whether in depth range or not."""
+        """(F) covered pixels, whether in depth range or not; a wireframe's are ``LineFragments``."""
+        if self.geometry.outlines is not None:
+            return self.lines[0]
         tests = self.tests
         return Fragments(tests.primitive, tests.column, tests.row).select(tests.covered)
+
+    @cached_property
+    def lines(self) -> tuple[LineFragments, LineSteps]:
+        """The (F) pixels of a wireframe's outlines, and the numbers that chose them."""
+        outlines = self.geometry.outlines
+        assert outlines is not None
+        return join_batches(list(draw_outlines(outlines, self.raster, self.settings.line)))
 
     @property
     def place(self) -> Integers:
@@ -98,15 +110,12 @@ class TraceSource:
     @cached_property
     def interpolated(self) -> tuple[Floats, Floats]:
         """Weights (F, 3) and values (F, K) of the fragments."""
-        x, y = self.centers
-        mode, provoking = self.settings.interpolation, self.settings.provoking
-        varyings = self.geometry.primitives.varyings
-        return interpolate(self.geometry.planes, varyings, self.fragments.primitive, x, y, mode, provoking)
+        return fragment_values(self.geometry, self.settings, self.fragments, self.raster)
 
     @cached_property
     def inverse_w(self) -> Floats:
         """(F,) float64, 1/w at the fragments."""
-        return plane_value(self.geometry.inverse_w_plane, self.fragments.primitive, *self.centers)
+        return fragment_inverse_w(self.geometry, self.fragments, self.raster)
 
     @cached_property
     def surface(self) -> Surface:

@@ -8,19 +8,21 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.frame import STAGES, StageCount
+from core.geometry_stages import Geometry, process_geometry
 from core.methods import table
-from core.pipeline import Geometry, process_geometry, schedule
+from core.pipeline import schedule
 from core.raster.binning import bound
-from core.raster.coverage import PixelTests, examine_pixels
+from core.raster.coverage import Fragments, PixelTests, examine_pixels
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
 from core.raster.schedule import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.raster.snapping import CornerPositions, place_corners
+from core.raster.wireframe import LineFragments, Outlines, draw_outlines
 from core.scene import AnyScene
 from core.settings import Settings
 from core.trace.source import TraceSource
 
 ROUNDING_REACH = 2
-"""Pixels by which a fill that rounds corners may leave the triangle's box."""
+"""Pixels by which a fill that rounds corners, or a line, may leave the triangle's box."""
 
 _geometries: "WeakKeyDictionary[AnyScene, tuple[Settings, Geometry]]" = WeakKeyDictionary()
 
@@ -42,6 +44,11 @@ def take_edges(edges: EdgeFunctions, index: Integers) -> EdgeFunctions:
     corners = CornerPositions(*(values[index] for values in vars(edges.corners).values()))
     parts = (edges.a[index], edges.b[index], edges.c[index], edges.owns_tie[index])
     return EdgeFunctions(*parts, corners, edges.doubled_area[index])
+
+
+def take_outlines(outlines: Outlines, index: Integers) -> Outlines:
+    """Return the segments (M,) of a wireframe."""
+    return Outlines(*(values[index] for values in vars(outlines).values()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,12 +111,13 @@ class PixelCandidates:
     @property
     def rounds_corners(self) -> bool:
         """Whether the fill may leave the box of a triangle."""
-        return "projected" in table.get("fill", self.settings.fill).needs
+        is_filled = self.geometry.outlines is None
+        return is_filled and "projected" in table.get("fill", self.settings.fill).needs
 
     @cached_property
     def primitive(self) -> Integers:
         """(Q,) int64, primitives whose box contains the pixel, and those of the focus; in drawing order."""
-        if self.rounds_corners:
+        if self.rounds_corners or self.geometry.outlines is not None:
             contains = boxes_reach(self.geometry.edges.corners, self.center, ROUNDING_REACH)
         else:
             boxes = bound(self.geometry.edges, self.raster)
@@ -150,10 +158,28 @@ class PixelCandidates:
         return examine_pixels(self.edges, self.runs, self.raster)
 
     @cached_property
-    def covering(self) -> Integers:
-        """(F,) int64, the candidates that cover the pixel, in drawing order; which of Q."""
+    def fragments(self) -> Fragments:
+        """(F,) fragments at this pixel in drawing order, as the picture makes them; a wireframe's are lines."""
+        outlines = self.geometry.outlines
+        if outlines is not None:
+            near = np.flatnonzero(np.isin(outlines.primitive, self.primitive))
+            drawn = [
+                found
+                for found, _ in draw_outlines(take_outlines(outlines, near), self.raster, self.settings.line)
+            ]
+            segment = near[np.concatenate([found.segment for found in drawn] or [np.empty(0, np.int64)])]
+            return LineFragments(outlines.primitive[segment], *self._here(len(segment)), segment)
         tests = self.pixel_tests
-        return tests.primitive[tests.covered]
+        primitive = self.primitive[tests.primitive[tests.covered]]
+        return Fragments(primitive, *self._here(len(primitive)))
+
+    @cached_property
+    def covering(self) -> Integers:
+        """(F,) int64, the candidate of every fragment; which of Q."""
+        return np.searchsorted(self.primitive, self.fragments.primitive)
+
+    def _here(self, count: int) -> tuple[Integers, Integers]:
+        return np.full(count, self.column), np.full(count, self.row)
 
     @cached_property
     def edge_tests(self) -> EdgeTests:

@@ -10,6 +10,7 @@ from core.raster.edge_functions import EdgeFunctions
 from core.raster.schedule import INSIDE, MIXED, OUTSIDE, Boxes
 from core.raster.snapping import SUBPIXELS, place_corners
 from core.why.candidates import EdgeTests, PixelCandidates, examine_edges
+from core.why.outlines import missed_outline
 from core.why.records import Link
 
 
@@ -39,7 +40,8 @@ def clip_link(candidates: PixelCandidates, triangle: int, piece: int = -1) -> Li
     """Return what clipping did: which corners lie outside which planes, and how many corners are left."""
     geometry = candidates.geometry
     clipped = geometry.clipped
-    if clipped is None:
+    is_spared = geometry.clipping_inserted and (geometry.assembled.clip[triangle, :, 3] > 0).all()
+    if clipped is None or is_spared:
         return Link("clip", "no-clipping", {})
     place = int(np.flatnonzero(geometry.kept.triangle == triangle)[0])
     distances = geometry.culled.distances[triangle]
@@ -104,10 +106,15 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
 
 
 def raster_links(candidates: PixelCandidates, k: int) -> list[Link]:
-    """Return how candidate ``k`` fared in binning and at the pixel: covered, or where it was left out."""
+    """Return how candidate ``k`` fared in binning and at the pixel: covered, or where it was left out.
+
+    A wireframe has no bins; its fragments have ``core.why.outlines.outline_link``.
+    """
     values = edge_values(candidates.edges, candidates.edge_tests, k)
     box = tuple(int(getattr(candidates.boxes, name)[k]) for name in Boxes._fields[1:])
     values["box"] = box
+    if candidates.geometry.outlines is not None:
+        return [missed_outline(candidates, k, values)]
     if values["doubled_area"] == 0:
         return [Link("bin", "no-area", values)]
     whole = candidates.boxes.case[k] == MIXED

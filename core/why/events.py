@@ -8,6 +8,7 @@ from core.geometry.culling import REASONS
 from core.why.candidates import PixelCandidates
 from core.why.chain import clip_link, cull_link, raster_links, undrawn_values, vertex_link
 from core.why.fragments import Passage, PixelFragments, cleared_state, fold, overwriters, run_fragments
+from core.why.outlines import outline_link
 from core.why.records import Link, PixelEvent
 
 LISTED_LIMIT = 256
@@ -60,7 +61,11 @@ def _fragment_events(
     hidden_by = overwriters(fragments, candidates.settings.blend)
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
-        chain = [*_upper_chain(candidates, which), *raster_links(candidates, which)]
+        if candidates.geometry.outlines is None:
+            raster = raster_links(candidates, which)
+        else:
+            raster = [outline_link(candidates, k)]
+        chain = [*_upper_chain(candidates, which), *raster]
         weights = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
         chain.append(Link("interpolate", "weights", weights))
         chain.append(Link("shade", "color", {"color": fragments.color[k]}))

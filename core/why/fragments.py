@@ -5,11 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
-from core.fragments.interpolation import interpolate, plane_value
 from core.framebuffer.depth import DepthFormat, run_depth_tests
 from core.methods import table
-from core.pipeline import fragment_depth
-from core.raster.coverage import Fragments
+from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.surface import shade_fragments
 from core.why.candidates import PixelCandidates
 from core.why.records import Link, PixelState
@@ -44,13 +42,9 @@ class PixelFragments:
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
     """Take the covering candidates through the stages behind the raster, by the rules of the picture."""
     geometry, settings, raster = candidates.geometry, candidates.settings, candidates.raster
-    primitive = candidates.primitive[candidates.covering]
-    count = len(primitive)
-    fragments = Fragments(primitive, np.full(count, candidates.column), np.full(count, candidates.row))
-    x, y = (np.full(count, center) for center in candidates.center)
-    varyings = geometry.primitives.varyings
-    mode, provoking = settings.interpolation, settings.provoking
-    weights, values = interpolate(geometry.planes, varyings, primitive, x, y, mode, provoking)
+    fragments = candidates.fragments
+    primitive, count = fragments.primitive, len(fragments)
+    weights, values = fragment_values(geometry, settings, fragments, raster)
     mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
     surface = shade_fragments(candidates.scene, settings, layout, mesh, values)
 
@@ -66,7 +60,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         primitive,
         geometry.primitives.triangle[primitive],
         weights,
-        plane_value(geometry.inverse_w_plane, primitive, x, y),
+        fragment_inverse_w(geometry, fragments, raster),
         surface.color,
         depth,
         keeps,

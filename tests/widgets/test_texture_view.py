@@ -10,9 +10,9 @@ from widgets.texture_picture import TexelFootprint, TexturePicture
 from widgets.texture_view import TextureView
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
-PIXELS = np.zeros((4, 8, 3), np.float32)
-PIXELS[0, 0] = 1, 0, 0
-PIXELS[3, 7] = 0, 1, 0
+PIXELS = np.zeros((20, 40, 3), np.float32)
+PIXELS[:5, :5] = 1, 0, 0
+PIXELS[15:, 35:] = 0, 1, 0
 FOOTPRINT = TexelFootprint(
     corners=np.array([[2.1, 1.2], [3.2, 1.1], [3.4, 2.3], [2.2, 2.1]]),
     center=np.array([2.7, 1.7]),
@@ -42,20 +42,20 @@ def color_at(view: TextureView, x: float, y: float) -> tuple[int, ...]:
 
 def test_the_origin_is_the_lower_left_texel(view):
     view.show_picture(TexturePicture(PIXELS))
-    assert color_at(view, 0.5, 0.3) == (255, 0, 0)
-    assert color_at(view, 7.5, 3.5) == (0, 255, 0)
+    assert color_at(view, 2.5, 3.5) == (255, 0, 0)
+    assert color_at(view, 37.5, 17.5) == (0, 255, 0)
 
 
 @pytest.mark.parametrize(
     ("wrap", "place", "is_red"),
     [
-        ("repeat", (8.4, 0.5), True),
-        ("repeat", (0.4, 4.3), True),
-        ("mirror", (8.4, 0.5), False),
-        ("mirror", (-0.4, 0.3), True),
-        ("mirror", (0.4, -0.3), True),
-        ("clamp", (-0.6, 0.3), True),
-        ("clamp", (8.4, 0.5), False),
+        ("repeat", (42.5, 2.5), True),
+        ("repeat", (2.5, 22.3), True),
+        ("mirror", (42.5, 2.5), False),
+        ("mirror", (-2.4, 2.3), True),
+        ("mirror", (2.4, -1.3), True),
+        ("clamp", (-2.6, 2.3), True),
+        ("clamp", (42.4, 2.5), False),
     ],
 )
 def test_what_is_outside_is_wrapped_and_faint(view, wrap, place, is_red):
@@ -89,10 +89,10 @@ def test_a_double_click_shows_the_footprint_and_then_the_whole(view, qtbot):
 def test_the_footprint_is_followed(view):
     view.fit_footprint()
     moved = TexelFootprint(
-        FOOTPRINT.corners + [3, 0],
-        FOOTPRINT.center + [3, 0],
-        FOOTPRINT.reads + [3, 0],
-        FOOTPRINT.texels + [3, 0],
+        FOOTPRINT.corners + np.array([3, 0]),
+        FOOTPRINT.center + np.array([3, 0]),
+        FOOTPRINT.reads + np.array([3, 0]),
+        FOOTPRINT.texels + np.array([3, 0]),
         FOOTPRINT.shares,
     )
     before = view.placement()
@@ -136,7 +136,7 @@ def test_keys_pan_magnify_and_show_the_whole(view):
 
 def test_a_texel_is_read_under_the_pointer(view):
     text = view._texel_text(view.placement().to_widget(0.5, 0.5))
-    assert text.startswith("Texel (0, 0), u = 0.0625, v = 0.125")
+    assert text.startswith("Texel (0, 0), u = 0.0125, v = 0.025")
     assert "(1, 0, 0), linear" in text
     assert view._texel_text(view.placement().to_widget(-0.5, 0.5)) == ""
 
@@ -167,4 +167,6 @@ def test_other_shapes_are_refused():
     with pytest.raises(ValueError, match="triangle must be"):
         TexturePicture(PIXELS, triangle=np.zeros(3))
     with pytest.raises(ValueError, match="reads and texels"):
-        TexelFootprint(np.zeros((4, 2)), np.zeros(2), np.zeros((1, 2), int), np.zeros((1, 2), int), np.ones(2))
+        TexelFootprint(
+            np.zeros((4, 2)), np.zeros(2), np.zeros((1, 2), int), np.zeros((1, 2), int), np.ones(2)
+        )

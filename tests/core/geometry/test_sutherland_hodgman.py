@@ -81,8 +81,14 @@ def test_after_each_plane_the_polygon_lies_inside_it(case, planes) -> None:
     scale = np.abs(clip).max() + 1
     for n in range(len(planes)):
         for polygon, count in zip(result.polygons[n + 1], result.counts[n + 1], strict=True):
-            for plane in planes[: n + 1]:
-                assert (distance_from(polygon[:count], plane) >= -TOLERANCE * scale).all()
+            within = plane_distances(polygon[:count])[:, list(planes[: n + 1])]
+            assert (within >= -TOLERANCE * scale).all()
+
+
+@given(ANY_TRIANGLES, st.integers(0, 5))
+def test_clipping_and_culling_measure_the_same_distance(case, plane: int) -> None:
+    clip, _ = case
+    assert np.array_equal(distance_from(clip, plane), plane_distances(clip)[..., plane])
 
 
 @given(homogeneous_triangles(), PLANE_SETS)

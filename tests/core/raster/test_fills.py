@@ -77,6 +77,21 @@ def test_images_of_one_pixel_or_row(fill: str, image: tuple[int, int]) -> None:
     assert cover_each(everything, image, fill).all()
 
 
+@pytest.mark.parametrize("fill", ["blocks", "hierarchy"])
+@pytest.mark.parametrize("block_size", [2, 3, 4, 6, 12])
+def test_a_block_that_ends_on_a_side_it_does_not_own_is_not_accepted(fill: str, block_size: int) -> None:
+    # The right and the top side run through the centres of column and row 11, the last of a block.
+    size = (14, 14)
+    right, top = [(-30, -30.5), (11.5, -30.5), (11.5, 50.5)], [(-30.5, -30), (50.5, 11.5), (-30.5, 11.5)]
+    clip = clip_of_window([right, top], size)
+    drawn = cover_each(clip, size, fill, block_size=block_size)
+    assert np.array_equal(drawn, exact_each(clip, size))
+    assert drawn[0, 0, :11].all()
+    assert drawn[1, :11, 0].all()
+    assert not drawn[0, :, 11].any()
+    assert not drawn[1, 11].any()
+
+
 @given(ANY_TRIANGLES, BLOCK_SIZES)
 def test_all_fills_draw_the_pixels_of_exact_arithmetic(case, block_size: int) -> None:
     clip, size = case
@@ -136,7 +151,7 @@ def test_fills_agree_on_any_numbers(numbers: list[float], size: tuple[int, int],
     "reach", [2.0**16 - 16, 2.0**16 - 1 / 256, 2.0**16, 2.0**16 + 1 / 256, 2.0**16 + 16, 2.0**40]
 )
 def test_corners_at_and_past_the_snapping_limit(reach: float) -> None:
-    size = (16, 12)
+    size = (16, 16)
     clip = clip_of_window(
         [[(reach, 5.5), (3.5, reach), (-reach, 5.5)], [(2.5, 2.5), (reach, 2.5), (2.5, reach)]], size
     )

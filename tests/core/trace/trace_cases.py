@@ -91,9 +91,9 @@ CHOICES = [{}] + [
     {family: name}
     for family in families()
     for name in table.names(family)
-    if name != getattr(Settings(), family)
+    if name != getattr(Settings(), family) and family != "line"
 ]
-"""Every method of the table once, beside the defaults of the other families."""
+"""Every method of triangles once, beside the defaults of the other families."""
 
 MIXES = [
     {"fill": "scanline-lecture", "blend": "over", "pixel_center": "integer", "visibility": "last-drawn"},
@@ -104,6 +104,7 @@ MIXES = [
         "blend": "over",
         "wrap": "mirror",
     },
+    {"polygon_mode": "wireframe", "line": "dda", "blend": "over", "clipping": "sutherland-hodgman"},
     {"fill": "blocks", "block_size": 3, "fill_rule": "inclusive", "blend": "over", "interpolation": "affine"},
     {
         "fill": "hierarchy",

@@ -17,7 +17,7 @@ from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_scene
 
-PIXEL_LIMIT = 12
+PIXEL_LIMIT = 6
 
 
 def some_pixels(scene: ClipScene | Scene, count: int = PIXEL_LIMIT) -> list[tuple[int, int]]:
@@ -110,14 +110,14 @@ def any_case(draw) -> tuple[ClipScene, Settings, tuple[int, int]]:
     return ClipScene(clip, np.reshape(values, (len(clip), 3, 4)), size), draw(ANY_SETTINGS), pixel
 
 
-@effort(max_examples=250)
+@effort(max_examples=150)
 @given(any_case())
 def test_any_pixel_of_any_triangles(case):
     scene, settings, pixel = case
     check_pixels(scene, settings, [pixel])
 
 
-@effort(max_examples=150)
+@effort(max_examples=100)
 @given(any_case(), st.data())
 def test_any_triangle_at_any_pixel(case, data):
     scene, settings, (column, row) = case
@@ -133,8 +133,8 @@ def test_any_triangle_at_any_pixel(case, data):
     if absent and own[0].kind == "missed":
         values = own[0].reason.values
         assert {"edge", "distance", "values"} <= set(values)
-        # Inside all edges and yet left out: only the printed fill does that, or there is no area.
-        if values["inside"].all():
+        # Inside all edges and yet left out: an outline or the printed fill does that, or there is no area.
+        if values["inside"].all() and settings.polygon_mode == "fill":
             assert settings.fill == "scanline-lecture" or values["doubled_area"] == 0
 
 
@@ -155,7 +155,7 @@ def test_numbers_are_those_of_the_traces(name, choice):
             primitive = int(tests["primitive"][tested])
             event = next((e for e in history.events if e.primitive == primitive), None)
             link = event and event.link("raster")
-            if link:
+            if link and settings.polygon_mode == "fill":
                 assert np.array_equal(link.values["values"], tests["values"][tested])
                 assert np.array_equal(link.values["distances"], tests["distance"][tested])
                 assert (event.kind == "fragment") == tests["covered"][tested]

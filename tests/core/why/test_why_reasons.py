@@ -215,6 +215,29 @@ def test_outside_a_printed_span_and_in_one_against_the_edges():
     assert level.verdict.values["reason"].key == "row-not-drawn"
 
 
+def test_an_outline_and_beside_it():
+    scene = window_scene(LOWER_LEFT)
+    history = ask(scene, 6, 6, polygon_mode="wireframe")
+    event = history.fragments[0]
+    assert event.link("raster").key == "on-outline"
+    assert event.link("raster").values["edge"] == 0
+    assert event.link("raster").values["distance"] <= 0.75
+    reason = ask(scene, 4, 4, 0, polygon_mode="wireframe").verdict.values["reason"]
+    assert reason.key == "off-outline"
+    assert reason.values["edge"] == 0
+    assert reason.values["distance"] == pytest.approx(-3 / np.sqrt(2))
+    beyond = ask(scene, 14, 2, 0, polygon_mode="wireframe").verdict.values["reason"]
+    assert beyond.values["distance"] == pytest.approx(-np.hypot(4.5, 0.5))
+
+
+def test_a_triangle_in_front_is_not_clipped_for_one_that_crosses_the_eye():
+    crosses = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, -1]]
+    in_front = [[-0.5, -0.5, -2, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, 1]]
+    history = ask(ClipScene([crosses, in_front], size=SIZE), 9, 4, 1, interpolation="affine")
+    event = next(event for event in history.events if event.triangle == 1)
+    assert event.link("clip").key == "no-clipping"
+
+
 def test_an_unsnapped_edge_has_ulps():
     scene = window_scene([(0.1, 0.1), (12.3, 0.7), (3.3, 9.9)], w=[[1.0, 1.7, 2.9]])
     reason = ask(scene, 11, 8, 0, coverage="float64").verdict.values["reason"]

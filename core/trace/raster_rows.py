@@ -1,0 +1,81 @@
+"""What rows of the raster stage are: pixels and spans of fills, pixels of lines; and how often pixels are covered."""
+
+import numpy as np
+
+from core.arrays import Integers
+from core.steps import Operation
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack
+
+FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
+    "test": (
+        Operation("edge-0", "value", ("value_0",)),
+        Operation("edge-1", "value", ("value_1",)),
+        Operation("edge-2", "value", ("value_2",)),
+        Operation("decide", "covered", ("covered", "tie")),
+    ),
+    "accept": (Operation("accept", "covered", ("covered",)),),
+    "span": (
+        Operation("edge-0", "left-value", ("crossing_0",)),
+        Operation("edge-1", "left-value", ("crossing_1",)),
+        Operation("edge-2", "left-value", ("crossing_2",)),
+        Operation("span", "span", ("start", "stop")),
+    ),
+    "line": (
+        Operation("ends", "draw", ("crossing_0", "crossing_1")),
+        Operation("round", "draw", ("start", "stop")),
+    ),
+}
+"""Kind of row of a fill to what it does."""
+
+_OCTANT = Operation("octant", "octant", ("first_end", "second_end", "is_steep"))
+_PLOT = Operation("plot", "draw", ("covered", "t"))
+_TEST = (
+    Operation("test", "test", ("decision", "is_tie")),
+    Operation("step", "step", ("has_stepped",)),
+    _PLOT,
+)
+_ROUND = Operation("round", "round", ("is_tie", "has_stepped"))
+_SLOPE = Operation("slope", "slope", ("slope", "intercept"))
+_EVALUATE = Operation("evaluate", "evaluate", ("decision",))
+_EXIT = (
+    Operation("round", "round", ("decision", "is_tie", "has_stepped")),
+    Operation("leaves", "leaves", ("exit_start", "exit_end")),
+    _PLOT,
+)
+LINE_OPERATIONS: dict[str, tuple[tuple[Operation, ...], tuple[Operation, ...]]] = {
+    "bresenham": ((_OCTANT, Operation("lengths", "lengths", ("run", "rise")), _PLOT), _TEST),
+    "bresenham-lecture": ((_OCTANT, Operation("lengths", "lengths", ("run", "rise")), _PLOT), _TEST),
+    "bresenham-float": ((_OCTANT, Operation("slope", "slope", ("run", "rise", "slope")), _PLOT), _TEST),
+    "midpoint": ((_OCTANT, _SLOPE, _EVALUATE, _ROUND, _PLOT), (_EVALUATE, _ROUND, _PLOT)),
+    "dda": (
+        (_OCTANT, _SLOPE, _EVALUATE, _ROUND, _PLOT),
+        (Operation("advance", "advance", ("decision",)), _ROUND, _PLOT),
+    ),
+    "diamond-exit": ((_OCTANT, *_EXIT), _EXIT),
+}
+"""Line method to what its first pixel does, and every other one."""
+
+
+def line_kinds(line: str) -> dict[str, tuple[Operation, ...]]:
+    """Return the two kinds of rows of a line method: ``<line>-start`` for a line's first pixel, ``<line>``."""
+    first, others = LINE_OPERATIONS.get(line, ((_PLOT,), (_PLOT,)))
+    return {f"{line}-start": first, line: others}
+
+
+def overdraw_track(source: TraceSource, rows: Integers) -> BufferTrack:
+    """Return how often each pixel was covered in depth range; ``rows`` (F,) are those of the fragments."""
+    keeps = source.depths[1]
+    rows, place = rows[keeps], source.place[keeps]
+    count = source.start.cover_count.ravel()[place] + 1 + occurrence(place)
+    return BufferTrack("overdraw", source.start.cover_count, rows, place, count, "count", True)
+
+
+def occurrence(place: Integers) -> Integers:
+    """Return how many earlier elements (k,) name the same place."""
+    order = np.argsort(place, kind="stable")
+    ordered = place[order]
+    first = np.maximum.accumulate(np.where(np.diff(ordered, prepend=-1) != 0, np.arange(len(place)), 0))
+    result = np.empty(len(place), np.int64)
+    result[order] = np.arange(len(place)) - first
+    return result

@@ -1,0 +1,271 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+from app.document import focus_on, open_document
+from app.session import Session
+from app.views.scene_picture import fractions
+from app.views.stage_views import StageViews
+from app.views.view_space import thinned, viewed_scene, viewing_camera
+from core import Settings, render
+from core.geometry.vertex_stage import transform_vertices
+from lessons.scenes import make_scene
+
+LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+
+
+@pytest.fixture
+def show(qtbot):
+    made: list[StageViews] = []
+
+    def make(name: str, scene: str, triangle: int | None = None, **settings: str):
+        document = open_document(make_scene(scene), scene, settings=Settings(**settings))
+        if triangle is not None:
+            document = focus_on(document, triangle)
+        session = Session(document)
+        views = StageViews(session)
+        made.append(views)
+        for _, _, widget in views.widgets:
+            qtbot.addWidget(widget)
+        widget = {key: view for key, _, view in views.widgets}[name]
+        widget.resize(420, 320)
+        widget.show()
+        qtbot.waitExposed(widget)
+        return session, views, widget
+
+    yield make
+    for views in made:
+        views.stop()
+
+
+def rested(qtbot, views: StageViews) -> None:
+    """Wait for the whole picture."""
+    presenter = views.scene_presenter
+
+    def is_full() -> bool:
+        drawn = presenter.drawn
+        return drawn is not None and drawn.primitive.shape == drawn.pixels.shape[:2]
+
+    qtbot.waitUntil(is_full, timeout=10000)
+
+
+def drag(widget, start: QPoint, end: QPoint) -> None:
+    QTest.mousePress(widget, LEFT, NONE, start)
+    QTest.mouseMove(widget, (start + end) / 2)
+    QTest.mouseMove(widget, end)
+    QTest.mouseRelease(widget, LEFT, NONE, end)
+
+
+def handle_place(widget, index: int) -> QPoint:
+    handle = next(h for h in widget.picture().handles if h.index == index)
+    return widget._place(handle.x, handle.y).toPoint()
+
+
+def test_there_are_four_views_in_order(show):
+    _, views, _ = show("clip", "single-triangle")
+    assert [(name, title) for name, title, _ in views.widgets] == [
+        ("scene", "3D scene"),
+        ("clip", "Clip space"),
+        ("pyramid", "(x, y, w)"),
+        ("texture", "Texture"),
+    ]
+
+
+def test_turning_with_the_mouse_changes_the_picture(show, qtbot):
+    _, views, widget = show("scene", "cube")
+    rested(qtbot, views)
+    before = widget.picture().pixels.copy()
+    drag(widget, QPoint(40, 40), QPoint(120, 60))
+    assert not np.array_equal(widget.picture().pixels, before)
+    rested(qtbot, views)
+
+
+@pytest.mark.parametrize("scene", ["cube", "shared-edge", "torus"])
+def test_a_click_picks_what_the_core_sees_there(show, qtbot, scene):
+    _session, views, widget = show("scene", scene)
+    rested(qtbot, views)
+    presenter = views.scene_presenter
+    size, space = widget.picture_size(), presenter.space
+    assert space is not None
+    viewed, pieces = viewed_scene(
+        space, space.scene, viewing_camera(space, widget.orbit()), size, np.zeros(4)
+    )
+    primitive = render(viewed).primitive
+    primitive = primitive if pieces is None else np.where(primitive < 0, -1, pieces[primitive])
+    rows, columns = np.nonzero(primitive >= 0)
+    handles = [(h.x * size[0], h.y * size[1]) for h in widget.picture().handles]
+    tried = 0
+    for k in range(0, len(rows), max(len(rows) // 12, 1)):
+        column, row = int(columns[k]), int(rows[k])
+        if any(abs(x - column) + abs(y - row) < 30 for x, y in handles):
+            continue
+        told: list[int] = []
+        views.triangle_picked.connect(told.append)
+        QTest.mouseClick(widget, LEFT, NONE, QPoint(column, size[1] - 1 - row))
+        views.triangle_picked.disconnect(told.append)
+        assert told == [primitive[row, column]]
+        tried += 1
+    assert tried > 3
+
+
+def test_a_click_on_nothing_picks_nothing(show, qtbot):
+    _, views, widget = show("scene", "cube")
+    with qtbot.assertNotEmitted(views.triangle_picked):
+        QTest.mouseClick(widget, LEFT, NONE, QPoint(3, 3))
+
+
+def test_dragging_a_vertex_of_a_mesh_moves_it_and_can_be_undone(show, qtbot):
+    session, views, widget = show("scene", "cube", 3)
+    scene = session.document.scene
+    orbit, size = widget.orbit(), widget.picture_size()
+    start = handle_place(widget, 1)
+    drag(widget, start, start + QPoint(20, -12))
+    moved = session.document.scene
+    vertex = int(scene.meshes[0].triangles[3, 1])
+    changed = (moved.meshes[0].positions != scene.meshes[0].positions).any(axis=1)
+    assert np.flatnonzero(changed).tolist() == [vertex]
+    assert moved.size == scene.size
+    points = np.stack([scene.meshes[0].positions[vertex], moved.meshes[0].positions[vertex]])
+    before, after = fractions(views.scene_presenter.space, orbit, size, points)
+    assert (after - before) * size == pytest.approx([20, 12], abs=1e-6)
+    # In the plane that faces the viewer: as far away as before.
+    assert orbit.axes()[2] @ (points[1] - points[0]) == pytest.approx(0, abs=1e-9)
+    assert widget.orbit() == orbit
+    session.undo()
+    assert session.document.scene is scene
+    assert not session.can_undo
+
+
+def test_dragging_a_typed_corner_keeps_its_w_and_moves_what_is_shared(show):
+    session, _views, widget = show("scene", "shared-edge", 0)
+    scene = session.document.scene
+    start = handle_place(widget, 0)
+    drag(widget, start, start + QPoint(-15, 10))
+    moved = session.document.scene
+    assert not np.array_equal(moved.clip[0, 0], scene.clip[0, 0])
+    assert moved.clip[0, 0, 3] == scene.clip[0, 0, 3]
+    together = scene.shared == scene.shared[0, 0]
+    assert (moved.clip[together] == moved.clip[0, 0]).all()
+    assert np.array_equal(moved.clip[~together], scene.clip[~together])
+    session.undo()
+    assert session.document.scene is scene
+
+
+def test_escape_takes_a_drag_back(show):
+    session, _, widget = show("scene", "single-triangle")
+    clip = session.document.scene.clip
+    start = handle_place(widget, 2)
+    QTest.mousePress(widget, LEFT, NONE, start)
+    QTest.mouseMove(widget, start + QPoint(10, 10))
+    QTest.mouseMove(widget, start + QPoint(30, 20))
+    assert not np.allclose(session.document.scene.clip, clip)
+    QTest.keyClick(widget, Qt.Key.Key_Escape)
+    assert np.allclose(session.document.scene.clip, clip)
+
+
+def test_a_corner_behind_the_eye_has_no_handle_in_the_box(show):
+    session, _, widget = show("scene", "single-triangle")
+    clip = session.document.scene.clip.copy()
+    clip[0, 1, 3] = -0.5
+    session.edit(replace(session.document, scene=replace(session.document.scene, clip=clip)))
+    assert [handle.index for handle in widget.picture().handles] == [0, 2]
+    assert np.isfinite(widget.picture().pixels).all()
+
+
+def test_hover_and_pin_are_marked_with_their_rays(show):
+    session, _views, widget = show("scene", "cube")
+    source = session.trace.source
+    column, row = int(source.fragments.column[50]), int(source.fragments.row[50])
+    session.set_pin((column, row))
+    session.set_hover((0, 0))
+    marks = widget.picture().marks
+    assert [mark.label for mark in marks] == [f"pixel ({column}, {row})", "pixel (0, 0)"]
+    assert [mark.shape for mark in marks] == ["ring", "cross"]
+    session.set_pin(None)
+    session.set_hover(None)
+    assert widget.picture().marks == ()
+
+
+def test_a_ray_ends_on_the_surface_that_is_seen(show):
+    from app.views.pixel_ray import pixel_ray
+
+    session, views, _ = show("scene", "cube")
+    source, space = session.trace.source, views.scene_presenter.space
+    rows, columns = np.nonzero(source.picture.primitive >= 0)
+    first_column, first_row, _, _ = source.raster.bounds
+    for k in range(0, len(rows), 60):
+        ray, is_hit = pixel_ray(source, space, int(columns[k]) + first_column, int(rows[k]) + first_row)
+        assert is_hit
+        assert np.abs(ray[1]).max() == pytest.approx(1.0, abs=1e-6)
+
+
+def test_only_the_visible_view_is_drawn(show, qtbot):
+    session, views, clip = show("clip", "single-triangle")
+    others = [widget for name, _, widget in views.widgets if name in ("pyramid", "texture")]
+    session.set_pin((20, 20))
+    assert clip.diagram() is not None
+    assert others[0].diagram() is None
+    others[0].show()
+    qtbot.waitExposed(others[0])
+    assert "(20, 20)" in others[0].diagram().caption
+
+
+def test_views_follow_the_session(show):
+    session, _, widget = show("clip", "near-plane", clipping="sutherland-hodgman")
+    session.set_stage("clip", 0)
+    first = widget.diagram()
+    session.step(1)
+    assert widget.diagram() is not first
+    session.set_stage("transform")
+    assert "Before the first plane" in widget.diagram().caption
+
+
+def test_what_does_not_apply_says_why(show):
+    _, views, widget = show("texture", "single-triangle")
+    assert views.is_available("scene") == (True, "")
+    is_available, reason = views.is_available("texture")
+    assert not is_available
+    assert widget.picture() is None
+    assert widget.accessibleDescription() == reason
+    with pytest.raises(ValueError, match="view must be one of"):
+        views.is_available("nothing")
+
+
+def test_show_brings_a_hidden_view_up_to_date(show):
+    _, views, _ = show("clip", "textured-floor")
+    texture = views.widgets[3][2]
+    assert texture.picture() is None
+    views.show("texture")
+    assert texture.picture() is not None
+
+
+@pytest.mark.parametrize("name", ["torus", "intersecting", "textured-floor"])
+def test_thinned_scenes_keep_the_numbers_of_their_triangles(name):
+    scene = make_scene(name)
+    vertices = transform_vertices(scene)
+    total = len(vertices.corners)
+    few, numbers = thinned(scene, max(total // 7, 1))
+    fewer = transform_vertices(few)
+    assert len(numbers) == len(fewer.corners) <= max(total // 7, 1)
+    assert np.array_equal(fewer.clip[fewer.corners], vertices.clip[vertices.corners[numbers]])
+
+
+def test_a_large_mesh_is_thinned_while_it_is_turned_and_whole_at_rest(show, qtbot):
+    _, views, widget = show("scene", "knot")
+    presenter = views.scene_presenter
+    rested(qtbot, views)
+    assert len(np.unique(presenter.drawn.primitive)) > 2500
+    drag(widget, QPoint(30, 30), QPoint(60, 40))
+    assert presenter.drawn.primitive.shape != presenter.drawn.pixels.shape[:2]
+    rested(qtbot, views)
+
+
+def test_looking_at_the_focus_fills_the_view_with_it(show):
+    _, views, widget = show("scene", "torus", 700)
+    views.look_at_focus()
+    places = np.array([(handle.x, handle.y) for handle in widget.picture().handles])
+    assert ((places > 0) & (places < 1)).all()
+    assert np.ptp(places, axis=0).max() > 0.2

@@ -1,0 +1,247 @@
+"""Traces of wireframes: the rows give the picture, the listings give the rows, groups are edges."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as effort
+from hypothesis import strategies as st
+
+from core import STAGES, ClipScene, Settings, Trace, render, trace
+from core.methods import table
+from core.raster.lines import LISTINGS
+from core.raster.wireframe import interpolate_affine_along, interpolate_along
+from core.steps import Level
+from core.trace import StageTrace
+from core.trace.lines import PIXEL_METHODS
+from core.trace.raster_rows import LINE_OPERATIONS
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from tests.core.trace.trace_cases import SCENES, settings_of, small_region
+
+LINES = list(table.names("line"))
+FOLDED = {"depth": ("depth", "depth"), "primitive": ("depth", "primitive"), "color": ("blend", "color")}
+CHOICES = [
+    {},
+    {"interpolation": "affine", "blend": "over"},
+    {"interpolation": "flat", "visibility": "painters"},
+    {"clipping": "sutherland-hodgman", "depth": "inverse-w"},
+    {"pixel_center": "integer", "visibility": "last-drawn", "cull": "back"},
+]
+
+
+def wireframe(line: str = "bresenham", **choices) -> Settings:
+    return Settings(**{"polygon_mode": "wireframe", "line": line, **choices})
+
+
+def check_fold(traced: Trace, column: int, row: int, columns: int, rows: int) -> None:
+    frame = render(traced.source.scene, traced.source.settings)
+    crop = slice(row, row + rows), slice(column, column + columns)
+    for name, (stage, track) in FOLDED.items():
+        found = traced.stage(stage).state(traced.stage(stage).steps.count)[track]
+        assert found.tobytes() == np.ascontiguousarray(getattr(frame, name)[crop]).tobytes(), name
+    raster = traced.stage("raster")
+    assert np.array_equal(raster.state(raster.steps.count)["overdraw"], frame.cover_count[crop])
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=str)
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("name", list(SCENES))
+def test_all_rows_give_the_picture(name, line, choice):
+    scene = SCENES[name]
+    settings = settings_of({"polygon_mode": "wireframe", "line": line, **choice}, scene)
+    check_fold(trace(scene, settings), 0, 0, *scene.size)
+    check_fold(trace(scene, settings, region=small_region(scene)), *small_region(scene))
+
+
+@effort(max_examples=60)
+@given(ANY_TRIANGLES, st.sampled_from(LINES), st.sampled_from(CHOICES), st.sampled_from([1.0, 1e5]))
+def test_any_triangles(case, line, choice, scale):
+    clip, size = case
+    values = np.linspace(0, 1, clip.size).reshape(clip.shape)
+    scene = ClipScene(clip * np.array([scale, 1, 1, 1]), values, size)
+    traced = trace(scene, wireframe(line, **choice))
+    check_fold(traced, 0, 0, *size)
+    check_chosen_pixels(traced.stage("raster"), traced.source.raster.bounds)
+    check_values(traced.stage("interpolate"), choice.get("interpolation", "perspective"))
+
+
+# Listings
+
+
+def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) -> None:
+    """Run the listing of every segment; its pixels inside the raster are the rows, with the same decisions."""
+    line = found.method.removeprefix("line=")
+    c = found.columns
+    left, bottom, right, top = bounds
+    for segment in np.unique(c["segment"]).tolist():
+        rows = np.flatnonzero(c["segment"] == segment)
+        ends = [*c["first_end"][rows[0]], *c["second_end"][rows[0]]]
+        ends = [int(end) for end in ends] if line in PIXEL_METHODS else ends
+        if max(np.abs(ends)) > 2000:
+            continue
+        listed = LISTINGS[line](*ends, False)
+        inside = [left <= x < right and bottom <= y < top for x, y, _ in listed]
+        index = np.flatnonzero(inside)
+        listed = [listed[k] for k in index]
+        assert [(x, y) for x, y, _ in listed] == list(zip(c["column"][rows], c["row"][rows], strict=True))
+        assert np.array_equal([d for _, _, d in listed], c["decision"][rows], equal_nan=True)
+        assert np.array_equal(index, c["index"][rows])
+
+
+@pytest.mark.parametrize("pixel_center", table.names("pixel_center"))
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("name", ["clip", "lit", "single-triangle", "near-plane"])
+def test_the_listing_executed_gives_the_rows(name, line, pixel_center):
+    traced = trace(SCENES[name], wireframe(line, pixel_center=pixel_center))
+    assert traced.stage("raster").steps.row_count
+    check_chosen_pixels(traced.stage("raster"), traced.source.raster.bounds)
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_the_columns_show_where_a_decision_comes_from(line):
+    found = trace(SCENES["clip"], wireframe(line)).stage("raster")
+    c = found.columns
+    later = c["index"] > 0
+    step = np.where(c["is_steep"], *(c["second_end"] - c["first_end"])[:, ::-1].T)
+    if line in ("bresenham", "bresenham-lecture"):
+        follows = later & ~np.isnan(c["previous"])
+        wanted = c["previous"] + 2 * c["rise"] - 2 * c["run"] * stepped_before(c)
+        assert np.array_equal(c["decision"][follows], wanted[follows])
+    elif line == "midpoint":
+        assert np.array_equal(c["decision"], c["slope"] * c["major"] + c["intercept"])
+    elif line == "dda":
+        follows = ~np.isnan(c["previous"])
+        added = c["previous"] + np.where(step < 0, -1, 1) * c["slope"]
+        assert np.array_equal(c["decision"][follows], added[follows])
+        first = c["index"] == 0
+        assert np.array_equal(c["decision"][first], (c["slope"] * c["major"] + c["intercept"])[first])
+    elif line == "bresenham-float":
+        second = c["index"] == 1
+        assert second.any()
+        assert np.array_equal(c["decision"][second], c["slope"][second])
+    else:
+        assert (c["exit_start"] <= 0.5).all()
+        assert (c["exit_end"] >= 0.5).all()
+        assert (np.abs(c["decision"]) <= 0.5).all()
+
+
+def stepped_before(c) -> np.ndarray:
+    """Whether the row before (of the same segment) stepped."""
+    return np.concatenate([[False], c["has_stepped"][:-1]])
+
+
+def check_values(found: StageTrace, interpolation: str) -> None:
+    c = found.columns
+    for row in range(0, found.steps.row_count, max(found.steps.row_count // 50, 1)):
+        if interpolation == "flat":
+            assert sorted(c["weights"][row].tolist()) == [0, 0, 1]
+            continue
+        t, (first, second) = c["t"][row], c["end_values"][row]
+        if interpolation == "affine":
+            value = interpolate_affine_along(t, first, second)
+        else:
+            total, value = interpolate_along(t, *c["end_w"][row], first, second)
+            assert total == c["total"][row] == c["inverse_w"][row] == c["parts"][row].sum()
+            assert c["s"][row] == c["parts"][row][1] / total
+        assert np.array_equal(value, c["values"][row])
+        assert np.allclose(c["weights"][row] @ c["corner_values"][row], value, atol=1e-9)
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=str)
+@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "orthographic"])
+def test_the_listing_of_interpolation_gives_the_values(name, choice):
+    scene = SCENES[name]
+    settings = settings_of({"polygon_mode": "wireframe", **choice}, scene)
+    found = trace(scene, settings).stage("interpolate")
+    assert found.steps.row_count
+    mode = settings.interpolation
+    assert {found.kind_of(row) for row in range(found.steps.row_count)} == {
+        mode if mode == "flat" else f"line-{mode}"
+    }
+    check_values(found, mode)
+
+
+# Stepping
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_rows_are_the_pixels_of_the_edges_in_order(line):
+    corners = [(1.5, 1.5), (9.5, 3.5), (4.5, 7.5)]
+    scene = ClipScene(clip_of_window([corners], (12, 9)), size=(12, 9))
+    found = trace(scene, wireframe(line)).stage("raster")
+    c, steps = found.columns, found.steps
+    assert c["edge"][np.append(0, steps.group_ends[:-1])].tolist() == [2, 0, 1]
+    assert len(steps.group_ends) == 3
+    assert steps.triangle_ends.tolist() == [steps.row_count]
+    starts = np.append(0, steps.group_ends[:-1])
+    assert [found.kind_of(int(row)) for row in starts] == [f"{line}-start"] * 3
+    others = np.setdiff1d(np.arange(steps.row_count), starts)
+    assert {found.kind_of(int(row)) for row in others} == {line}
+    for group, (first, end) in enumerate(zip(starts, steps.group_ends, strict=True)):
+        assert c["index"][first:end].tolist() == list(range(end - first))
+        assert (np.diff(c["t"][first:end]) * (-1 if c["t"][first] > 0.5 else 1) > 0).all()
+        assert np.allclose(c["window_start"][first], corners[group])
+        assert np.allclose(c["window_end"][first], corners[(group + 1) % 3])
+    assert steps.forward(0, Level.GROUP) == steps.starts[steps.group_ends[0]]
+    assert steps.back(steps.count, Level.GROUP) == steps.starts[steps.group_ends[1]]
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_every_step_names_a_line_of_the_listing_and_numbers_that_there_are(line):
+    found = trace(SCENES["clip"], wireframe(line)).stage("raster")
+    seen = set()
+    for position in range(1, found.steps.count + 1):
+        explanation = found.explain(position)
+        assert explanation is not None
+        assert explanation.listing is not None
+        assert explanation.line > 0, explanation.key
+        assert set(explanation.changed) <= set(explanation.values)
+        numbers = [np.asarray(explanation.values[name], float) for name in explanation.changed]
+        assert all(np.isfinite(number).all() for number in numbers), explanation.key
+        seen.add(explanation.key)
+    first, others = LINE_OPERATIONS[line]
+    wanted = {f"raster.{line}-start.{operation.name}" for operation in first}
+    assert seen == wanted | {f"raster.{line}.{operation.name}" for operation in others}
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=str)
+def test_every_stage_of_a_wireframe_steps_both_ways(choice):
+    traced = trace(SCENES["clip"], wireframe("diamond-exit", **choice))
+    for stage in STAGES:
+        steps = traced.stage(stage).steps
+        for level in Level:
+            boundaries = steps.boundaries(level).tolist()
+            for before, after in zip(boundaries, boundaries[1:], strict=False):
+                assert steps.forward(before, level) == after
+                assert steps.back(after, level) == before
+
+
+def test_marks_and_buffers_of_the_raster():
+    traced = trace(SCENES["clip"], wireframe("bresenham"))
+    found = traced.stage("raster")
+    assert found.marks["covered"].all()
+    assert not found.marks["rejected"].any()
+    assert np.array_equal(found.marks["tie"], found.columns["decision"] == 0)
+    assert found.marks["tie"].any()
+    state = found.state(found.steps.count)
+    assert np.array_equal(state["coverage"] == 1, state["edge"] >= 0)
+    assert np.array_equal(np.isnan(state["coverage"]), np.isnan(state["t"]))
+    assert found.state(0)["edge"].max() == -1
+    assert found.pixel.tolist() == np.stack([found.columns["column"], found.columns["row"]], axis=1).tolist()
+
+
+@pytest.mark.parametrize("fill", table.names("fill"))
+def test_bins_of_a_wireframe_are_boxes_only(fill):
+    traced = trace(SCENES["clip"], wireframe(fill=fill))
+    bins = traced.stage("bin")
+    assert (bins.columns["node"] == -1).all()
+    assert bins.steps.row_count == len(traced.source.geometry.primitives)
+    assert len(traced.source.runs) == 0
+
+
+def test_one_triangle_is_drawn_over_the_outlines_of_the_earlier_ones():
+    scene = SCENES["clip"]
+    last = len(scene.clip) - 1
+    for line in LINES:
+        traced = trace(scene, wireframe(line), last)
+        check_fold(traced, 0, 0, *scene.size)
+        assert set(traced.stage("raster").triangle.tolist()) == {last}
