@@ -1,5 +1,6 @@
 """A | B | difference: the traced picture under the page's settings and under other ones, on the same input."""
 
+from collections.abc import Mapping
 from dataclasses import fields, replace
 
 import numpy as np
@@ -26,8 +27,8 @@ class ComparePresenter(QObject):
     def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._view = session, view
-        self.other = replace(session.document.settings, fill="scanline-lecture")
-        """Settings of B."""
+        self._differences: dict[str, str | int] = {"fill": "scanline-lecture"}
+        """What B does otherwise than A: family and value."""
         self._buffer = "color"
         self._is_active = False
         session.document_changed.connect(self.refresh)
@@ -40,6 +41,11 @@ class ComparePresenter(QObject):
         view.pixel_hovered.connect(self._hover)
         view.pixel_left.connect(self._leave)
         view.pixel_clicked.connect(self._pin)
+
+    @property
+    def other(self) -> Settings:
+        """Settings of B: those of the page, but for what it does otherwise."""
+        return replace(self._session.document.settings, **self._differences)  # type: ignore[arg-type]
 
     def set_active(self, is_active: bool) -> None:
         """Show the comparison from now on, or stop computing it."""
@@ -56,13 +62,14 @@ class ComparePresenter(QObject):
         self._view.show_buffers(BUFFERS, self._buffer)
         self._view.show_settings(settings_records(replace(document, settings=self.other)))
         self._view.show_geometry(geometry_of(document, session.trace))
-        first = source.picture
+        self._view.set_pixel_center(document.settings.pixel_center)
+        origin = source.raster.bounds[:2]
         try:
-            second = TraceSource(source.scene, self.other, source.triangle, source.region).picture
+            second = TraceSource(source.scene, self.other, source.triangle, source.region, source.before).picture
         except ValueError as error:
-            self.edit_refused.emit(str(error))
+            self._view.show_refusal(f"B cannot be drawn: {error}")
             return
-        comparison = compare(first, second, self._buffer, document.settings, self.other, source.raster.bounds[:2])
+        comparison = compare(source.picture, second, self._buffer, document.settings, self.other, origin)
         self._view.show_comparison(comparison)
         self.refresh_pointing()
 
@@ -77,15 +84,16 @@ class ComparePresenter(QObject):
             ]
             self._view.show_pointing(marks[0], marks[1])
 
-    def set_other(self, settings: Settings) -> None:
-        """Choose the settings of B."""
-        self.other = settings
+    def set_differences(self, differences: Mapping[str, str | int]) -> None:
+        """Choose what B does otherwise than the page."""
+        mine = self._session.document.settings
+        self._differences = {f: value for f, value in differences.items() if value != getattr(mine, f)}
         self.refresh()
 
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
         chosen: str | int = int(value) if family == "block_size" else value
-        self.set_other(replace(self.other, **{family: chosen}))  # type: ignore[arg-type]
+        self.set_differences({**self._differences, family: chosen})
 
     @Slot(str)
     def _choose_buffer(self, name: str) -> None:
@@ -94,13 +102,17 @@ class ComparePresenter(QObject):
 
     @Slot()
     def _reset(self) -> None:
-        self.set_other(self._session.document.settings)
+        self.set_differences({})
 
     @Slot()
     def _swap(self) -> None:
-        document = self._session.document
-        other, self.other = self.other, document.settings
-        self._session.edit(replace(document, settings=other))
+        document, other = self._session.document, self.other
+        before, self._differences = self._differences, {f: getattr(document.settings, f) for f in self._differences}
+        try:
+            self._session.edit(replace(document, settings=other))
+        except ValueError as error:
+            self._differences = before
+            self.edit_refused.emit(str(error))
 
     @Slot(int, int)
     def _hover(self, column: int, row: int) -> None:

@@ -14,6 +14,11 @@ TEACHING_LIMIT = (96, 72)
 TEACHING_SIZES = ((8, 6), (16, 12), (24, 16), (32, 24), (48, 36), (64, 48), (96, 72))
 TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
+LONGEST_RUN = 1_500_000
+"""Pixel tests that a trace may have: each keeps all its numbers."""
+TESTS_PER_SECOND = 250_000
+TRIANGLES_PER_SECOND = 600_000
+"""How fast pixels are traced and triangles transformed, roughly: what takes long is done off the GUI thread."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +76,38 @@ class Document:
         if self.raster.origin is None:
             return None
         return (*self.raster.origin, self.raster.columns, self.raster.rows)
+
+    @property
+    def most_tests(self) -> int:
+        """Pixel tests of a trace at most where every pixel is tested, else a guess."""
+        triangles = self.triangle_count if self.triangle is None else 1
+        pixels = self.raster.columns * self.raster.rows
+        if self.settings.fill == "brute-force" and self.settings.polygon_mode == "fill":
+            return triangles * pixels
+        return min(triangles, 60) * pixels // 4
+
+    @property
+    def estimated_seconds(self) -> float:
+        """How long tracing takes, roughly."""
+        drawn = self.triangle_count
+        if self.settings.fill == "brute-force":
+            # The buffers that earlier triangles left are drawn as well, without being kept.
+            drawn += self.triangle_count * self.raster.columns * self.raster.rows // 20
+        return drawn / TRIANGLES_PER_SECOND + self.most_tests / TESTS_PER_SECOND
+
+    def check_length(self) -> None:
+        """Refuse a run that has too many steps to be kept.
+
+        Raises
+        ------
+        ValueError
+            With what to do about it.
+        """
+        if self.most_tests > LONGEST_RUN:
+            raise ValueError(
+                f"Testing every pixel for all {self.triangle_count:,} triangles makes {self.most_tests:,} steps, "
+                f"and {LONGEST_RUN:,} can be kept: bring one triangle into focus, or choose another fill."
+            )
 
     def make_trace(self, settings: Settings | None = None) -> Trace:
         """Prepare the trace, under other settings if they are given."""

@@ -22,11 +22,12 @@ def paint_alone(widget: QWidget, painter: QPainter, *, as_vectors: bool = True) 
     Notes
     -----
     Typeset formulas go in as pictures: Qt draws them with outlines on anything but a screen. A pixel grid
-    sets its own clipping, so where a part of it is hidden (``as_vectors`` false) it goes in as on the screen.
+    sets its own clipping, so where a part of it is hidden (``as_vectors`` false) it goes in as one too.
     """
-    if isinstance(widget, GridDisplay) and draws_vectors(widget) and as_vectors:
+    is_grid = isinstance(widget, GridDisplay) and draws_vectors(widget)
+    if isinstance(widget, GridDisplay) and is_grid and as_vectors:
         widget.paint_to(painter)
-    elif isinstance(widget, FormulaView):
+    elif is_grid or isinstance(widget, FormulaView):
         painter.drawImage(QRectF(widget.rect()), seen_image(widget, SHARPNESS))
     else:
         widget.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)

@@ -1,11 +1,14 @@
 """The inspector: what the step just done did, in words, formula, listing and variables; and the pixel's history."""
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QLabel
 
 from app.pixel_stories import story_of
 from app.session import Session
 from app.stepping_presenter import SteppingPresenter
+from core import STAGES
 from core.listing import Listing
 from core.steps import Level
 from widgets.formula import FormulaView
@@ -41,6 +44,10 @@ class InspectorPresenter(QObject):
         self._function = ""
         self._stage = ""
         self._triangles: list[int | None] = []
+        self._told: tuple[object, ...] = ()
+        """What the history shows: it is made anew only if this changes."""
+        self._is_hidden = False
+        self._folded = set(STAGES)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)
@@ -48,6 +55,7 @@ class InspectorPresenter(QObject):
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
+        card.card_folded.connect(self._fold)
         self.refresh_run()
 
     @Slot()
@@ -65,15 +73,18 @@ class InspectorPresenter(QObject):
         if cursor.stage != self._stage:
             self._stage = cursor.stage
             self._card.show_card(stage_card(cursor.stage, trace.method))
+            self._card.show_folded(cursor.stage in self._folded)
         self._sentence.setText(self.sentence())
         explanation = trace.explain(cursor.position)
         if explanation is None:
+            self._formula.show_hint("The formula of each step appears here.")
             self._formula.show_formula(None)
             self._variables.show_variables([])
             first = trace.explain(1)
             self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
             return
+        self._formula.show_hint("This step decides or copies; it has no formula.")
         self._formula.show_formula(formula(explanation))
         self._variables.show_variables(step_variables(explanation))
         self._show_listing(explanation.listing)
@@ -105,17 +116,42 @@ class InspectorPresenter(QObject):
 
     @Slot()
     def refresh_history(self) -> None:
-        """Show the history of the pinned pixel, or of the one under the pointer."""
-        if not self._history.isVisible() and self._session.pin is None:
+        """Show the history of the pinned pixel, or of the one under the pointer, if the pane is in sight."""
+        if not self._history.isVisible():
             return
-        pixel = self._session.pin or self._session.hover
-        if pixel is None or not self._session.has_pixel(pixel):
+        session = self._session
+        pixel = session.pin or session.hover
+        if pixel is not None and (self._is_hidden or not session.has_pixel(pixel)):
+            pixel = None
+        told = (pixel, session.trace if pixel else None)
+        if told == self._told:
+            return
+        self._told = told
+        if pixel is None:
             self._history.show_story(None)
             self._triangles = []
             return
-        focus = self._session.document.triangle
-        story, self._triangles = story_of(self._session.trace.source, *pixel, focus)
+        story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)
         self._history.show_story(story)
+
+    @Slot(bool)
+    def hide_history(self, is_hidden: bool) -> None:
+        """Tell no history, as it would give the answer to a question away."""
+        self._is_hidden = is_hidden
+        self.refresh_history()
+
+    def folded(self) -> list[str]:
+        """Return the stages whose card is folded."""
+        return sorted(self._folded, key=STAGES.index)
+
+    def set_folded(self, stages: Iterable[str]) -> None:
+        """Fold the cards of these stages, and open the others."""
+        self._folded = set(stages) & set(STAGES)
+        self._card.show_folded(self._session.cursor.stage in self._folded)
+
+    @Slot(bool)
+    def _fold(self, is_folded: bool) -> None:
+        (self._folded.add if is_folded else self._folded.discard)(self._session.cursor.stage)
 
     @Slot(int)
     def _go_to_event(self, index: int) -> None:

@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass, replace
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Signal, Slot
 
 from app.document import Document
 from app.history import History
+from app.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_now
 from core import STAGES, Settings, Trace
 from core.steps import Level
 from core.trace import Explanation, StageTrace
@@ -32,9 +33,15 @@ class Session(QObject):
     hover_changed = Signal()
     history_changed = Signal()
     """What can be undone, redone or gone back to."""
+    edit_failed = Signal(object)
+    """Why an edit that was traced in the background came to nothing: the exception."""
 
     def __init__(self, document: Document, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self.tracing = Tracing(self)
+        """What traces large documents in the background."""
+        self.tracing.traced.connect(self._take_traced)
+        self.tracing.failed.connect(self.edit_failed)
         self._history = History(document)
         self._cursor = Cursor()
         self._visited = History(self._cursor)
@@ -79,15 +86,33 @@ class Session(QObject):
 
     # Editing.
 
-    def open(self, document: Document) -> None:
-        """Show another document; undo leads back to the one before."""
-        self._pin = None
-        self._hover = None
-        self._put(document)
+    def open(self, document: Document, trace: Trace | None = None) -> None:
+        """Show another document, with its trace if that is there already; undo leads back to the one before.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be traced; everything stays as it was.
+        """
+        self.tracing.cancel()
+        if trace is None:
+            trace = trace_now(document, self._cursor.stage)
+        self._history.seal()
+        self._history.put(document)
+        self._pin = self._hover = None
+        self._document_replaced(trace)
         self.pin_changed.emit()
 
     def edit(self, document: Document, gesture: str = "") -> None:
-        """Take over an edited document; edits of one ``gesture`` are undone together."""
+        """Take over an edited document; edits of one ``gesture`` are undone together.
+
+        What takes long is traced in the background, and taken over when that is done.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be traced; everything stays as it was.
+        """
         if document is not self.document:
             self._put(document, gesture)
 
@@ -96,7 +121,7 @@ class Session(QObject):
         self._history.seal()
 
     def set_setting(self, family: str, value: str | int) -> None:
-        """Choose a method (or the block size)."""
+        """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
         settings: Settings = replace(self.document.settings, **{family: value})  # type: ignore[arg-type]
         if settings != self.document.settings:
             self._put(replace(self.document, settings=settings))
@@ -124,19 +149,41 @@ class Session(QObject):
         return self._history.can_redo
 
     def _put(self, document: Document, gesture: str = "") -> None:
-        trace = document.make_trace()
-        trace.stage(self._cursor.stage)
+        stage = self._cursor.stage
+        if document.estimated_seconds > QUICK_SECONDS:
+            document.check_length()
+            self.tracing.start(Order(document, gesture, stage))
+            return
+        # An edit that is ready takes the place of one that is still being traced.
+        self.tracing.cancel()
+        self._take(document, gesture, trace_now(document, stage))
+
+    @Slot(object)
+    def _take_traced(self, traced: Traced) -> None:
+        self._take(traced.order.document, traced.order.gesture, traced.trace)
+
+    def _take(self, document: Document, gesture: str, trace: Trace) -> None:
         self._history.put(document, gesture)
         self._document_replaced(trace)
 
     def _document_replaced(self, trace: Trace | None = None) -> None:
+        if trace is None:
+            self.tracing.cancel()
+            trace = trace_now(self.document, self._cursor.stage)
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
-        self._trace = trace or self.document.make_trace()
+        self._trace = trace
         count = self.stage_trace.steps.count
         position = count if was_at_end else min(self._cursor.position, count)
         self._cursor = replace(self._cursor, position=position)
+        has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
+        if has_lost_pin:
+            self._pin = None
+        if self._hover is not None and not self.has_pixel(self._hover):
+            self._hover = None
         self.document_changed.emit()
         self.cursor_changed.emit()
+        if has_lost_pin:
+            self.pin_changed.emit()
         self.history_changed.emit()
 
     # Stepping.

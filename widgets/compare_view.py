@@ -134,6 +134,20 @@ class CompareView(QWidget):
         self.grids[2].show_overlays(comparison.marks)
         self.summary.setText(comparison.summary)
 
+    def show_refusal(self, text: str) -> None:
+        """Show no pictures, and why."""
+        for grid in self.grids:
+            grid.show_buffer(None)
+            grid.show_overlays(())
+        for label, title in zip(self.titles, ("A", "B", "Difference"), strict=True):
+            label.setText(title)
+        self.summary.setText(text)
+
+    def set_pixel_center(self, pixel_center: str) -> None:
+        """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
+        for grid in self.grids:
+            grid.set_pixel_center(pixel_center)
+
     def show_geometry(self, geometry: GridGeometry | None) -> None:
         """Show the triangles in all grids."""
         for grid in self.grids:

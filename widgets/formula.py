@@ -42,6 +42,7 @@ class FormulaView(QWidget):
         super().__init__(parent)
         self._typesetter = typesetter or _SHARED
         self._formula: Formula | None = None
+        self._hint = "The formula of each step appears here."
         self._shown_at = -math.inf
         self._lines: tuple[Line, ...] = ()
         self._catch_up_timer = QTimer(self)
@@ -70,6 +71,13 @@ class FormulaView(QWidget):
         self._formula = formula
         self._rebuild()
         self._shown_at = time.perf_counter()
+
+    @Slot(str)
+    def show_hint(self, text: str) -> None:
+        """Say this where there is no formula."""
+        if text != self._hint:
+            self._hint = text
+            self.update()
 
     def is_complete(self) -> bool:
         """Whether everything shown is typeset (nothing waits for the event loop)."""
@@ -135,9 +143,7 @@ class FormulaView(QWidget):
         if self._formula is None:
             painter.setPen(QColor(current_theme().muted_text))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-            painter.drawText(
-                self.rect().adjusted(8, 0, -8, 0), flags, "The formula of each step appears here."
-            )
+            painter.drawText(self.rect().adjusted(8, 0, -8, 0), flags, self._hint)
             return
         width, height = extent(self._lines)
         room = (self.width() - 2 * MARGIN, self.height() - 2 * MARGIN)

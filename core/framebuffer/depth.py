@@ -52,6 +52,11 @@ def as_float32(depth: Floats) -> Singles:
         return depth.astype(np.float32) + np.float32(0)
 
 
+def not_behind_eye(inverse_w: Floats) -> Singles:
+    """Round 1/w to float32, 0 where it is negative or NaN."""
+    return as_float32(np.fmax(inverse_w, 0.0))
+
+
 @method(
     "depth",
     "z-float32",
@@ -75,8 +80,13 @@ def z_float32() -> DepthFormat:
     needs=("perspective",),
 )
 def inverse_w() -> DepthFormat:
-    """Store 1/w, which is linear over the window; larger is nearer."""
-    return DepthFormat("inverse-w", 0.0, True, as_float32)
+    """Store 1/w, which is linear over the window; larger is nearer.
+
+    Notes
+    -----
+    At a pixel that only the snapped corners cover 1/w may come out negative: behind the eye, stored as 0, not seen.
+    """
+    return DepthFormat("inverse-w", 0.0, True, not_behind_eye)
 
 
 def clamp_depth(depth: Floats, is_in_range: Flags) -> tuple[Floats, Flags]:

@@ -89,7 +89,7 @@ def trace(
     if before not in ("earlier", "cleared"):
         raise ValueError(f"before must be earlier or cleared, got {before}")
     source = TraceSource(scene, settings or Settings(), triangle, region, before)
-    if 0 in source.raster.shape:
+    if min(source.raster.shape) <= 0:
         width, height = scene.size
         raise ValueError(f"region must contain pixels of the {width}x{height} image, got {region}")
     return Trace(source)

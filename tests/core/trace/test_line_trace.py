@@ -1,5 +1,7 @@
 """Traces of wireframes: the rows give the picture, the listings give the rows, groups are edges."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -210,7 +212,7 @@ def test_every_stage_of_a_wireframe_steps_both_ways(choice):
         steps = traced.stage(stage).steps
         for level in Level:
             boundaries = steps.boundaries(level).tolist()
-            for before, after in zip(boundaries, boundaries[1:], strict=False):
+            for before, after in pairwise(boundaries):
                 assert steps.forward(before, level) == after
                 assert steps.back(after, level) == before
 
