@@ -51,7 +51,7 @@ SYSTEM: str = sys.platform
 UNIX_SOCKETS: int = getattr(socket, "AF_UNIX", 0)  # Windows has none, and is not asked for a display
 RUN_PINS = ("requirements.txt",)
 TEST_PINS = ("requirements.txt", "requirements-gpu.txt", "requirements-test.txt")
-HEADLESS_COMMANDS = ("render", "trace", "methods", "screenshot")
+HEADLESS_COMMANDS = ("render", "trace", "methods", "scenes", "screenshot", "opengl-check")
 ANSWERING_OPTIONS = ("-h", "--help", "--version")
 USAGE = """usage: python3 bootstrap.py run [FILE | arguments of the program]
        python3 bootstrap.py test [arguments of pytest]

@@ -3,7 +3,10 @@
 import argparse
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
 
 from app.cli import PROGRAM, UsageError
 from app.open_any import Opened, open_any
@@ -70,6 +73,24 @@ def open_file(options: argparse.Namespace) -> Opened:
     for warning in opened.warnings:
         print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
     return opened
+
+
+@contextmanager
+def overflow_told() -> Iterator[None]:
+    """Tell in one line, at the end, if numbers got too large in the block; nothing stops for that."""
+    problems: set[str] = set()
+
+    def note(problem: str, flag: int) -> None:
+        problems.add(problem)
+
+    with np.errstate(over="call", invalid="call", divide="call", call=note):
+        yield
+    if problems:
+        print(
+            f"{PROGRAM}: warning: some numbers are too large or too small to reckon with "
+            f"({', '.join(sorted(problems))}); what depends on them is undefined",
+            file=sys.stderr,
+        )
 
 
 def show_progress(fraction: float | None, doing: str) -> None:

@@ -9,7 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from app.cli import UsageError
-from app.cli_arguments import add_file, add_settings, chosen_settings, open_file, size_from_text
+from app.cli_arguments import (
+    add_file,
+    add_settings,
+    chosen_settings,
+    open_file,
+    overflow_told,
+    size_from_text,
+)
 from app.document import Document, focus_on
 from app.file_writing import whole_file
 from app.open_any import Opened
@@ -82,8 +89,9 @@ def run(options: argparse.Namespace) -> int:
     if options.format == "npz" and options.output is None:
         raise UsageError("argument --format: npz needs a file, -o PATH")
     opened = open_file(options)
-    traced = make_trace(opened, options)
-    stage = traced.stage(options.stage)
+    with overflow_told():
+        traced = make_trace(opened, options)
+        stage = traced.stage(options.stage)
     if options.format == "npz":
         with whole_file(options.output) as file:
             np.savez(file, **arrays(stage))  # type: ignore[arg-type]

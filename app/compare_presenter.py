@@ -1,7 +1,8 @@
 """A | B | difference: the traced picture under the page's settings and under other ones, on the same input."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
@@ -9,6 +10,8 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.grid_records import geometry_of
 from app.scene_presenter import FAMILY_TITLES, settings_records
 from app.session import Session
+from app.tracing import QUICK_SECONDS
+from app.workers import Job, Progress
 from core import Frame, Settings
 from core.methods import table
 from core.trace import TraceSource
@@ -16,7 +19,12 @@ from widgets.compare_view import CompareView, Comparison
 from widgets.grid_buffer import BufferKind, GridBuffer, number_text
 from widgets.grid_overlay import Mark, MaskOverlay
 
-BUFFERS = (("color", "Colour"), ("primitive", "Triangles"), ("depth", "Depth"), ("cover_count", "Cover count"))
+BUFFERS = (
+    ("color", "Colour"),
+    ("primitive", "Triangles"),
+    ("depth", "Depth"),
+    ("cover_count", "Cover count"),
+)
 
 
 class ComparePresenter(QObject):
@@ -31,6 +39,9 @@ class ComparePresenter(QObject):
         """What B does otherwise than A: family and value."""
         self._buffer = "color"
         self._is_active = False
+        self._job = Job(self)
+        self._job.succeeded.connect(self._show)
+        self._job.failed.connect(self._refuse)
         session.document_changed.connect(self.refresh)
         session.pin_changed.connect(self.refresh_pointing)
         session.hover_changed.connect(self.refresh_pointing)
@@ -63,15 +74,35 @@ class ComparePresenter(QObject):
         self._view.show_settings(settings_records(replace(document, settings=self.other)))
         self._view.show_geometry(geometry_of(document, session.trace))
         self._view.set_pixel_center(document.settings.pixel_center)
-        origin = source.raster.bounds[:2]
-        try:
-            second = TraceSource(source.scene, self.other, source.triangle, source.region, source.before).picture
-        except ValueError as error:
-            self._view.show_refusal(f"B cannot be drawn: {error}")
+        other = TraceSource(source.scene, self.other, source.triangle, source.region, source.before)
+        self._job.cancel()
+        if replace(document, settings=self.other).estimated_seconds > QUICK_SECONDS:
+            self._view.show_refusal("B is being drawn …")
+            self._job.start(partial(_draw, other))
             return
-        comparison = compare(source.picture, second, self._buffer, document.settings, self.other, origin)
+        try:
+            self._show(other)
+        except ValueError as error:
+            self._refuse(error)
+
+    @Slot(object)
+    def _show(self, other: TraceSource) -> None:
+        """Show both pictures and their difference."""
+        document, source = self._session.document, self._session.trace.source
+        origin = source.raster.bounds[:2]
+        comparison = compare(
+            source.picture, other.picture, self._buffer, document.settings, self.other, origin
+        )
         self._view.show_comparison(comparison)
         self.refresh_pointing()
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        self._view.show_refusal(f"B cannot be drawn: {error}")
+
+    def stop(self) -> None:
+        """End drawing in the background."""
+        self._job.shut_down()
 
     @Slot()
     def refresh_pointing(self) -> None:
@@ -107,7 +138,10 @@ class ComparePresenter(QObject):
     @Slot()
     def _swap(self) -> None:
         document, other = self._session.document, self.other
-        before, self._differences = self._differences, {f: getattr(document.settings, f) for f in self._differences}
+        before, self._differences = (
+            self._differences,
+            {f: getattr(document.settings, f) for f in self._differences},
+        )
         try:
             self._session.edit(replace(document, settings=other))
         except ValueError as error:
@@ -129,6 +163,12 @@ class ComparePresenter(QObject):
         self._session.set_pin((column + first_column, row + first_row))
 
 
+def _draw(source: TraceSource, progress: Progress, is_cancelled: Callable[[], bool]) -> TraceSource:
+    """Draw the picture of B in a thread."""
+    assert source.picture is not None
+    return source
+
+
 def compare(
     first: Frame, second: Frame, buffer: str, mine: Settings, other: Settings, origin: tuple[int, int]
 ) -> Comparison:
@@ -147,7 +187,10 @@ def compare(
     summary = f"{count:,} of {differs.size:,} pixels differ"
     if buffer == "primitive":
         amount = differs.astype(float)
-        summary += f"; {int(np.count_nonzero((a >= 0) & (b < 0)))} only in A, {int(np.count_nonzero((a < 0) & (b >= 0)))} only in B"
+        in_a, in_b = a >= 0, b >= 0
+        summary += (
+            f"; {np.count_nonzero(in_a & ~in_b):,} only in A, {np.count_nonzero(in_b & ~in_a):,} only in B"
+        )
     elif count:
         summary += f"; largest difference {number_text(float(np.abs(amount).max()))}"
     return Comparison(

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QWidget
 
 from widgets.formula import FormulaView
 from widgets.grid_display import GridDisplay
+from widgets.texture_view import TextureView
 
 SHARPNESS = 4.0
 """Pixels, to a logical pixel, of what cannot be drawn as vectors."""
@@ -21,13 +22,14 @@ def paint_alone(widget: QWidget, painter: QPainter, *, as_vectors: bool = True) 
 
     Notes
     -----
-    Typeset formulas go in as pictures: Qt draws them with outlines on anything but a screen. A pixel grid
-    sets its own clipping, so where a part of it is hidden (``as_vectors`` false) it goes in as one too.
+    Typeset formulas go in as pictures, because Qt draws them with outlines on anything but a screen, and
+    textures, because its SVG writer knows no scaled patterns. A pixel grid sets its own clipping, so where a
+    part of it is hidden (``as_vectors`` false) it goes in as a picture too.
     """
     is_grid = isinstance(widget, GridDisplay) and draws_vectors(widget)
     if isinstance(widget, GridDisplay) and is_grid and as_vectors:
         widget.paint_to(painter)
-    elif is_grid or isinstance(widget, FormulaView):
+    elif is_grid or isinstance(widget, FormulaView | TextureView):
         painter.drawImage(QRectF(widget.rect()), seen_image(widget, SHARPNESS))
     else:
         widget.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)

@@ -8,14 +8,18 @@ import re
 from collections.abc import Iterator
 from html import escape
 from itertools import count
+from math import ceil
 from typing import Any
 
 from PySide6.QtCore import QBuffer, QIODevice, QPoint, QRect, QRectF
-from PySide6.QtGui import QImage, QPainter
+from PySide6.QtGui import QBrush, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QWidget
 
 from app.export_paint import draws_vectors, paint_alone, shown_children
+
+LARGEST = 4096
+"""Pixels each way of an enlarged picture."""
 
 _BODY = re.compile(r"<svg[^>]*>(?P<body>.*)</svg>", re.DOTALL)
 _DESCRIPTION = re.compile(r"<(title|desc)>.*?</\1>\n?", re.DOTALL)
@@ -79,11 +83,28 @@ def _with_fallback(found: re.Match[str]) -> str:
 
 
 class _SvgPainter(QPainter):
-    """A painter that cuts pictures to the part that is wanted; Qt's SVG writer would draw all of them."""
+    """A painter that does what Qt's SVG writer leaves out: parts of pictures, and where a pattern begins."""
+
+    def fillRect(self, *arguments: Any) -> None:
+        """Fill a rectangle; the tiles of a pattern begin at the brush's origin."""
+        if len(arguments) == 2 and isinstance(arguments[0], QRectF) and isinstance(arguments[1], QBrush):
+            origin = self.brushOrigin()
+            self.save()
+            self.translate(origin)
+            super().fillRect(arguments[0].translated(-origin), arguments[1])
+            self.restore()
+        else:
+            super().fillRect(*arguments)
 
     def drawImage(self, *arguments: Any) -> None:
-        """Draw a picture or a part of it."""
+        """Draw a picture or a part of it; cells are enlarged, as some programs blur what they enlarge."""
         if len(arguments) == 3 and isinstance(arguments[1], QImage) and isinstance(arguments[2], QRectF):
             target, image, part = arguments
-            arguments = (target, image.copy(part.toAlignedRect()))
+            image = image.copy(part.toAlignedRect())
+            if not self.testRenderHint(QPainter.RenderHint.SmoothPixmapTransform):
+                times = min(
+                    ceil(2 * target.width() / image.width()), LARGEST // max(image.width(), image.height())
+                )
+                image = image.scaled(image.size() * max(times, 1))
+            arguments = (target, image)
         super().drawImage(*arguments)

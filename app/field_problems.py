@@ -1,5 +1,6 @@
 """What is wrong with a file of named fields, as one sentence: which field, what was wanted, what came."""
 
+import re
 from typing import Any
 
 from pydantic import ValidationError
@@ -8,18 +9,27 @@ SHOWN = 60
 """Characters of a wrong value that are shown."""
 
 
-def field_problem(error: ValidationError) -> str:
-    """Return the first problem of a validation as a sentence without its full stop."""
+def field_problem(error: ValidationError, union: str = "") -> str:
+    """Return the first problem of a validation as a sentence without its full stop.
+
+    Parameters
+    ----------
+    union : str
+        Field of several kinds; pydantic names the kind behind it, as if it were a field.
+    """
     problems = error.errors(include_url=False)
     first = problems[0]
-    where = ".".join(str(part) for part in first["loc"]) or "the file"
+    parts = [str(part) for part in first["loc"]]
+    if union and union in parts:
+        del parts[parts.index(union) + 1 : parts.index(union) + 2]
+    where = ".".join(parts) or "the file"
     more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
     if first["type"] == "missing":
         return f"{where} is missing{more}"
     if first["type"] == "extra_forbidden":
         return f"{where} is not a known field{more}"
     message = first["msg"].removeprefix("Value error, ").removeprefix("Assertion failed, ")
-    message = message.replace("Input should be", "must be")
+    message = re.sub(r"^\w+ should ", "must ", message)
     message = message[:1].lower() + message[1:]
     if first["type"] in ("value_error", "assertion_error"):
         return f"{where}: {message}{more}"

@@ -3,11 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import QObject, Signal, Slot
 
 from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
 from app.scene_edits import move_corner
 from app.session import Session
+from core.arrays import Integers
 from core.steps import Level
 from widgets.buffer_strip import BufferStrip
 from widgets.grid_buffer import GridBuffer
@@ -18,12 +19,17 @@ from widgets.range_control import RangeControl
 
 HIGHLIGHT_LIMIT = 4096
 """Pixels of a step that are outlined."""
+RESULTS = ("picture", "triangles")
+"""Buffers that show how everything ends, in every stage."""
 DEFAULT_OVERLAYS = {"bin": frozenset({"blocks"}), "raster": frozenset({"tie", "nan", "spans"})}
 """Overlays that are on at first, by stage."""
 
 
 class GridPresenter(QObject):
     """Shows buffers, overlays and triangles of the session; takes hover, pin and drags back to it."""
+
+    edit_refused = Signal(str)
+    """Why a drag did nothing."""
 
     def __init__(
         self,
@@ -41,12 +47,11 @@ class GridPresenter(QObject):
         self._own_ranges: dict[str, tuple[float, float]] = {}
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
         self._drags = 0
-        self.drag_error = ""
-        """Why the last drag did nothing."""
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_pointing)
         session.hover_changed.connect(self.refresh_pointing)
+        session.predicting_changed.connect(self.refresh_step)
         for widget in (grid, strip):
             widget.pixel_hovered.connect(self._hover)
             widget.pixel_left.connect(self._leave)
@@ -59,6 +64,7 @@ class GridPresenter(QObject):
         legend.overlays_changed.connect(self._choose_overlays)
         ranges.range_changed.connect(self._choose_range)
         ranges.range_reset.connect(self._reset_range)
+        ranges.fitting_changed.connect(self._keep_fitting)
         self._stage = ""
         self.refresh_run()
 
@@ -96,6 +102,16 @@ class GridPresenter(QObject):
         pixels = self._step_pixels()
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
+        self._hide_results(buffers, main)
+
+    def _hide_results(self, buffers: list[GridBuffer], main: GridBuffer) -> None:
+        """Cover the finished picture while it is to be predicted."""
+        is_hidden = self._session.is_predicting
+        everything = np.ones((main.rows, main.columns), bool) if is_hidden else None
+        for buffer in buffers:
+            if buffer.name in RESULTS:
+                self._strip.show_covered(buffer.name, everything)
+        self._grid.show_hidden(everything if main.name in RESULTS else None)
 
     @Slot()
     def refresh_pointing(self) -> None:
@@ -121,7 +137,7 @@ class GridPresenter(QObject):
             found.append(lines)
         return found
 
-    def _step_pixels(self) -> np.ndarray | None:
+    def _step_pixels(self) -> Integers | None:
         """Return the pixels of the step just done, in the grid's columns and rows."""
         session = self._session
         trace, cursor = session.stage_trace, session.cursor
@@ -139,9 +155,12 @@ class GridPresenter(QObject):
         else:
             pixels = trace.pixel[first : row + 1]
             pixels = pixels[pixels[:, 0] >= 0][:HIGHLIGHT_LIMIT]
-        return pixels - np.array([first_column, first_row])
+        found: Integers = pixels - np.array([first_column, first_row])
+        return found
 
     def _ranged(self, buffer: GridBuffer) -> GridBuffer:
+        if self._ranges.keeps_fitting() and buffer.name not in self._own_ranges:
+            return replace(buffer, range=None)
         chosen = self._own_ranges.get(buffer.name)
         return replace(buffer, range=chosen) if chosen else buffer
 
@@ -193,6 +212,12 @@ class GridPresenter(QObject):
             self._own_ranges.pop(buffer.name, None)
             self.refresh_step()
 
+    @Slot(bool)
+    def _keep_fitting(self, is_kept: bool) -> None:
+        if is_kept:
+            self._own_ranges.clear()
+        self.refresh_step()
+
     @Slot(int, float, float)
     def _drag(self, vertex: int, x: float, y: float) -> None:
         document = self._session.document
@@ -202,10 +227,9 @@ class GridPresenter(QObject):
         size = document.traced_scene.size
         try:
             scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)
+            self._session.edit(replace(document, scene=scene), f"drag {self._drags}")
         except ValueError as error:
-            self.drag_error = str(error)
-            return
-        self._session.edit(replace(document, scene=scene), f"drag {self._drags}")
+            self.edit_refused.emit(f"The vertex was not moved: {error}")
 
     @Slot(int)
     def _end_drag(self, vertex: int) -> None:

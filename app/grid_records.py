@@ -142,11 +142,11 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
     if stage.stage == "raster":
         overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
         overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
-        values = stage.columns["values"][:done]
-        for k in range(3):
-            overlays.append(
-                MaskOverlay(f"outside {k}", EDGE_MARKS[k], mask(values[:, k] < 0), f"outside edge {k}")
-            )
+        if "values" in stage.columns:
+            values = stage.columns["values"][:done]
+            for k in range(3):
+                outside = mask(values[:, k] < 0)
+                overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, f"outside edge {k}"))
         overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), "on an edge"))
         counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
         overlays.append(CountOverlay("overdraw", counted))

@@ -46,12 +46,12 @@ class InspectorPresenter(QObject):
         self._triangles: list[int | None] = []
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
-        self._is_hidden = False
         self._folded = set(STAGES)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)
         session.hover_changed.connect(self.refresh_history)
+        session.predicting_changed.connect(self.refresh_history)
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
@@ -121,7 +121,7 @@ class InspectorPresenter(QObject):
             return
         session = self._session
         pixel = session.pin or session.hover
-        if pixel is not None and (self._is_hidden or not session.has_pixel(pixel)):
+        if pixel is not None and (session.is_predicting or not session.has_pixel(pixel)):
             pixel = None
         told = (pixel, session.trace if pixel else None)
         if told == self._told:
@@ -133,12 +133,6 @@ class InspectorPresenter(QObject):
             return
         story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)
         self._history.show_story(story)
-
-    @Slot(bool)
-    def hide_history(self, is_hidden: bool) -> None:
-        """Tell no history, as it would give the answer to a question away."""
-        self._is_hidden = is_hidden
-        self.refresh_history()
 
     def folded(self) -> list[str]:
         """Return the stages whose card is folded."""

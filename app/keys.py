@@ -31,7 +31,18 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES = (
     "Files",
 )
 
-_STAGE_TITLES = ("Transform", "Cull", "Clip", "Edge functions", "Bin", "Raster", "Interpolate", "Shade", "Depth", "Blend")
+_STAGE_TITLES = (
+    "Transform",
+    "Cull",
+    "Clip",
+    "Edge functions",
+    "Bin",
+    "Raster",
+    "Interpolate",
+    "Shade",
+    "Depth",
+    "Blend",
+)
 
 ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("step_forward", ("Right",), "Step forward", STEPPING, "Step"),
@@ -78,14 +89,25 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
     KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
-    KeyAction("presenter", ("Ctrl+Shift+P",), "Presenter: full screen, large type", VIEWING, "View", is_checkable=True),
+    KeyAction(
+        "presenter",
+        ("Ctrl+Shift+P",),
+        "Presenter: full screen, large type",
+        VIEWING,
+        "View",
+        is_checkable=True,
+    ),
     KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
     KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
     KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
-    KeyAction("toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True),
+    KeyAction(
+        "toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True
+    ),
     KeyAction("focus_all", ("A",), "Step all triangles", EDITING, "Raster"),
-    KeyAction("toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True),
+    KeyAction(
+        "toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True
+    ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
     KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),

@@ -1,13 +1,15 @@
-"""Predict, then reveal: asks about the step that comes next, or about coverage as a whole, and says at once if it is right."""
+"""Predict, then reveal: asks about the next step, or about coverage as a whole, and says at once what is right."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isclose, isfinite
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.grid_records import grid_buffer
 from app.session import Session
+from core.steps import Level
 from core.trace import StageTrace
 from core.trace.stage_trace import Value
 from widgets.grid_buffer import number_text
@@ -31,8 +33,6 @@ class Asked:
 
 class PredictionPresenter(QObject):
     """Runs the questions while it is active."""
-
-    active_changed = Signal(bool)
 
     def __init__(
         self, session: Session, view: PredictionView, grid: PixelGrid, parent: QObject | None = None
@@ -61,13 +61,13 @@ class PredictionPresenter(QObject):
         self._right = self._count = 0
         self._found.clear()
         self._view.show_count(0, 0)
-        self.active_changed.emit(is_active)
+        self._session.set_predicting(is_active)
         if is_active:
             self._ask()
         else:
             self._asked = None
+            self._grid.set_brush(False)
             self._view.show_question(None)
-            self._grid.show_hidden(None)
 
     def _ask(self) -> None:
         """Ask about the next row of the stage, or about coverage as a whole before the first one."""
@@ -75,26 +75,34 @@ class PredictionPresenter(QObject):
         if trace.stage == "raster" and cursor.position == 0:
             self._asked = None
             self._found.clear()
-            text = "Click the pixels that are covered. Each click is judged at once; step forward to be asked one by one."
+            text = "Click the pixels that are covered, each is judged at once; or step on to be asked one by one."
             self._view.show_question(Question(text, AnswerKind.GRID))
+            self._grid.set_brush(True)
             self._hide_coverage()
             return
-        self._grid.show_hidden(None)
+        self._grid.set_brush(False)
         row = trace.steps.rows_done(cursor.position)
         self._asked = question_about(trace, row) if row < trace.steps.row_count else None
         if self._asked is None:
-            self._view.show_question(None)
+            at_end = row >= trace.steps.row_count
+            what = "This stage is done." if at_end else "There is nothing to predict in the next step."
+            self._view.show_question(
+                None, f"{what} The results stay hidden until prediction is turned off (P)."
+            )
             return
         self._view.show_question(self._asked.question)
 
     def _hide_coverage(self) -> None:
-        """Cover every pixel of the grid that has not been found."""
-        buffer = self._grid.buffer()
-        if buffer is not None:
-            hidden = np.ones((buffer.rows, buffer.columns), bool)
-            for column, row in self._found:
-                hidden[row, column] = False
-            self._grid.show_hidden(hidden)
+        """Show the coverage as it will be, with every pixel covered up that has not been clicked."""
+        session = self._session
+        trace = session.stage_trace
+        track = next(track for track in trace.buffers if track.name == "coverage")
+        buffer = grid_buffer(track, trace.steps.row_count, session.trace.source.raster.bounds[:2])
+        hidden = np.ones((buffer.rows, buffer.columns), bool)
+        for column, row in self._found:
+            hidden[row, column] = False
+        self._grid.show_buffer(buffer)
+        self._grid.show_hidden(hidden)
 
     @Slot(object)
     def _answer(self, answer: float) -> None:
@@ -105,34 +113,46 @@ class PredictionPresenter(QObject):
             is_right = int(answer) == int(asked.answer)
         else:
             is_right = isclose(answer, asked.answer, rel_tol=TOLERANCE, abs_tol=1e-9)
-        self._judge(is_right, ("Right: " if is_right else "No: ") + asked.reveal)
+        self._judge(is_right, asked.reveal)
 
     @Slot()
     def _reveal(self) -> None:
         if self._asked is not None:
-            self._view.show_verdict(Verdict(True, f"It is so: {self._asked.reveal}"))
+            self._view.show_verdict(Verdict(None, self._asked.reveal))
         elif self._is_active:
-            self._grid.show_hidden(None)
+            covered = self._covered()
+            found = len(covered & self._found)
+            wrong = len(self._found - covered)
+            text = f"{found} of {len(covered)} covered pixels were found, {wrong} clicks were wrong."
             self._session.go_to(self._session.stage_trace.steps.count)
+            self._view.show_verdict(Verdict(None, text))
+
+    def _covered(self) -> set[tuple[int, int]]:
+        """Return the pixels of the grid that are covered in the end."""
+        trace = self._session.stage_trace
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        pixels = trace.pixel[trace.marks["covered"]] - (first_column, first_row)
+        return {(column, row) for column, row in pixels.tolist()}
 
     @Slot()
     def _next(self) -> None:
-        self._session.step(1)
+        self._session.step(1, Level.PIXEL)
 
     @Slot(int, int)
     def _click(self, column: int, row: int) -> None:
         """Judge a pixel that is said to be covered."""
-        if not self._is_active or self._asked is not None or self._session.cursor.position != 0:
+        cursor = self._session.cursor
+        is_asked = (
+            self._is_active and self._asked is None and cursor.stage == "raster" and cursor.position == 0
+        )
+        if not is_asked or (column, row) in self._found:
             return
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        trace = self._session.stage_trace
-        rows = trace.rows_at_pixel(column + first_column, row + first_row)
-        is_covered = bool(trace.marks["covered"][rows].any()) if "covered" in trace.marks else False
         self._found.add((column, row))
         self._hide_coverage()
+        is_covered = (column, row) in self._covered()
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
         at = f"({column + first_column}, {row + first_row})"
-        text = f"Right: {at} is covered." if is_covered else f"No: {at} is not covered."
-        self._judge(is_covered, text)
+        self._judge(is_covered, f"{at} is covered." if is_covered else f"{at} is not covered.")
 
     def _judge(self, is_right: bool, text: str) -> None:
         self._count += 1
@@ -172,7 +192,9 @@ def question_about(trace: StageTrace, row: int) -> Asked | None:
         passes = bool(values["passes"])
         new, old = number_text(_number(values["stored"])), number_text(_number(values["before"]))
         reveal = f"{new} against {old}: it {'passes' if passes else 'fails'}."
-        return choice(f"The buffer holds {old} at {pixel}. Does {new} pass?", yes_no, 0 if passes else 1, reveal)
+        return choice(
+            f"The buffer holds {old} at {pixel}. Does {new} pass?", yes_no, 0 if passes else 1, reveal
+        )
     if trace.stage == "interpolate":
         weights = np.asarray(values["weights"])
         reveal = "the weights are " + ", ".join(number_text(float(w)) for w in weights) + "."
@@ -191,7 +213,9 @@ def question_about(trace: StageTrace, row: int) -> Asked | None:
         return choice(text, ("0", "1", "2"), count, f"the edge is {kind.replace('-', ' to ')}: {count}.")
     if trace.stage == "edges" and kind == "edge":
         k = _whole(values["edge"])
-        return number(f"What is a{k}, the change of edge {k} per column?", _number(values["a"]), _edge_text(values, k))
+        return number(
+            f"What is a{k}, the change of edge {k} per column?", _number(values["a"]), _edge_text(values, k)
+        )
     if trace.stage == "transform":
         after = np.asarray(values["after"])
         vertex = _whole(values["corner"])
@@ -200,10 +224,14 @@ def question_about(trace: StageTrace, row: int) -> Asked | None:
         return number(text, float(after[0]), f"({numbers}).")
     if trace.stage == "blend":
         after = np.asarray(values["after"])
-        return number(f"What is red at {pixel} afterwards?", float(after[0]), f"red is {number_text(float(after[0]))}.")
+        return number(
+            f"What is red at {pixel} afterwards?", float(after[0]), f"red is {number_text(float(after[0]))}."
+        )
     if trace.stage == "resolve":
         stored = np.asarray(values["bytes"])
-        return number(f"Which byte does red become at {pixel}?", float(stored[0]), f"red is {int(stored[0])}.")
+        return number(
+            f"Which byte does red become at {pixel}?", float(stored[0]), f"red is {int(stored[0])}."
+        )
     return None
 
 

@@ -9,6 +9,7 @@ from PySide6.QtCore import QStandardPaths
 
 from app.field_problems import field_problem
 from app.file_writing import FileWriteError, whole_file
+from core.frame import STAGES
 
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
 """Environment variable that names another folder."""
@@ -28,7 +29,7 @@ class Preferences(BaseModel):
     """Place and size of the window, as Qt saves them, in base 64."""
     layout: dict[str, str] = {}
     """Sizes of panes by name, as Qt saves them, in base 64."""
-    folded_cards: list[str] = []
+    folded_cards: list[str] = list(STAGES)
     """Stages whose card is folded."""
     last_state: str = ""
     """State file with what was open last; empty: none."""

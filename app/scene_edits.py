@@ -62,7 +62,8 @@ def move_corner(
     window = window_of_clip(clip, size)
     window[:2] = x, y
     mesh_index, local = _mesh_of_vertex(scene, vertex)
-    assert vertices.projection is not None and vertices.view is not None
+    assert vertices.projection is not None
+    assert vertices.view is not None
     matrix = vertices.projection @ vertices.view @ scene.meshes[mesh_index].transform
     target = np.linalg.solve(matrix, clip_of_window(window, size))
     positions = scene.meshes[mesh_index].positions.copy()
@@ -124,7 +125,7 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
         vector = np.array(getattr(light, name))
         vector[axis] = value
         lights = list(scene.lights)
-        lights[index] = replace(light, **{name: vector})
+        lights[index] = replace(light, **{name: vector})  # type: ignore[arg-type]
         return replace(scene, lights=tuple(lights))
     index, name = int(names[0]), names[-1]
     mesh = scene.meshes[index]
@@ -138,7 +139,7 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
         return replace(camera, **{names[0]: vector})
     if names[-1] == "field_of_view":
         return replace(camera, field_of_view=radians(value))
-    return replace(camera, **{names[-1]: value})
+    return replace(camera, **{names[-1]: value})  # type: ignore[arg-type]
 
 
 def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
@@ -150,7 +151,11 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
         for corner in range(3):
             path = f"corner/{index}/{corner}"
             if not np.isfinite(window[index, corner]).all():
-                rows.append(OutlineRow(path, f"vertex {corner}", vertex=corner, note="at w = 0: no place in the window"))
+                rows.append(
+                    OutlineRow(
+                        path, f"vertex {corner}", vertex=corner, note="at w = 0: no place in the window"
+                    )
+                )
                 continue
             values = tuple(
                 OutlineValue(name, float(number))
@@ -179,7 +184,9 @@ def _camera_outline(camera: Camera) -> OutlineGroup:
             "view angle, °" if is_perspective else "view height",
             (angle if is_perspective else height,),
         ),
-        OutlineRow("camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))),
+        OutlineRow(
+            "camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))
+        ),
     ]
     return OutlineGroup("camera", f"Camera, {camera.projection}", tuple(rows))
 
@@ -202,7 +209,9 @@ def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
     groups = []
     for index, mesh in enumerate(scene.meshes):
         counts = f"{len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices"
-        texture = f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
+        texture = (
+            f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
+        )
         rows = [OutlineRow(f"mesh/{index}/counts", counts, note=texture)]
         rows += [
             OutlineRow(

@@ -42,13 +42,17 @@ class ScenePresenter(QObject):
     """Why a typed value was not taken."""
 
     def __init__(
-        self, session: Session, scene_outline: SceneOutline, panel: SettingsPanel, parent: QObject | None = None
+        self,
+        session: Session,
+        scene_outline: SceneOutline,
+        panel: SettingsPanel,
+        parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._outline, self._panel = session, scene_outline, panel
         session.document_changed.connect(self.refresh)
         scene_outline.value_edited.connect(self._edit_value)
-        scene_outline.row_selected.connect(self._select_row)
+        scene_outline.row_selected.connect(scene_outline.show_selection)
         panel.setting_chosen.connect(self._choose)
         self.refresh()
 
@@ -82,13 +86,6 @@ class ScenePresenter(QObject):
             raise ValueError(f"triangle must be a whole number from 0 to {count - 1}, got {value:g}")
         return focus_on(document, int(value))
 
-    @Slot(str)
-    def _select_row(self, path: str) -> None:
-        kind, *names = path.split("/")
-        if kind == "corner" and self._session.document.triangle is None:
-            return
-        self._outline.show_selection(path)
-
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
         try:
@@ -102,7 +99,8 @@ def _document_group(document: Document) -> OutlineGroup:
     count = document.triangle_count
     rows = [OutlineRow("document/raster", document.raster.label)]
     if document.triangle is None:
-        rows.append(OutlineRow("document/all", f"All {count:,} triangles are stepped"))
+        text = "One triangle" if count == 1 else f"All {count:,} triangles are stepped"
+        rows.append(OutlineRow("document/all", text))
     else:
         value = OutlineValue("triangle", document.triangle, 0, count - 1)
         rows.append(OutlineRow("document/focus", f"in focus, of {count:,}", (value,)))
@@ -134,9 +132,10 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     breaks = f"\nBreaks: {found.breaks_where}." if found.breaks_where else ""
     tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
     refusal = ""
-    if "perspective" in found.needs and isinstance(document.scene, Scene):
-        if document.scene.camera.projection == "orthographic":
-            refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
+    scene = document.scene
+    is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
+    if "perspective" in found.needs and is_orthographic:
+        refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
     return SettingChoice(name, found.title, tooltip, refusal)
 
 
@@ -153,7 +152,9 @@ def _no_effect(document: Document, family: str) -> str:
     if family == "provoking" and settings.interpolation != "flat":
         return "Only flat interpolation takes one corner's value."
     if family in ("texture_filter", "wrap"):
-        textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+        textures = (
+            [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+        )
         if not any(texture is not None for texture in textures):
             return "This scene has no texture."
     if family == "shading" and isinstance(scene, ClipScene):

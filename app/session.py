@@ -33,6 +33,8 @@ class Session(QObject):
     hover_changed = Signal()
     history_changed = Signal()
     """What can be undone, redone or gone back to."""
+    predicting_changed = Signal()
+    """What comes next is hidden, or shown again."""
     edit_failed = Signal(object)
     """Why an edit that was traced in the background came to nothing: the exception."""
 
@@ -47,6 +49,7 @@ class Session(QObject):
         self._visited = History(self._cursor)
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
+        self._is_predicting = False
         self._trace = document.make_trace()
 
     @property
@@ -208,7 +211,9 @@ class Session(QObject):
     def set_stage(self, stage: str, position: int | None = None) -> None:
         """Go to another stage, to its end unless a position is given."""
         count = self._trace.stage(stage).steps.count
-        self._jump(Cursor(stage, count if position is None else min(max(position, 0), count), self._cursor.level))
+        self._jump(
+            Cursor(stage, count if position is None else min(max(position, 0), count), self._cursor.level)
+        )
 
     def next_stage(self, direction: int) -> None:
         """Go to the neighbouring stage."""
@@ -267,6 +272,17 @@ class Session(QObject):
         if pixel != self._hover:
             self._hover = pixel
             self.hover_changed.emit()
+
+    @property
+    def is_predicting(self) -> bool:
+        """Whether results are hidden until they have been predicted."""
+        return self._is_predicting
+
+    def set_predicting(self, is_predicting: bool) -> None:
+        """Hide results, or show them again."""
+        if is_predicting != self._is_predicting:
+            self._is_predicting = is_predicting
+            self.predicting_changed.emit()
 
     def has_pixel(self, pixel: Pixel) -> bool:
         """Return whether the traced raster has this pixel."""

@@ -155,7 +155,7 @@ def _parse(content: bytes) -> StateRecord:
     try:
         return StateRecord.model_validate_json(content)
     except ValidationError as problem:
-        raise StateFileError(field_problem(problem)) from problem
+        raise StateFileError(field_problem(problem, "scene")) from problem
 
 
 def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:

@@ -203,13 +203,7 @@ def scene_from_record(
         If a field does not fit, or the source is gone or has changed.
     """
     if isinstance(record, ClipSceneRecord):
-        with in_field("scene"):
-            pixels = None if record.texture is None else array_from(record.texture)
-            texture = None if pixels is None else Texture(pixels, record.texture_name)
-            shared = None if record.shared is None else array_from(record.shared)
-            clip, attributes = array_from(record.clip), array_from(record.attributes)
-            background = np.array(record.background)
-            return ClipScene(clip, attributes, record.size, texture, background, shared), "", ()
+        return _clip_scene(record), "", ()
     sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
     meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
@@ -226,6 +220,18 @@ def scene_from_record(
     lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
     with in_field("scene"):
         return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings
+
+
+def _clip_scene(record: ClipSceneRecord) -> ClipScene:
+    arrays: dict[str, Any] = {}
+    for name in ("clip", "attributes", "shared", "texture"):
+        found: ArrayRecord | None = getattr(record, name)
+        with in_field(f"scene.{name}"):
+            arrays[name] = None if found is None else array_from(found)
+    with in_field("scene"):
+        pixels = arrays.pop("texture")
+        texture = None if pixels is None else Texture(pixels, record.texture_name)
+        return ClipScene(size=record.size, texture=texture, background=np.array(record.background), **arrays)
 
 
 def _open_source(
@@ -307,7 +313,8 @@ def array_from(record: ArrayRecord) -> NDArray[Any]:
         return np.array(numbers, dtype).reshape(record.shape)
     assert record.zlib is not None
     try:
-        content = zlib.decompressobj().decompress(b64decode(record.zlib, validate=True), size + 1)
+        packed = b64decode(record.zlib.encode(), validate=True)
+        content = zlib.decompressobj().decompress(packed, size + 1)
     except (binascii.Error, zlib.error) as problem:
         raise ValueError("the compressed bytes are damaged") from problem
     if len(content) != size:

@@ -3,7 +3,6 @@
 from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QScrollArea,
     QSizePolicy,
@@ -11,6 +10,7 @@ from PySide6.QtWidgets import (
     QStackedWidget,
     QTabBar,
     QTabWidget,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from app.compare_presenter import ComparePresenter
 from app.grid_presenter import GridPresenter
 from app.inspector_presenter import InspectorPresenter
+from app.pixel_menu import PixelMenu
 from app.prediction_presenter import PredictionPresenter
 from app.scene_presenter import ScenePresenter
 from app.session import Session
@@ -36,6 +37,7 @@ from widgets.range_control import RangeControl
 from widgets.scene_outline import SceneOutline
 from widgets.settings_panel import SettingsPanel
 from widgets.stage_card import StageCardView
+from widgets.theme import theme_notifier
 from widgets.timeline import Timeline
 from widgets.variables import VariablesView
 
@@ -76,9 +78,14 @@ class StepPage(QWidget):
         self.views = StageViews(session, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self)
+        self.pixel_menu = PixelMenu(session, self.stepping, self)
+        self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
+        self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.stepping.message_sent.connect(self.message_sent)
         self.scene.edit_refused.connect(self.message_sent)
         self.views.refused.connect(self.message_sent)
+        self.grids.edit_refused.connect(self.message_sent)
+        self.comparing.edit_refused.connect(self.message_sent)
         self._lay_out()
 
     # Layout.
@@ -89,14 +96,15 @@ class StepPage(QWidget):
         self.columns.addWidget(self._middle())
         self.columns.addWidget(self._right())
         self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([296, 640, 328])
+        self.columns.setSizes([296, 616, 352])
         self.columns.setChildrenCollapsible(True)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
         page.setSpacing(8)
         page.addWidget(self.rail)
         page.addWidget(self.columns, 1)
-        page.addWidget(self._bottom())
+        self._add_run_to()
+        page.addWidget(self.timeline)
 
     def _left(self) -> QWidget:
         scroll = QScrollArea(self)
@@ -106,6 +114,8 @@ class StepPage(QWidget):
         self.left_tabs = QTabWidget(self)
         self.left_tabs.setDocumentMode(True)
         self.left_tabs.tabBar().setDrawBase(False)
+        # What a pane holds must not move its borders: stages have longer and shorter texts.
+        self.left_tabs.setMinimumWidth(200)
         self.left_tabs.addTab(self.outline, "Scene")
         self.left_tabs.addTab(scroll, "Methods")
         self.left_tabs.addTab(self._overlay_pane(), "Overlays")
@@ -146,6 +156,7 @@ class StepPage(QWidget):
         layout.addWidget(self.prediction)
         self.prediction.hide()
         self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows.setMinimumWidth(320)
         self.rows.addWidget(top)
         self.rows.addWidget(self.strip)
         self.rows.setStretchFactor(0, 1)
@@ -162,54 +173,85 @@ class StepPage(QWidget):
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.sentence.setProperty("role", "sentence")
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
-        self.sentence.setMinimumHeight(58)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.sentence.setAccessibleName("What the step did")
-        step = QWidget(self)
-        layout = QVBoxLayout(step)
+        self.step_pane = QWidget(self)
+        layout = QVBoxLayout(self.step_pane)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addWidget(self.card)
         layout.addWidget(self.sentence)
         layout.addWidget(self.formula)
         layout.addStretch(1)
-        self.card.show_folded(True)
         self.detail_tabs = QTabWidget(self)
         self.detail_tabs.setDocumentMode(True)
         self.detail_tabs.tabBar().setDrawBase(False)
         self.detail_tabs.addTab(self.variables, "Variables")
         self.detail_tabs.addTab(self.history, "Pixel history")
+        self.detail_tabs.currentChanged.connect(self.inspector.refresh_history)
         self.session.pin_changed.connect(self._show_history)
         self.inspector_rows = QSplitter(Qt.Orientation.Vertical, self)
-        self.inspector_rows.addWidget(step)
+        self.inspector_rows.setMinimumWidth(240)
+        self.inspector_rows.addWidget(self.step_pane)
         self.inspector_rows.addWidget(self.listing)
         self.inspector_rows.addWidget(self.detail_tabs)
         self.inspector_rows.setStretchFactor(1, 1)
         self.inspector_rows.setStretchFactor(2, 2)
         self.inspector_rows.setSizes([190, 170, 210])
+        self.card.card_folded.connect(self._fit_step_pane)
+        self.session.cursor_changed.connect(self._fit_step_pane)
+        theme_notifier().theme_changed.connect(self._fit_step_pane)
+        self._fit_step_pane()
         return self.inspector_rows
 
-    def _bottom(self) -> QWidget:
+    @Slot()
+    def _fit_step_pane(self) -> None:
+        """Keep room for three lines of the sentence and two of the formula, whatever the size of the type."""
+        line = self.sentence.fontMetrics().lineSpacing()
+        self.sentence.setMinimumHeight(3 * line)
+        width = max(self.inspector_rows.width(), 240)
+        card = self.card.fold_button.sizeHint().height() if self.card.is_folded() else self.card.heightForWidth(width)
+        wanted = card + 3 * line + 4 * line + 8
+        if wanted != self.step_pane.minimumHeight():
+            self.step_pane.setMinimumHeight(wanted)
+
+    def _add_run_to(self) -> None:
+        """Put the choice of events, with a button to each side, above the timeline's bar."""
         for name, title in EVENT_TITLES.items():
             self.event_box.addItem(f"Run to: {title}", name)
         self.event_box.setAccessibleName("Kind of event")
         self.event_box.setToolTip("What N (next) and Shift+N (previous) run to")
         self.event_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.event_box.activated.connect(self._choose_event)
-        bottom = QWidget(self)
-        layout = QHBoxLayout(bottom)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addWidget(self.timeline, 1)
-        layout.addWidget(self.event_box, 0, Qt.AlignmentFlag.AlignTop)
-        return bottom
+        buttons = []
+        for text, name, key in (("<", "Previous event", "Shift+N"), (">", "Next event", "N")):
+            button = QToolButton(self)
+            button.setText(text)
+            button.setProperty("flat", True)
+            button.setAccessibleName(name)
+            button.setToolTip(f"{name} of this kind ({key})")
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+            buttons.append(button)
+        self.previous_event_button, self.next_event_button = buttons
+        self.previous_event_button.clicked.connect(self._run_back)
+        self.next_event_button.clicked.connect(self._run_on)
+        for widget in (self.previous_event_button, self.event_box, self.next_event_button):
+            self.timeline.add_control(widget)
+
+    @Slot()
+    def _run_back(self) -> None:
+        self.stepping.run_to_event(-1)
+
+    @Slot()
+    def _run_on(self) -> None:
+        self.stepping.run_to_event(1)
 
     # Views.
 
     @Slot()
     def _show_history(self) -> None:
         """Bring the history of a pixel forward when one is pinned."""
-        if self.session.pin is not None:
+        if self.session.pin is not None and not self.session.is_predicting:
             self.detail_tabs.setCurrentWidget(self.history)
 
     @Slot(int)
@@ -228,6 +270,11 @@ class StepPage(QWidget):
         """Return the name of the main view that is shown."""
         return str(self.view_bar.tabData(self.view_bar.currentIndex()))
 
+    def main_view(self) -> QWidget:
+        """Return the widget of the main view that is shown; of the pixels, the grid alone."""
+        shown = self.view_stack.currentWidget()
+        return self.grid if shown is None or self.current_view() == "pixels" else shown
+
     def show_view(self, name: str) -> None:
         """Show a main view by its name."""
         if name in self.view_names():
@@ -236,7 +283,7 @@ class StepPage(QWidget):
     def pointed_text(self, pixel: tuple[int, int]) -> str:
         """Return the value of the main grid at a pixel of the traced picture."""
         buffer = self.grid.buffer()
-        if buffer is None or not self.session.has_pixel(pixel):
+        if buffer is None or not self.session.has_pixel(pixel) or self.session.is_predicting:
             return ""
         first_column, first_row, _, _ = self.session.trace.source.raster.bounds
         return f"{buffer.label}: {self.grid.value_text((pixel[0] - first_column, pixel[1] - first_row))}"
@@ -254,7 +301,7 @@ class StepPage(QWidget):
 
     @Slot(int)
     def _choose_event(self, index: int) -> None:
-        self.stepping.event = self.event_box.itemData(index)
+        self.stepping.event_kind = self.event_box.itemData(index)
 
     def settle(self) -> None:
         """Wait until everything that is drawn a moment later (formulas) is there."""

@@ -15,7 +15,7 @@ from widgets.marks import Mark
 from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
 from widgets.stage_texts import SHORT_TITLES
 from widgets.timeline import Timeline
-from widgets.timeline_bar import TimelineRun
+from widgets.timeline_run import TimelineRun
 
 MARKS = {
     "covered": Mark.COVERED,
@@ -63,7 +63,7 @@ class SteppingPresenter(QObject):
     ) -> None:
         super().__init__(parent)
         self._session, self._timeline, self._rail = session, timeline, rail
-        self.event = "covered"
+        self.event_kind = "covered"
         """Kind of event that N runs to."""
         self.pixel_breakpoints: set[tuple[int, int]] = set()
         self.line_breakpoints: set[tuple[str, int]] = set()
@@ -73,6 +73,7 @@ class SteppingPresenter(QObject):
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
         session.pin_changed.connect(self.refresh_marks)
+        session.predicting_changed.connect(self.refresh_run)
         timeline.position_requested.connect(session.scrub)
         timeline.step_requested.connect(self.step)
         timeline.ends_requested.connect(self.go_to_end)
@@ -98,6 +99,8 @@ class SteppingPresenter(QObject):
             self._timeline.show_level_names(self._level_names(cursor.stage))
             self.refresh_marks()
             self.show_rail()
+        elif self._session.is_predicting:
+            self.refresh_marks()
         self._timeline.show_level(cursor.level)
         self._timeline.show_position(cursor.position)
 
@@ -115,6 +118,10 @@ class SteppingPresenter(QObject):
         trace = self._session.stage_trace
         starts = trace.steps.starts
         marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
+        if self._session.is_predicting:
+            # What lies ahead would tell the answer.
+            done = self._session.cursor.position
+            marks = {mark: places[places < done] for mark, places in marks.items()}
         if self._session.pin is not None:
             marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
         marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
@@ -143,7 +150,7 @@ class SteppingPresenter(QObject):
         return StageEntry(
             SHORT_TITLES[stage],
             str((index + 1) % 10) if index < 10 else "",
-            f"{count.incoming:,} → {count.outgoing:,}",
+            "? → ?" if self._session.is_predicting else f"{count.incoming:,} → {count.outgoing:,}",
             f"{count.seconds * 1000:.1f} ms",
             state,
             inserted,
@@ -201,18 +208,33 @@ class SteppingPresenter(QObject):
     def run_to_event(self, direction: int) -> None:
         """Go to the next or last event of the chosen kind."""
         trace = self._session.stage_trace
-        flags = trace.marks.get(self.event, np.zeros(trace.steps.row_count, bool))
-        self._run_to(trace.steps.starts[1:][flags], direction, f"of the kind “{EVENT_TITLES[self.event]}”")
+        flags = trace.marks.get(self.event_kind, np.zeros(trace.steps.row_count, bool))
+        self._run_to(
+            trace.steps.starts[1:][flags], direction, f"of the kind “{EVENT_TITLES[self.event_kind]}”"
+        )
 
     def run_to_breakpoint(self, direction: int) -> None:
         """Go to the next or last breakpoint, or else to the end."""
         trace = self._session.stage_trace
         positions = self._break_positions(trace)
-        beyond = positions > self._session.cursor.position if direction > 0 else positions < self._session.cursor.position
+        beyond = (
+            positions > self._session.cursor.position
+            if direction > 0
+            else positions < self._session.cursor.position
+        )
         if beyond.any():
             self._run_to(positions, direction, "")
         else:
             self.go_to_end(direction)
+
+    def step_into(self, stage: str, column: int, row: int) -> None:
+        """Go to the first step of a stage that is about a pixel."""
+        trace = self._session.trace.stage(stage)
+        rows = trace.rows_at_pixel(column, row)
+        if len(rows):
+            self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
+        else:
+            self.message_sent.emit(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
 
     def _run_to(self, positions: np.ndarray, direction: int, what: str) -> None:
         at = self._session.cursor.position
@@ -220,7 +242,9 @@ class SteppingPresenter(QObject):
         if len(found):
             self._session.go_to(int(found.min() if direction > 0 else found.max()))
         else:
-            self.message_sent.emit(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
+            self.message_sent.emit(
+                f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage."
+            )
 
     def toggle_pixel_breakpoint(self) -> None:
         """Set or take away a breakpoint at the pinned pixel."""
@@ -289,6 +313,17 @@ class SteppingPresenter(QObject):
                 if listing.lines.get(operation.label) == line:
                     found.append(steps.starts[:-1][steps.kind == number] + place + 1)
         return np.unique(np.concatenate(found))
+
+    def forget_places(self) -> None:
+        """Take away the bookmarks and pixel breakpoints of another scene."""
+        self.bookmarks.clear()
+        self.pixel_breakpoints.clear()
+        self.refresh_marks()
+
+    def set_bookmarks(self, bookmarks: list[Bookmark]) -> None:
+        """Set the bookmarks, as they were left."""
+        self.bookmarks = bookmarks
+        self.refresh_marks()
 
     def toggle_bookmark(self) -> None:
         """Remember this step, or forget it."""

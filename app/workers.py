@@ -22,7 +22,7 @@ class _Worker(QThread):
         """Do the work; whatever it raises goes to the GUI thread."""
         try:
             result = self._work(self.progressed.emit, self.isInterruptionRequested)
-        except Exception as error:  # noqa: BLE001  (handed on to whoever waits)
+        except Exception as error:
             self.failed.emit(error)
         else:
             self.succeeded.emit(result)

@@ -14,7 +14,7 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 
 def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Return a view of ``array`` that cannot be written through."""
+    """Return a view of ``array``, of any shape, that cannot be written through."""
     view = array.view()
     view.flags.writeable = False
     return view

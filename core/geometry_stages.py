@@ -147,7 +147,7 @@ def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
 def assemble(
     scene: AnyScene, vertices: VertexStage, settings: Settings, chosen: Integers | None = None
 ) -> Primitives:
-    """Gather the corners of every triangle with what is to be interpolated over it."""
+    """Gather the corners of the ``chosen`` (T,) triangles with what is to be interpolated over them."""
     triangle = np.arange(len(vertices.corners)) if chosen is None else np.asarray(chosen, np.int64)
     corners = vertices.corners[triangle]
     if isinstance(scene, ClipScene):

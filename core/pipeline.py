@@ -174,7 +174,7 @@ def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Int
 
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
-    """Draw the ``chosen`` triangles (all of them by default); the buffers are those of the raster's region."""
+    """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)
     depth_format: DepthFormat = table.get("depth", settings.depth).function()

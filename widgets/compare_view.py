@@ -78,7 +78,13 @@ class CompareView(QWidget):
         swap.clicked.connect(self.swap_requested)
         row = QHBoxLayout()
         row.setSpacing(8)
-        for widget in (QLabel("Compare", self), self.buffer_box, QLabel("B:", self), self.family_box, self.value_box):
+        for widget in (
+            QLabel("Compare", self),
+            self.buffer_box,
+            QLabel("B:", self),
+            self.family_box,
+            self.value_box,
+        ):
             row.addWidget(widget)
         row.addWidget(reset)
         row.addWidget(swap)
@@ -102,7 +108,9 @@ class CompareView(QWidget):
 
     def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
         """Offer buffers (name, title) for comparison."""
-        if [self.buffer_box.itemData(k) for k in range(self.buffer_box.count())] != [name for name, _ in names]:
+        if [self.buffer_box.itemData(k) for k in range(self.buffer_box.count())] != [
+            name for name, _ in names
+        ]:
             self.buffer_box.clear()
             for name, title in names:
                 self.buffer_box.addItem(title, name)

@@ -122,6 +122,49 @@ def coefficient(step: StepValues) -> Formula:
     )
 
 
+def anchored_coefficient(step: StepValues) -> Formula:
+    """One coefficient of an edge with one snapped end: its direction in whole numbers u, through the corner exactly."""
+    name, k = step.operation, step.whole("edge")
+    forward = step.whole("anchor") > 0
+    i, j = ((k + 1) % 3, (k + 2) % 3) if forward else ((k + 2) % 3, (k + 1) % 3)
+    x, y, _ = step.vector("start" if forward else "finish")
+    end_x, end_y, end_w = step.vector("finish" if forward else "start")
+    sign = float(np.sign(step.number("doubled_area"))) * step.whole("anchor")
+    value = (f"{name}_{k}", step.number(name))
+    if name == "c":
+        a, b = step.number("a"), step.number("b")
+        return equation(
+            value,
+            "=",
+            r"-",
+            (f"a_{k}", a),
+            r"\cdot",
+            (rf"\vertex{{{i}}}{{x_{i}}}", x),
+            "-",
+            (f"b_{k}", b),
+            r"\cdot",
+            (rf"\vertex{{{i}}}{{y_{i}}}", y),
+        )
+    corner, end, axis = (y, end_y, "y") if name == "a" else (x, end_x, "x")
+    direction = corner * end_w - end if name == "a" else end - corner * end_w
+    ends = rf"\vertex{{{i}}}{{{axis}_{i}}} \vertex{{{j}}}{{w_{j}}}"
+    symbols = (
+        rf"{ends} - \vertex{{{j}}}{{{axis}_{j}}}"
+        if name == "a"
+        else rf"\vertex{{{j}}}{{{axis}_{j}}} - {ends}"
+    )
+    return equation(
+        value,
+        "=",
+        ("s", sign),
+        r"\cdot",
+        (
+            rf"\mathrm{{round}} \frac{{{symbols}}}{{u}}",
+            rf"\mathrm{{round}} \frac{{{number_latex(direction)}}}{{u}}",
+        ),
+    )
+
+
 def tie(step: StepValues) -> Formula:
     """The rule for a pixel centre on an edge."""
     k, a, b = step.whole("edge"), step.number("a"), step.number("b")
@@ -286,6 +329,8 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "edges.orientation.area": orientation,
     **{f"edges.edge.{name}": coefficient for name in "abc"},
     "edges.edge.tie": tie,
+    **{f"edges.anchored-edge.{name}": anchored_coefficient for name in "abc"},
+    "edges.anchored-edge.tie": tie,
     "bin.box.low": box_low,
     "bin.box.high": box_high,
     "bin.behind.drop": bin_behind,

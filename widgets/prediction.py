@@ -36,7 +36,8 @@ class Question:
 class Verdict:
     """What became of an answer."""
 
-    is_right: bool
+    is_right: bool | None
+    """``None``: the value was shown without an answer."""
     text: str
     """One sentence with the value."""
 
@@ -91,12 +92,11 @@ class PredictionView(QWidget):
         theme_notifier().theme_changed.connect(self._follow_theme)
         self.show_question(None)
 
-    @Slot(object)
-    def show_question(self, question: Question | None) -> None:
-        """Ask a question, or say what the pane is for."""
+    def show_question(self, question: Question | None, hint: str = "") -> None:
+        """Ask a question, or say why there is none (by default: what the pane is for)."""
         self._question = question
         self._verdict = None
-        hint = "Turn prediction on: the next value stays hidden until you have said what it will be."
+        hint = hint or "Turn prediction on: the next value stays hidden until you have said what it will be."
         text = question.text if question else hint
         if question and question.tolerance:
             text = f"{text} ({question.tolerance})"
@@ -157,11 +157,12 @@ class PredictionView(QWidget):
 
     def _show_controls(self) -> None:
         kind = self._question.kind if self._question else None
-        is_open = self._question is not None and self._verdict is None
+        is_grid = kind is AnswerKind.GRID
+        is_open = self._question is not None and (self._verdict is None or is_grid)
         self.field.setVisible(kind is AnswerKind.NUMBER)
         self.field.setReadOnly(not is_open)
         self.check_button.setVisible(kind is AnswerKind.NUMBER and is_open)
-        self.hint.setVisible(kind is AnswerKind.GRID and is_open)
+        self.hint.setVisible(is_grid)
         self.reveal_button.setVisible(is_open)
         self.next_button.setVisible(self._question is not None and not is_open)
         for button in self.choice_buttons:
@@ -201,9 +202,12 @@ class PredictionView(QWidget):
     def _follow_theme(self) -> None:
         if self._verdict is None:
             return
-        mark = Mark.RIGHT if self._verdict.is_right else Mark.WRONG
-        self._icon.setPixmap(mark_pixmap(mark, current_theme().text_px + 4, self.devicePixelRatioF()))
-        self._icon.show()
-        self.verdict.setText(f"{'Right' if self._verdict.is_right else 'Not right'}: {self._verdict.text}")
+        is_right = self._verdict.is_right
+        if is_right is not None:
+            mark = Mark.RIGHT if is_right else Mark.WRONG
+            self._icon.setPixmap(mark_pixmap(mark, current_theme().text_px + 4, self.devicePixelRatioF()))
+        self._icon.setVisible(is_right is not None)
+        heading = {True: "Right: ", False: "Not right: ", None: "It is so: "}[is_right]
+        self.verdict.setText(heading + self._verdict.text)
         self.verdict.show()
-        set_role(self.verdict, "good" if self._verdict.is_right else "bad")
+        set_role(self.verdict, {True: "good", False: "bad", None: ""}[is_right])

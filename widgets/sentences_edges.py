@@ -187,6 +187,8 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "edges.edge.b": coefficient,
     "edges.edge.c": coefficient,
     "edges.edge.tie": tie,
+    **{f"edges.anchored-edge.{name}": coefficient for name in "abc"},
+    "edges.anchored-edge.tie": tie,
     "bin.box.low": box_low,
     "bin.box.high": box_high,
     "bin.behind.drop": bin_behind,

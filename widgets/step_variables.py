@@ -52,6 +52,28 @@ _COEFFICIENTS = {
     )
 }
 
+LINE_VARIABLES: Mapping[str, VariableText] = {
+    "first_end": VariableText("first end", "Where the line starts, as the method takes it."),
+    "second_end": VariableText("second end", "Where it goes, as the method takes it."),
+    "is_steep": VariableText("steep", "Whether y is the major axis: one pixel in every row."),
+    "run": VariableText("run", "Length along the major axis."),
+    "rise": VariableText("rise", "Length along the minor axis."),
+    "slope": VariableText("slope", "Change of the minor coordinate with every step."),
+    "intercept": VariableText("intercept", "Minor coordinate where the major one is 0."),
+    "previous": VariableText("before", "Decision value of the pixel before."),
+    "decision": VariableText("decision", "The number whose sign or rounding chooses the pixel."),
+    "has_stepped": VariableText("stepped", "Whether the minor coordinate changed."),
+    "is_tie": VariableText("tie", "Whether the line passes exactly between two pixels."),
+    "exit_start": VariableText("leaves at start", "Whether the line leaves the diamond of its first pixel."),
+    "exit_end": VariableText("leaves at end", "Whether the line leaves the diamond of its last pixel."),
+    "major": VariableText("major", "Coordinate along the major axis."),
+    "minor": VariableText("minor", "Coordinate along the minor axis."),
+    "index": VariableText("index", "Pixels of the line before this one."),
+    "t": VariableText("t", "How far the pixel lies along the line: 0 at the first end, 1 at the second."),
+}
+"""Variables of lines (wireframes)."""
+
+
 TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     "transform": {
         "vertex": _given("vertex", "Number of the vertex in the scene."),
@@ -139,6 +161,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         **_CENTRE,
         **_COEFFICIENTS,
         "owns_tie": _given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
+        **LINE_VARIABLES,
     },
     "interpolate": {
         **_PIXEL,
@@ -153,6 +176,10 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         **{name: VariableText(name.replace("_", " "), "Mixed by the weights.") for name in ATTRIBUTES},
         **_COEFFICIENTS,
         "corner_w": _given("w#", "w of the corner.", "edges"),
+        "t": _given("t", "How far the pixel lies along the line: 0 at the first end, 1 at the second."),
+        "end_w": _given("w of the ends", "w of the line's first and second end."),
+        "parts": VariableText("parts", "Share of each end over its w."),
+        "s": VariableText("s", "Share of the second end in the value."),
     },
     "shade": {
         **_PIXEL,
@@ -206,6 +233,7 @@ HIDDEN: Mapping[str, frozenset[str]] = {
     "clip.untouched": frozenset({"edge"}),
     "edges.orientation": frozenset({"corner", "homogeneous"}),
     "edges.edge": frozenset({"homogeneous"}),
+    "edges.anchored-edge": frozenset({"homogeneous"}),
     "bin.box": frozenset({"size", "a", "b", "c"}),
     "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center", "a", "b", "c"}),
     "bin.whole-image": frozenset({"size", "center", "a", "b", "c"}),

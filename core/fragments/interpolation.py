@@ -17,6 +17,9 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.methods import method, table
 
+DETERMINANT_ERROR = 2.0**-50
+"""Rounding error of a determinant, as a part of the sum of the sizes of its terms."""
+
 
 @dataclass(frozen=True, eq=False)
 class Planes:
@@ -39,8 +42,8 @@ def set_up_planes(homogeneous: Floats) -> Planes:
 
     Notes
     -----
-    A triangle seen edge-on (determinant 0) has no inverse, but snapping may still give it pixels: there it
-    takes the mean of its corners.
+    A triangle seen edge-on (a determinant within its own rounding error) has no inverse, but snapping may still
+    give it pixels: there it takes the mean of its corners.
     """
     x, y, w = (homogeneous[..., k] for k in range(3))
     following, last = [1, 2, 0], [2, 0, 1]
@@ -48,7 +51,12 @@ def set_up_planes(homogeneous: Floats) -> Planes:
     b = w[:, following] * x[:, last] - x[:, following] * w[:, last]
     c = x[:, following] * y[:, last] - y[:, following] * x[:, last]
     determinant = x[:, 0] * a[:, 0] + y[:, 0] * b[:, 0] + w[:, 0] * c[:, 0]
-    edge_on = np.flatnonzero(determinant == 0)
+    size = (
+        np.abs(x[:, 0]) * (np.abs(y[:, 1] * w[:, 2]) + np.abs(w[:, 1] * y[:, 2]))
+        + np.abs(y[:, 0]) * (np.abs(w[:, 1] * x[:, 2]) + np.abs(x[:, 1] * w[:, 2]))
+        + np.abs(w[:, 0]) * (np.abs(x[:, 1] * y[:, 2]) + np.abs(y[:, 1] * x[:, 2]))
+    )
+    edge_on = np.flatnonzero(np.abs(determinant) <= DETERMINANT_ERROR * size)
     if len(edge_on):
         with np.errstate(divide="ignore"):
             a[edge_on], b[edge_on], c[edge_on] = 0, 0, 1 / (3 * w[edge_on])

@@ -44,7 +44,7 @@ class Reflectance:
     """(F,) float64."""
 
     def take(self, index: Integers | slice) -> "Reflectance":
-        """Return the points of ``index``."""
+        """Return the points of ``index`` (Q,)."""
         return Reflectance(
             self.ambient[index], self.diffuse[index], self.specular[index], self.shininess[index]
         )
@@ -135,7 +135,7 @@ def trace_lighting(
     material: Surface,
     two_sided: bool = True,
 ) -> Lighting:
-    """Do what `light_surface` does, and keep every term."""
+    """Do what `light_surface` does for (F, 3) points, and keep every term."""
     count = len(position)
     points = _points(position, normal, eye, two_sided)
     diffuse_light, specular_light = np.empty((2, len(lights) + 1, count, 3))

@@ -42,18 +42,18 @@ class DepthFormat:
         return bits.astype(np.int32).view(np.float32)
 
     def is_nearer(self, new: Singles, old: Singles) -> Flags:
-        """Decide the depth test; a tie keeps what is there."""
+        """Decide the depth test of stored values (F,); a tie keeps what is there."""
         return np.asarray(new > old if self.larger_is_nearer else new < old)
 
 
 def as_float32(depth: Floats) -> Singles:
-    """Round to float32; -0 becomes 0, so that equal values have equal bits."""
+    """Round depths (F,) to float32; -0 becomes 0, so that equal values have equal bits."""
     with np.errstate(over="ignore"):
         return depth.astype(np.float32) + np.float32(0)
 
 
 def not_behind_eye(inverse_w: Floats) -> Singles:
-    """Round 1/w to float32, 0 where it is negative or NaN."""
+    """Round 1/w (F,) to float32, 0 where it is negative or NaN."""
     return as_float32(np.fmax(inverse_w, 0.0))
 
 

@@ -42,7 +42,7 @@ def srgb(linear: Floats) -> Floats:
 
 
 def linear_light(encoded: Floats) -> Floats:
-    """Return the linear values of sRGB ones, the inverse of `srgb`."""
+    """Return the linear values of sRGB ones, for arrays of any shape: the inverse of `srgb`."""
     return np.where(encoded <= 0.04045, encoded / 12.92, np.float_power((encoded + 0.055) / 1.055, 2.4))
 
 
@@ -113,7 +113,7 @@ def encode_srgb(linear: Singles) -> Bytes:
 
 
 def encode_linear(values: Singles) -> Bytes:
-    """Return the bytes of values that are not gamma coded, such as alpha; else as `encode_srgb`."""
+    """Return the bytes of values (any shape) that are not gamma coded, such as alpha; else as `encode_srgb`."""
     clipped = np.clip(np.nan_to_num(_as_float32(values).astype(np.float64), nan=0.0), 0.0, 1.0)
     return np.floor(255 * clipped + 0.5).astype(np.uint8)
 
@@ -154,8 +154,8 @@ def from_display(pixels: Bytes) -> Singles:
 
     Parameters
     ----------
-    pixels : (h, w, 1, 3 or 4) uint8 array
-        sRGB; the fourth channel is alpha, which is not gamma coded.
+    pixels : (H, W, C) uint8 array
+        C = 1, 3 or 4: sRGB; the fourth channel is alpha, which is not gamma coded.
 
     Returns
     -------

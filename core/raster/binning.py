@@ -9,7 +9,7 @@ N. Greene, *Hierarchical polygon tiling with coverage masks*, 1996.
 import numpy as np
 
 from core.arrays import Integers
-from core.raster.edge_functions import EdgeFunctions, edge_value
+from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
 from core.raster.schedule import (
     BEHIND,
     INSIDE,
@@ -36,20 +36,19 @@ def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:
     not projected, so that case 1 stays exact.
     """
     corners = edges.corners
-    first_column, first_row, end_column, end_row = raster.bounds
-    case = np.where(corners.is_projected.all(axis=1), PROJECTED, MIXED)
-    case[(corners.homogeneous[..., 2] <= 0).all(axis=1)] = BEHIND
-    box = np.empty((4, len(edges)), np.int64)
-    box[:] = np.array([first_column, first_row, end_column, end_row])[:, None]
+    projected = np.all(corners.is_projected, axis=1)
+    case = np.where(projected, PROJECTED, MIXED)
+    case[np.all(corners.homogeneous[..., 2] <= 0, axis=1)] = BEHIND
 
     # Columns and rows whose centres lie between the least and the greatest corner, ends included.
-    projected = case == PROJECTED
-    positions = corners.decided[projected] - raster.center
-    low, high = np.ceil(positions.min(axis=1)), np.floor(positions.max(axis=1)) + 1
-    box[0, projected] = np.maximum(low[:, 0], first_column)
-    box[1, projected] = np.maximum(low[:, 1], first_row)
-    box[2, projected] = np.minimum(high[:, 0], end_column)
-    box[3, projected] = np.minimum(high[:, 1], end_row)
+    bounds = raster.bounds
+    box = np.empty((4, len(edges)), np.int64)
+    for axis in range(2):
+        first, second, third = (corners.decided[:, corner, axis] for corner in range(3))
+        low = np.ceil(np.fmin(np.fmin(first, second), third) - raster.center)
+        high = np.floor(np.fmax(np.fmax(first, second), third) - raster.center) + 1
+        box[axis] = np.maximum(np.where(projected, low, bounds[axis]), bounds[axis])
+        box[axis + 2] = np.minimum(np.where(projected, high, bounds[axis + 2]), bounds[axis + 2])
 
     # Nothing to look at: behind the eye, no area, or between the pixel centres.
     empty = (case == BEHIND) | (edges.doubled_area == 0) | (box[2] <= box[0]) | (box[3] <= box[1])
@@ -70,17 +69,21 @@ def classify(
         ``OUTSIDE`` if one edge has all pixels outside, ``INSIDE`` if all edges have all pixels inside, else ``SPLIT``.
     rejected_by : (N,) int64
     """
-    a, b, c = edges.a[triangle], edges.b[triangle], edges.c[triangle]
-    left = (column + raster.center)[:, None]
-    bottom = (row + raster.center)[:, None]
-    right, top = left + (size - 1), bottom + (size - 1)
-    low = edge_value(a, b, c, np.where(a > 0, left, right), np.where(b > 0, bottom, top))
-    high = edge_value(a, b, c, np.where(a > 0, right, left), np.where(b > 0, top, bottom))
-    owns_tie = edges.owns_tie[triangle]
-    outside = (high < 0) | ((high == 0) & ~owns_tie)
-    inside = (low > 0) | ((low == 0) & owns_tie)
-    verdict = np.where(outside.any(axis=1), OUTSIDE, np.where(inside.all(axis=1), INSIDE, SPLIT))
-    rejected_by = np.where(verdict == OUTSIDE, outside.argmax(axis=1), -1)
+    left, bottom = raster.centers(column, row)
+    span = float(size - 1)
+    low, high = np.empty((len(triangle), 3)), np.empty((len(triangle), 3))
+    is_outside, is_within = np.zeros(len(triangle), bool), np.ones(len(triangle), bool)
+    rejected_by = np.full(len(triangle), -1)
+    for k in range(3):
+        a, b, c = (coefficient[:, k].take(triangle) for coefficient in (edges.a, edges.b, edges.c))
+        owns_tie = edges.owns_tie[:, k].take(triangle)
+        low[:, k] = edge_value(a, b, c, left + span * (a <= 0), bottom + span * (b <= 0))
+        high[:, k] = edge_value(a, b, c, left + span * (a > 0), bottom + span * (b > 0))
+        rejects = ~is_inside(high[:, k], owns_tie)
+        rejected_by[rejects & ~is_outside] = k
+        is_outside |= rejects
+        is_within &= is_inside(low[:, k], owns_tie)
+    verdict = np.where(is_outside, OUTSIDE, np.where(is_within, INSIDE, SPLIT))
     return low, high, verdict, rejected_by
 
 
@@ -118,29 +121,22 @@ def two_levels(edges: EdgeFunctions, boxes: Boxes, raster: Raster, size: int, fa
     coarse = one_level(edges, boxes, raster, size * factor)
     verdict = np.where(coarse.verdict == LEAF, SPLIT, coarse.verdict)
 
-    # Blocks of a split node that lie in the raster.
+    # Blocks of a split node that the triangle's box touches.
     split = np.flatnonzero(verdict == SPLIT)
-    first_column, first_row, end_column, end_row = raster.bounds
-    place = np.arange(factor * factor)
-    column = (coarse.column[split, None] + place % factor * size).ravel()
-    row = (coarse.row[split, None] + place // factor * size).ravel()
-    parent = np.repeat(split, factor * factor)
-    exists = (
-        (column < end_column) & (row < end_row) & (column + size > first_column) & (row + size > first_row)
-    )
-    column, row, parent = column[exists], row[exists], parent[exists]
+    column, row, parent = children(coarse, split, boxes, size, factor)
     triangle = coarse.triangle[parent]
     low, high, fine_verdict, fine_rejected = classify(edges, raster, triangle, column, row, size)
     fine_verdict = np.where(fine_verdict == SPLIT, LEAF, fine_verdict)
 
     # Pre-order: a node stands before its blocks, so it moves on by the blocks of the nodes before it.
-    children = np.bincount(parent, minlength=len(verdict))
-    own_place = np.arange(len(verdict)) + np.cumsum(children) - children
+    child_count = np.bincount(parent, minlength=len(verdict))
+    own_place = np.arange(len(verdict)) + np.cumsum(child_count) - child_count
     child_place = np.arange(len(parent)) + parent + 1
-    order = np.argsort(np.concatenate([own_place, child_place]), kind="stable")
 
     def merge(of_coarse: np.ndarray, of_fine: np.ndarray) -> np.ndarray:
-        return np.concatenate([of_coarse, of_fine])[order]
+        merged = np.empty((len(of_coarse) + len(of_fine), *of_coarse.shape[1:]), of_coarse.dtype)
+        merged[own_place], merged[child_place] = of_coarse, of_fine
+        return merged
 
     return Blocks(
         merge(coarse.triangle, triangle),
@@ -148,11 +144,30 @@ def two_levels(edges: EdgeFunctions, boxes: Boxes, raster: Raster, size: int, fa
         merge(coarse.row, row),
         merge(coarse.size, np.full(len(parent), size)),
         merge(coarse.parent, own_place[parent]),
-        merge(own_place + 1 + children, child_place + 1),
+        merge(own_place + 1 + child_count, child_place + 1),
         merge(coarse.low, low),
         merge(coarse.high, high),
         merge(verdict, fine_verdict),
         merge(coarse.rejected_by, fine_rejected),
+    )
+
+
+def children(
+    coarse: Blocks, split: Integers, boxes: Boxes, size: int, factor: int
+) -> tuple[Integers, Integers, Integers]:
+    """Return column, row and parent of the small blocks in the ``split`` (S,) nodes that the triangle's box touches."""
+    triangle = coarse.triangle[split]
+    left, bottom = coarse.column[split], coarse.row[split]
+    first_column = np.maximum((boxes.column[triangle] - left) // size, 0)
+    first_row = np.maximum((boxes.row[triangle] - bottom) // size, 0)
+    columns = np.minimum(-((left - boxes.column_end[triangle]) // size), factor) - first_column
+    rows = np.minimum(-((bottom - boxes.row_end[triangle]) // size), factor) - first_row
+    which, place = expand(columns * rows)
+    row, column = np.divmod(place, columns[which])
+    return (
+        left[which] + (first_column[which] + column) * size,
+        bottom[which] + (first_row[which] + row) * size,
+        split[which],
     )
 
 

@@ -8,9 +8,12 @@ Exactness
 ---------
 *Both ends projected*: snapped corners are multiples of 2^-8 up to 2^16 and pixel centres multiples of 2^-1 up
 to 2^14, so a x, b y and c are multiples of 2^-16 below 2^34: every product and sum fits the 53 bits of float64
-without rounding. *Otherwise*: IEEE multiplication commutes and subtraction is antisymmetric, so ``v2 x v1`` is
-exactly ``-(v1 x v2)``, and the two triangles of an edge see values of equal size and opposite sign. Either way the
-decision belongs to the edge, not to the triangle, and a shared edge has neither hole nor double hit.
+without rounding. *One end projected*: the edge is anchored in its snapped corner, and its direction is rounded to
+whole numbers of 26 bits; then it passes through the corner exactly, as do all edges that meet there, and again
+nothing is rounded. The turn is below 2^-26, a thousandth of the snapping step over the largest raster. *Neither*: IEEE
+multiplication commutes and subtraction is antisymmetric, so ``v2 x v1`` is exactly ``-(v1 x v2)``. In all three cases
+the two triangles of an edge see values of equal size and opposite sign: the decision belongs to the edge, not to the
+triangle, and a shared edge has neither hole nor double hit.
 
 *Monotone*: rounding never reverses an order, so the computed value is monotone in the column and in the row. A
 block's least and greatest value stand at its corner pixels, and a row's inside pixels are one span: blocks and
@@ -32,6 +35,8 @@ from core.arrays import Flags, Floats
 from core.methods import table
 from core.raster.snapping import CornerPositions
 
+DIRECTION_BITS = 26
+"""Bits of the direction of an edge that is anchored in one snapped corner."""
 NEXT = np.array([1, 2, 0])
 LAST = np.array([2, 0, 1])
 
@@ -86,10 +91,15 @@ def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
     """Return the edge functions of P triangles, turned so that inside is positive."""
     x, y = corners.decided[..., 0], corners.decided[..., 1]
     a, b, c = cross(x[:, NEXT], y[:, NEXT], 1.0, x[:, LAST], y[:, LAST], 1.0)
-    both = corners.is_projected[:, NEXT] & corners.is_projected[:, LAST]
-    if not both.all():
-        a_h, b_h, c_h = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
-        a, b, c = np.where(both, a, a_h), np.where(both, b, b_h), np.where(both, c, c_h)
+    first, second = corners.is_projected[:, NEXT], corners.is_projected[:, LAST]
+    if not corners.is_projected.all():
+        homogeneous = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
+        forward = _from_corner(corners, NEXT, LAST)
+        backward = _from_corner(corners, LAST, NEXT)
+        a, b, c = (
+            np.select([first & second, first, second], [both, there, -back], neither)
+            for both, there, back, neither in zip((a, b, c), forward, backward, homogeneous, strict=True)
+        )
 
     # Turn clockwise triangles over, so that one inside test serves both facings.
     doubled_area = orient(corners)
@@ -107,20 +117,37 @@ def _homogeneous_ends(corners: CornerPositions, order: np.ndarray) -> tuple[Floa
     return np.where(projected, snapped[..., 0] * w, x), np.where(projected, snapped[..., 1] * w, y), w
 
 
+def _from_corner(corners: CornerPositions, at: np.ndarray, to: np.ndarray) -> tuple[Floats, Floats, Floats]:
+    """Return a, b, c (P, 3) of the edges from the projected corners ``at`` to the corners ``to``."""
+    x, y = (corners.decided[:, at, k] for k in range(2))
+    return anchored_edge(x, y, *(corners.homogeneous[:, to, k] for k in range(3)))
+
+
+def anchored_edge(
+    x: Floats, y: Floats, end_x: Floats, end_y: Floats, end_w: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Return a, b, c (P, 3) of lines through snapped corners and homogeneous points, directions in whole numbers."""
+    a, b = y * end_w - end_y, end_x - x * end_w
+    _, exponent = np.frexp(np.maximum(np.abs(a), np.abs(b)))
+    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)
+    a, b = np.rint(a / unit), np.rint(b / unit)
+    return a, b, -(a * x + b * y)
+
+
 def cross(
     x1: Floats, y1: Floats, w1: Floats | float, x2: Floats, y2: Floats, w2: Floats | float
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the cross product of (x1, y1, w1) and (x2, y2, w2): the line through two homogeneous points."""
+    """Return the cross products (P, 3) of (x1, y1, w1) and (x2, y2, w2): lines through two homogeneous points."""
     return y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
 
 
 def edge_value(a: Floats, b: Floats, c: Floats, x: Floats, y: Floats) -> Floats:
-    """Evaluate edge functions at pixel centres; the part of the row is summed first."""
+    """Evaluate edge functions at pixel centres, all (F,) or (F, 3); the part of the row is summed first."""
     return a * x + (b * y + c)
 
 
 def is_inside(value: Floats, owns_tie: Flags) -> Flags:
-    """Decide on which side of an edge a pixel centre lies; on it, the fill rule decides."""
+    """Decide on which side of an edge pixel centres (F,) lie; on it, the fill rule decides."""
     return np.asarray((value > 0) | ((value == 0) & owns_tie))
 
 
@@ -143,4 +170,17 @@ def edge_coefficients(
     a = sign * (y1 * w2 - w1 * y2)  #: a
     b = sign * (w1 * x2 - x1 * w2)  #: b
     c = sign * (x1 * y2 - y1 * x2)  #: c
+    return a, b, c
+
+
+def anchored_coefficients(
+    x: float, y: float, end_x: float, end_y: float, end_w: float, sign: float
+) -> tuple[float, float, float]:
+    """Listing of an edge with one snapped end (x, y): through it exactly, its direction in whole numbers."""
+    a, b = y * end_w - end_y, end_x - x * end_w  #: direction
+    _, exponent = np.frexp(max(abs(a), abs(b)))
+    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)  #: unit
+    a = sign * np.rint(a / unit)  #: a
+    b = sign * np.rint(b / unit)  #: b
+    c = -(a * x + b * y)  #: c
     return a, b, c

@@ -21,7 +21,7 @@ SORTED = ((0, 1, 2), (0, 2, 1), (2, 0, 1), (1, 0, 2), (1, 2, 0), (2, 1, 0))
 
 
 def round_half_up(value: Floats) -> Floats:
-    """Round as JavaScript's ``Math.round``."""
+    """Round values (any shape) as JavaScript's ``Math.round``."""
     return np.asarray(np.floor(value + 0.5))
 
 
@@ -70,7 +70,7 @@ def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_s
 
 
 def sort_corners(x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """Put the corners in falling order of y by the printed comparisons: all strict, so level corners stay unsorted."""
+    """Put corners (T, 3) in falling order of y by the printed comparisons: all strict, so level ones stay unsorted."""
     orders = np.array(SORTED)
     falling = [(y[:, i] > y[:, j]) & (y[:, j] > y[:, k]) for i, j, k in SORTED]
     chosen = np.where(np.any(falling, axis=0), np.argmax(falling, axis=0), 0)
@@ -79,7 +79,7 @@ def sort_corners(x: Floats, y: Floats) -> tuple[Floats, Floats]:
 
 
 def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
-    """Return for the upper and the lower part: start row, end row, step, start x, both inverse slopes, drawn or not."""
+    """Return for the upper and lower parts of triangles (T, 3): start row, direction, start x, both slopes, rows."""
     x1, x2, x3 = x.T
     y1, y2, y3 = y.T
     flat_bottom = y2 == y3

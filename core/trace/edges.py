@@ -3,13 +3,13 @@
 import numpy as np
 
 from core.listing import listing
-from core.raster.edge_functions import edge_coefficients
+from core.raster.edge_functions import anchored_coefficients, edge_coefficients
 from core.raster.snapping import snap_one
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS = ("snapped", "homogeneous", "orientation", "edge")
+KINDS = ("snapped", "homogeneous", "orientation", "edge", "anchored-edge")
 
 
 def trace_edges(source: TraceSource) -> StageTrace:
@@ -24,7 +24,8 @@ def trace_edges(source: TraceSource) -> StageTrace:
         place < 3, np.where(corners.is_projected[primitive, index], 0, 1), np.where(place == 3, 2, 3)
     )
     following, last = (index + 1) % 3, (index + 2) % 3
-    both = corners.is_projected[primitive, following] & corners.is_projected[primitive, last]
+    from_corner, to_corner = corners.is_projected[primitive, following], corners.is_projected[primitive, last]
+    kind[(place > 3) & (from_corner != to_corner)] = KINDS.index("anchored-edge")
     columns = {
         "corner": index,
         "edge": index,
@@ -32,14 +33,19 @@ def trace_edges(source: TraceSource) -> StageTrace:
         "window": corners.window[primitive, index],
         "snapped": corners.decided[primitive, index],
         "doubled_area": edges.doubled_area[primitive],
-        "is_projected": both,
+        "is_projected": from_corner & to_corner,
+        "anchor": from_corner.astype(np.int64) - to_corner,
         "a": edges.a[primitive, index],
         "b": edges.b[primitive, index],
         "c": edges.c[primitive, index],
         "owns_tie": edges.owns_tie[primitive, index],
-        "start": _end(source, primitive, following, both),
-        "finish": _end(source, primitive, last, both),
+        "start": _end(source, primitive, following),
+        "finish": _end(source, primitive, last),
     }
+    coefficients = (
+        *(Operation(name, name, (name,)) for name in "abc"),
+        Operation("tie", "c", ("owns_tie",)),
+    )
     steps = Steps(
         kinds=KINDS,
         kind=kind,
@@ -47,17 +53,13 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "snapped": (Operation("window", "snap", ("window",)), Operation("snap", "back", ("snapped",))),
             "homogeneous": (Operation("keep", "snap", ("homogeneous",)),),
             "orientation": (Operation("area", "a", ("doubled_area",)),),
-            "edge": (
-                Operation("a", "a", ("a",)),
-                Operation("b", "b", ("b",)),
-                Operation("c", "c", ("c",)),
-                Operation("tie", "c", ("owns_tie",)),
-            ),
+            "edge": coefficients,
+            "anchored-edge": coefficients,
         },
         triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
         group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
     )
-    snapping, coefficients = listing(snap_one), listing(edge_coefficients)
+    snapping, cross_product = listing(snap_one), listing(edge_coefficients)
     return StageTrace(
         stage="edges",
         method=f"coverage={source.settings.coverage}",
@@ -68,8 +70,9 @@ def trace_edges(source: TraceSource) -> StageTrace:
         listings={
             "snapped": snapping,
             "homogeneous": snapping,
-            "orientation": coefficients,
-            "edge": coefficients,
+            "orientation": cross_product,
+            "edge": cross_product,
+            "anchored-edge": listing(anchored_coefficients),
         },
         marks={"rejected": (place == 3) & (edges.doubled_area[primitive] == 0)},
         extra={"edges": edges, "planes": geometry.planes},
@@ -77,11 +80,10 @@ def trace_edges(source: TraceSource) -> StageTrace:
     )
 
 
-def _end(source: TraceSource, primitive: np.ndarray, corner: np.ndarray, both: np.ndarray) -> np.ndarray:
-    """Return (R, 3) the end of an edge as its function sees it: (snapped, 1), or homogeneous."""
+def _end(source: TraceSource, primitive: np.ndarray, corner: np.ndarray) -> np.ndarray:
+    """Return (R, 3) the end of an edge as its function sees it: (snapped, 1) where it is projected, else (x, y, w)."""
     corners = source.geometry.edges.corners
-    projected = corners.is_projected[primitive, corner]
-    w = corners.homogeneous[primitive, corner, 2]
     snapped = np.column_stack([corners.decided[primitive, corner], np.ones(len(primitive))])
-    scaled = np.where(projected[:, None], snapped * w[:, None], corners.homogeneous[primitive, corner])
-    return np.where(both[:, None], snapped, scaled)
+    return np.where(
+        corners.is_projected[primitive, corner][:, None], snapped, corners.homogeneous[primitive, corner]
+    )

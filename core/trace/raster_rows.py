@@ -72,7 +72,7 @@ def overdraw_track(source: TraceSource, rows: Integers) -> BufferTrack:
 
 
 def occurrence(place: Integers) -> Integers:
-    """Return how many earlier elements (k,) name the same place."""
+    """Return how many earlier elements name the same place: (K,) to (K,)."""
     order = np.argsort(place, kind="stable")
     ordered = place[order]
     first = np.maximum.accumulate(np.where(np.diff(ordered, prepend=-1) != 0, np.arange(len(place)), 0))

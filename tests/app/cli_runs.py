@@ -10,7 +10,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def run_program(*arguments, cwd=None, stdin=None, **variables):
     """Run ``rasterscope`` with these arguments and return the finished process."""
-    environment = dict(os.environ, PYTHONPATH=str(ROOT), PYTHONWARNINGS="error", **variables)
+    texts = {name: str(value) for name, value in variables.items()}
+    environment = dict(os.environ, PYTHONPATH=str(ROOT), PYTHONWARNINGS="error", **texts)
     command = [sys.executable, "-P", "-m", "app", *map(str, arguments)]
     return subprocess.run(
         command, capture_output=True, encoding="utf-8", cwd=cwd, env=environment, input=stdin, timeout=120

@@ -22,17 +22,25 @@ def test_the_file_appears_when_it_is_whole(tmp_path):
 def test_what_stands_there_stays_when_something_goes_wrong(tmp_path, error):
     path = tmp_path / "a.txt"
     path.write_bytes(b"old")
-    with pytest.raises(error), whole_file(path) as file:
-        file.write(b"new")
-        raise error
+
+    def write():
+        with whole_file(path) as file:
+            file.write(b"new")
+            raise error
+
+    with pytest.raises(error):
+        write()
     assert path.read_bytes() == b"old"
     assert os.listdir(tmp_path) == ["a.txt"]
 
 
 def test_an_error_of_the_system_names_the_file(tmp_path):
-    with pytest.raises(FileWriteError, match=r"a\.txt cannot be written: no space left on device"):
+    def write():
         with whole_file(tmp_path / "a.txt"):
             raise OSError(28, "No space left on device")
+
+    with pytest.raises(FileWriteError, match=r"a\.txt cannot be written: no space left on device"):
+        write()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX permissions and links")

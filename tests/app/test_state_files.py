@@ -137,9 +137,9 @@ def mesh_scenes(draw):
 def states(draw):
     scene = draw(st.one_of(clip_scenes(), mesh_scenes()))
     settings = draw(settings_values())
-    if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-        if "perspective" in table.get("depth", settings.depth).needs:
-            settings = replace(settings, depth="z-float32")
+    is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
+    if is_orthographic and "perspective" in table.get("depth", settings.depth).needs:
+        settings = replace(settings, depth="z-float32")
     raster = TeachingRaster(draw(st.integers(1, 16)), draw(st.integers(1, 12)))
     document = Document(
         scene,
@@ -336,25 +336,25 @@ def drop(*where):
         (put([-1, 0], "raster", "origin"), "raster.origin.0 must be greater than or equal to 0, got -1"),
         (drop("raster", "rows"), "raster.rows is missing"),
         (put(3, "colour"), "colour is not a known field"),
-        (put(math.nan, "scene", "camera", "near"), "scene.meshes.camera.near must be a finite number"),
-        (put(math.inf, "scene", "background", 0), "scene.meshes.background.0 must be a finite number"),
+        (put(math.nan, "scene", "camera", "near"), "scene.camera.near must be a finite number"),
+        (put(math.inf, "scene", "background", 0), "scene.background.0 must be a finite number"),
         (put("near", "scene", "camera", "near"), "camera.near must be a valid number, got 'near'"),
         (put(50.0, "scene", "camera", "near"), "near must be less than far, got near 50"),
         (put(-1.0, "scene", "camera", "near"), "near must be positive for a perspective camera"),
         (put(0.0, "scene", "camera", "field_of_view"), "field of view must be between 0 and 180 degrees"),
         (put(math.pi, "scene", "camera", "field_of_view"), "field of view must be between 0 and 180 degrees"),
         (put("fisheye", "scene", "camera", "projection"), "camera.projection must be 'perspective'"),
-        (put([0.0, 0.0], "scene", "camera", "eye"), "scene.meshes.camera.eye"),
+        (put([0.0, 0.0], "scene", "camera", "eye"), "scene.camera.eye"),
         (put([0.0, 0.0, 0.0], "scene", "lights", 0, "vector"), "scene.lights.0: light direction"),
         (put("lamp", "scene", "lights", 0, "kind"), "lights.0.kind must be 'directional' or 'point'"),
-        (put([0, 5], "scene", "size"), "scene.meshes.size.0 must be greater than or equal to 1, got 0"),
-        (put([5], "scene", "size"), "scene.meshes.size.1 is missing"),
+        (put([0, 5], "scene", "size"), "scene.size.0 must be greater than or equal to 1, got 0"),
+        (put([5], "scene", "size"), "scene.size.1 is missing"),
         (put([99999, 5], "scene", "size"), "scene: size must be 1 to 16384 pixels each way"),
         (put("sphere of doom", "scene", "source", "built_in"), "scene must be one of single-triangle"),
         (put("shared-edge", "scene", "source", "built_in"), "shared-edge has no meshes"),
         (put("sphere", "scene", "source", "built_in"), "sphere has changed since the state was saved"),
         (put("x.obj", "scene", "source", "file"), "a source is either built_in or file"),
-        (put([], "scene", "meshes"), "scene.meshes.meshes"),
+        (put([], "scene", "meshes"), "scene.meshes must have"),
         (put("blob", "scene", "kind"), "scene"),
         (put(4, "scene", "meshes", 0, "source_mesh"), "cube has changed"),
         (drop("scene", "meshes", 0, "from_source", "positions"), "meshes.0.arrays.positions is missing"),
@@ -402,13 +402,13 @@ ARRAY = {"dtype": "float64", "shape": [1, 3, 4], "rows": [[0, 0, 0, 1], [1, 0, 0
     [
         ({"rows": None}, "an array must have either rows or zlib"),
         ({"zlib": "AAAA"}, "an array must have either rows or zlib"),
-        ({"rows": [[0, 0, 0, 1]]}, "shape [1, 3, 4] wants 12 numbers, got 4"),
+        ({"rows": [[0, 0, 0, 1]]}, "scene.clip: shape [1, 3, 4] wants 12 numbers, got 4"),
         ({"shape": [2, 3, 4]}, "wants 24 numbers, got 12"),
         ({"shape": [3, 4]}, "clip must be (T, 3, 4), got (3, 4)"),
         ({"shape": [-1, 3, 4]}, "shape.0 must be greater than or equal to 0"),
         ({"dtype": "object"}, "dtype must be 'float64', 'float32' or 'int64'"),
-        ({"dtype": "int64"}, "numbers of int64 must be whole"),
-        ({"rows": [["one"] * 4] * 3}, "scene.clip.clip.rows.0.0"),
+        ({"dtype": "int64"}, "scene.clip: numbers of int64 must be whole"),
+        ({"rows": [["one"] * 4] * 3}, "scene.clip.rows.0.0"),
         ({"rows": [[10**400] * 4] * 3}, "scene"),
         ({"rows": None, "zlib": "§§"}, "the compressed bytes are damaged"),
         ({"rows": None, "zlib": "AAAA"}, "the compressed bytes are damaged"),

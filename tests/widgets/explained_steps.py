@@ -96,6 +96,8 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(fill="scanline-lecture", interpolation="affine", cull="front", blend="over"),
         Settings(fill="brute-force", fill_rule="inclusive", depth="inverse-w", visibility="last-drawn"),
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
+        *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
+        Settings(polygon_mode="wireframe", interpolation="affine"),
     ]
     return tuple(
         step for name in RARE_CLIP for choice in choices for step in steps_of(rare_trace(name, choice))

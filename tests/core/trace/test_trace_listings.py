@@ -20,7 +20,7 @@ from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
 from core.raster.binning import block_verdict
-from core.raster.edge_functions import covers, edge_coefficients
+from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle, round_half_up
 from core.raster.snapping import snap_one
@@ -91,6 +91,12 @@ def check_edges(traced: Trace) -> None:
     for row in rows_of_kind(found, "edge"):
         sign = np.sign(c["doubled_area"][row])
         coefficients = edge_coefficients(*c["start"][row], *c["finish"][row], sign)
+        assert equal(coefficients, (c["a"][row], c["b"][row], c["c"][row]))
+    for row in rows_of_kind(found, "anchored-edge"):
+        ends = (c["start"][row], c["finish"][row])
+        corner, other = ends if c["anchor"][row] > 0 else ends[::-1]
+        sign = np.sign(c["doubled_area"][row]) * c["anchor"][row]
+        coefficients = anchored_coefficients(*corner[:2], *other, sign)
         assert equal(coefficients, (c["a"][row], c["b"][row], c["c"][row]))
 
 
