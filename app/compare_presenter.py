@@ -62,6 +62,8 @@ class ComparePresenter(QObject):
         """Show the comparison from now on, or stop computing it."""
         self._is_active = is_active
         self.refresh()
+        if is_active and self._differences:
+            self._view.show_family(next(iter(self._differences)))
 
     @Slot()
     def refresh(self) -> None:

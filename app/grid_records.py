@@ -143,10 +143,12 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
         overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
         overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
         if "values" in stage.columns:
-            values = stage.columns["values"][:done]
-            for k in range(3):
-                outside = mask(values[:, k] < 0)
-                overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, f"outside edge {k}"))
+            values = stage.columns.get("values")
+        # A line has no edge functions: nothing is outside of an edge.
+        for k in range(3 if values is not None else 0):
+            assert values is not None
+            outside = mask(values[:done, k] < 0)
+            overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, f"outside edge {k}"))
         overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), "on an edge"))
         counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
         overlays.append(CountOverlay("overdraw", counted))

@@ -210,7 +210,11 @@ class StepPage(QWidget):
         line = self.sentence.fontMetrics().lineSpacing()
         self.sentence.setMinimumHeight(3 * line)
         width = max(self.inspector_rows.width(), 240)
-        card = self.card.fold_button.sizeHint().height() if self.card.is_folded() else self.card.heightForWidth(width)
+        card = (
+            self.card.fold_button.sizeHint().height()
+            if self.card.is_folded()
+            else self.card.heightForWidth(width)
+        )
         wanted = card + 3 * line + 4 * line + 8
         if wanted != self.step_pane.minimumHeight():
             self.step_pane.setMinimumHeight(wanted)

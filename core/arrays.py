@@ -1,6 +1,7 @@
 """Read-only arrays and the checks that every public function makes on its input."""
 
 from collections.abc import Sequence
+from math import isfinite
 from typing import Any, TypeVar
 
 import numpy as np
@@ -74,8 +75,8 @@ def checked(
 
 def checked_size(name: str, size: Sequence[int], limit: int) -> tuple[int, int]:
     """Return ``size`` as (width, height), each from 1 to ``limit`` pixels, or raise ValueError."""
-    if len(size) != 2 or any(int(n) != n for n in size):
-        raise ValueError(f"{name} must be two whole numbers (width, height), got {tuple(size)}")
+    if not isinstance(size, Sequence) or len(size) != 2 or any(not isfinite(n) or int(n) != n for n in size):
+        raise ValueError(f"{name} must be two whole numbers (width, height), got {size}")
     width, height = int(size[0]), int(size[1])
     if not (1 <= width <= limit and 1 <= height <= limit):
         raise ValueError(f"{name} must be 1 to {limit} pixels each way, got {width}x{height}")

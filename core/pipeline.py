@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Flags, Floats, Integers, Singles
+from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.fragments.interpolation import interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, clamp_depth, layers, run_depth_tests
@@ -220,11 +220,11 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
         attributes[pixel] = values
         counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
     return Frame(
-        color=color.reshape(*raster.shape, 4),
-        depth=depth.reshape(raster.shape),
-        primitive=identity.reshape(raster.shape),
-        attributes=attributes.reshape(*raster.shape, values.shape[1]),
-        cover_count=cover_count.reshape(raster.shape),
+        color=read_only(color.reshape(*raster.shape, 4)),
+        depth=read_only(depth.reshape(raster.shape)),
+        primitive=read_only(identity.reshape(raster.shape)),
+        attributes=read_only(attributes.reshape(*raster.shape, values.shape[1])),
+        cover_count=read_only(cover_count.reshape(raster.shape)),
         statistics=counts,
     )
 

@@ -105,8 +105,8 @@ def world_normals(mesh: Mesh) -> Floats:
 
     Notes
     -----
-    Normals are covectors: they go with the transposed inverse of M, written as its cofactor matrix, so
-    that a mesh flattened by M (det M = 0) still has them.
+    Normals are covectors: they go with the cofactor matrix of M, which is its transposed inverse times det M.
+    A mesh flattened by M (det M = 0) still has them, and under a mirror they turn over with the winding.
     """
     normals = mesh.normals if mesh.normals is not None else vertex_normals(mesh.positions, mesh.triangles)
     first, second, third = mesh.transform[:3, :3]
