@@ -38,10 +38,10 @@ class Settings:
 
     def __post_init__(self) -> None:
         for family in families():
-            table.get(family, getattr(self, family))
-        if not 1 <= int(self.block_size) <= BLOCK_SIZE_LIMIT or self.block_size != int(self.block_size):
+            table.get(family, str(getattr(self, family)))
+        if not isinstance(self.block_size, int) or not 1 <= self.block_size <= BLOCK_SIZE_LIMIT:
             raise ValueError(
-                f"block_size must be a whole number from 1 to {BLOCK_SIZE_LIMIT}, got {self.block_size}"
+                f"block_size must be a whole number from 1 to {BLOCK_SIZE_LIMIT}, got {self.block_size!r}"
             )
 
 

@@ -9,8 +9,7 @@ import math
 from collections.abc import Sequence
 
 from widgets.formula import Formula
-from widgets.number_text import position_text
-from widgets.typed_value import number_text
+from widgets.number_text import number_text, position_text
 
 Part = str | tuple[str, float | str]
 """An operator, or a symbol with its number (or with LaTeX to stand under it)."""

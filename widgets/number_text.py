@@ -1,12 +1,106 @@
-"""How sentences write numbers: four significant digits, snapped positions exactly, counts with their noun."""
+"""How numbers are read and written: as people type them, with four significant digits, in full, or in 1/256ths.
+
+Everything that shows numbers uses these functions, sentences too, so one value reads the same everywhere.
+"""
 
 import math
+import re
 from collections.abc import Sequence
 
-from widgets.typed_value import fraction_text, number_text
+SUBPIXELS = 256
+"""Steps of one pixel that a snapped position can take; fractions are shown in these."""
 
+_DECIMAL = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = re.compile(
+    rf"^(?P<sign>[+\-]?)\s*(?:(?P<whole>\d+)\s+(?=\d+\s*/))?"
+    rf"(?P<top>{_DECIMAL})?\s*(?:[*\u00b7]?\s*(?P<pi>pi|PI|Pi|\u03c0))?"
+    rf"(?:\s*/\s*(?P<bottom>{_DECIMAL}))?$"
+)
 EXACT_DECIMALS = 3
 """Snapped positions with no more decimals are written as decimals, others in 1/256ths."""
+
+
+def parse_number(text: str) -> float:
+    """Read a number as people write it.
+
+    Parameters
+    ----------
+    text : str
+        A decimal (``-1.5``, ``1e-3``, ``0,25``), a fraction (``3/256``, ``1 1/2``), or multiple of pi
+        (``pi/4``).
+
+    Returns
+    -------
+    float
+        The value; always finite.
+
+    Raises
+    ------
+    ValueError
+        With one plain sentence that says what was wanted.
+    """
+    found = _NUMBER.match(text.strip().replace("\u2212", "-"))
+    if found is None or not (found["top"] or found["pi"]):
+        raise ValueError("a number is wanted, such as 1.5, 3/256 or pi/4")
+    value = float(found["top"].replace(",", ".")) if found["top"] else 1.0
+    if found["pi"]:
+        value *= math.pi
+    if found["bottom"]:
+        bottom = float(found["bottom"].replace(",", "."))
+        if bottom == 0.0:
+            raise ValueError("division by zero")
+        value /= bottom
+    value += float(found["whole"] or 0)
+    if not math.isfinite(value):
+        raise ValueError("the number is too large")
+    return -value if found["sign"] == "-" else value
+
+
+def full_text(value: float) -> str:
+    """Return the shortest text that reads back to the same value, with a true minus sign."""
+    if isinstance(value, int):
+        return str(value).replace("-", "\u2212")
+    if not math.isfinite(value):
+        return _non_finite(value)
+    text = repr(float(value))
+    return text.removesuffix(".0").replace("-", "\u2212")
+
+
+def number_text(value: float, digits: int = 4) -> str:
+    """Write four significant digits with a true minus sign; whole numbers keep up to six."""
+    if not math.isfinite(value):
+        return _non_finite(value)
+    if value == int(value) and abs(value) < 1e6:
+        text = str(int(value))
+        return (
+            ("\u2212" + text) if value == 0 and math.copysign(1.0, value) < 0 else text.replace("-", "\u2212")
+        )
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        text = f"{mantissa}e{int(exponent)}"
+    return text.replace("-", "\u2212")
+
+
+def fraction_text(value: float) -> str:
+    """Write an exact multiple of 1/256 as a mixed fraction; anything else rounded, with a leading ``~``."""
+    if not math.isfinite(value):
+        return _non_finite(value)
+    scaled = value * SUBPIXELS
+    if scaled != round(scaled):
+        return "~" + number_text(value)
+    whole, part = divmod(abs(round(scaled)), SUBPIXELS)
+    sign = "\u2212" if value < 0 else ""
+    if part == 0:
+        return f"{sign}{whole}"
+    lead = f"{whole} " if whole else ""
+    return f"{sign}{lead}{part}/{SUBPIXELS}"
+
+
+def _non_finite(value: float) -> str:
+    if math.isnan(value):
+        return "NaN"
+    return "\u221e" if value > 0 else "\u2212\u221e"
 
 
 def spoken(value: float) -> str:

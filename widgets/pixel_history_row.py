@@ -5,9 +5,9 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QPainter
 from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from widgets.marks import blended, draw_mark
+from widgets.number_text import number_text
 from widgets.pixel_story import ENTRY_ROLE, HistoryEntry, PixelValue
 from widgets.theme import current_theme
-from widgets.typed_value import number_text
 
 
 class EntryDelegate(QStyledItemDelegate):

@@ -6,7 +6,7 @@ from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelInde
 from PySide6.QtWidgets import QWidget
 
 from widgets.marks import Mark
-from widgets.typed_value import full_text
+from widgets.number_text import full_text
 
 ENTRY_ROLE = Qt.ItemDataRole.UserRole
 """Role of the `HistoryEntry` itself."""

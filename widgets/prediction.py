@@ -7,9 +7,9 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
 from widgets.marks import Mark, mark_pixmap
+from widgets.number_text import parse_number
 from widgets.roles import set_role
 from widgets.theme import current_theme, theme_notifier
-from widgets.typed_value import parse_number
 
 
 class AnswerKind(Enum):

@@ -17,8 +17,9 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.key_claim import KeyClaim
+from widgets.number_text import fraction_text, full_text, number_text
 from widgets.theme import current_theme, theme_notifier
-from widgets.typed_value import fraction_text, full_text, number_text, tabular_font
+from widgets.typed_value import tabular_font
 
 Value = float | int | bool | str | tuple[float, ...] | None
 """What a variable can hold; None: it has no value."""

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any
 
 from core.why.records import Link, PixelEvent, PixelHistory
-from widgets.typed_value import number_text
+from widgets.number_text import number_text
 
 Values = Mapping[str, Any]
 Sentence = str | Callable[[Values], str]

@@ -83,12 +83,12 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
     Notes
     -----
     ``distance`` is signed, positive inside, in pixels; ``subpixels`` the same in 1/256 pixel; ``ulps`` the
-    value in units in the last place of its largest term. The value of a snapped edge is exact.
+    value in units in the last place of its largest term. The value of an edge with a snapped end is exact.
     """
     distance, inside = tests.distance[k], tests.inside[k]
     failing = ~inside if not inside.all() else np.ones(3, bool)
     edge = int(np.argmin(np.where(failing, np.nan_to_num(distance, nan=-np.inf), np.inf)))
-    both = edges.corners.is_projected[k, [(edge + 1) % 3, (edge + 2) % 3]].all()
+    is_anchored = edges.corners.is_projected[k, [(edge + 1) % 3, (edge + 2) % 3]].any()
     return {
         "values": tests.values[k],
         "distances": distance,
@@ -100,7 +100,7 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
         "distance": float(distance[edge]),
         "subpixels": float(distance[edge] * SUBPIXELS),
         "ulps": float(tests.ulps[k, edge]),
-        "is_exact": bool(both),
+        "is_exact": bool(is_anchored),
         "doubled_area": float(edges.doubled_area[k]),
     }
 

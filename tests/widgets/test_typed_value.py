@@ -4,7 +4,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLineEdit, QVBoxLayout, QWidget
 
-from widgets.typed_value import TypedValue, fraction_text, full_text, number_text, parse_number
+from widgets.number_text import fraction_text, full_text, number_text, parse_number
+from widgets.typed_value import TypedValue
 
 
 @pytest.mark.parametrize(

@@ -240,7 +240,7 @@ def test_a_triangle_in_front_is_not_clipped_for_one_that_crosses_the_eye():
 
 def test_an_unsnapped_edge_has_ulps():
     scene = window_scene([(0.1, 0.1), (12.3, 0.7), (3.3, 9.9)], w=[[1.0, 1.7, 2.9]])
-    reason = ask(scene, 11, 8, 0, coverage="float64").verdict.values["reason"]
+    reason = ask(scene, 11, 8, 0, coverage="float64", fill="bounding-box").verdict.values["reason"]
     assert reason.key == "missed-edge"
     assert not reason.values["is_exact"]
     edge = reason.values["edge"]
