@@ -65,7 +65,8 @@ class GridPresenter(QObject):
         ranges.range_changed.connect(self._choose_range)
         ranges.range_reset.connect(self._reset_range)
         ranges.fitting_changed.connect(self._keep_fitting)
-        self._stage = ""
+        self._focus = 0
+        self._geometry = geometry_of(session.document, session.trace, 0)
         self.refresh_run()
 
     # Showing.
@@ -74,11 +75,8 @@ class GridPresenter(QObject):
     def refresh_run(self) -> None:
         """Show another run: outlines, rulers, buffers."""
         session = self._session
-        geometry = geometry_of(session.document, session.trace)
         self._grid.set_pixel_center(session.document.settings.pixel_center)
-        self._grid.show_geometry(geometry)
-        self._strip.show_geometry(geometry)
-        self._stage = session.cursor.stage
+        self._show_outlines()
         self.refresh_step()
         self.refresh_pointing()
 
@@ -86,6 +84,9 @@ class GridPresenter(QObject):
     def refresh_step(self) -> None:
         """Show the state after the step just done."""
         session = self._session
+        row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+        if row >= 0:
+            self._focus_on(int(session.stage_trace.triangle[row]))
         stage = session.cursor.stage
         buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
         self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
@@ -103,6 +104,19 @@ class GridPresenter(QObject):
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
         self._hide_results(buffers, main)
+
+    def _focus_on(self, triangle: int) -> None:
+        """Give a triangle coloured edges and handles, where the document has none in focus."""
+        if triangle >= 0 and triangle != self._focus:
+            self._focus = triangle
+            if self._session.document.triangle is None:
+                self._show_outlines()
+
+    def _show_outlines(self) -> None:
+        geometry = geometry_of(self._session.document, self._session.trace, self._focus)
+        self._geometry = geometry
+        self._grid.show_geometry(geometry)
+        self._strip.show_geometry(geometry)
 
     def _hide_results(self, buffers: list[GridBuffer], main: GridBuffer) -> None:
         """Cover the finished picture while it is to be predicted."""
@@ -132,7 +146,7 @@ class GridPresenter(QObject):
         spans = span_overlay(trace, session.trace.source.raster, position)
         if spans is not None:
             found.append(spans)
-        lines = edge_overlay(session.document, session.trace)
+        lines = edge_overlay(self._geometry)
         if lines is not None:
             found.append(lines)
         return found
@@ -186,7 +200,9 @@ class GridPresenter(QObject):
 
     @Slot(int, int)
     def _pin(self, column: int, row: int) -> None:
-        self._session.set_pin(self._global(column, row))
+        pixel = self._global(column, row)
+        self._session.set_pin(pixel)
+        self._focus_on(int(self._session.trace.source.picture.primitive[row, column]))
 
     @Slot(str)
     def _choose_buffer(self, name: str) -> None:
@@ -223,7 +239,7 @@ class GridPresenter(QObject):
         document = self._session.document
         raster = self._session.trace.source.raster
         first_column, first_row, _, _ = raster.bounds
-        triangle = document.triangle if document.triangle is not None else vertex // 3
+        triangle = int(self._session.trace.source.geometry.assembled.triangle[vertex // 3])
         size = document.traced_scene.size
         try:
             scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)

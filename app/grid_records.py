@@ -62,8 +62,14 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     return GridBuffer(track.name, values, KINDS[track.kind], range=scale, origin=origin, known=known)
 
 
-def geometry_of(document: Document, trace: Trace) -> GridGeometry:
-    """Return the outlines of the traced triangles, in the columns and rows of the grid."""
+def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> GridGeometry:
+    """Return the outlines of the traced triangles, in the columns and rows of the grid.
+
+    Parameters
+    ----------
+    focus : int, optional
+        The triangle with coloured edges and handles, where the document has none in focus.
+    """
     source = trace.source
     geometry = source.geometry
     triangles = geometry.assembled.triangle[:OUTLINE_LIMIT]
@@ -74,20 +80,21 @@ def geometry_of(document: Document, trace: Trace) -> GridGeometry:
     window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * 256) / 256
+    wanted = document.triangle if document.triangle is not None else focus
+    place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
         triangles=np.arange(len(corners)).reshape(-1, 3),
-        focus=0 if document.triangle is not None or len(triangles) == 1 else -1,
+        focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
         snapped=(snapped - origin) if document.settings.coverage == "snapped" else None,
     )
 
 
-def edge_overlay(document: Document, trace: Trace) -> SegmentOverlay | None:
+def edge_overlay(geometry: GridGeometry) -> SegmentOverlay | None:
     """Return the edges of the triangle in focus as whole lines."""
-    geometry = geometry_of(document, trace)
     if geometry.focus < 0:
         return None
-    a, b, c = geometry.vertices[:3]
+    a, b, c = geometry.vertices[geometry.triangles[geometry.focus]]
     segments = np.array([[b, c], [c, a], [a, b]])
     return SegmentOverlay("edge lines", segments, (0, 1, 2), extended=True, title="edge lines")
 

@@ -37,7 +37,7 @@ from widgets.range_control import RangeControl
 from widgets.scene_outline import SceneOutline
 from widgets.settings_panel import SettingsPanel
 from widgets.stage_card import StageCardView
-from widgets.theme import theme_notifier
+from widgets.theme import current_theme, theme_notifier
 from widgets.timeline import Timeline
 from widgets.variables import VariablesView
 
@@ -200,14 +200,26 @@ class StepPage(QWidget):
         self.inspector_rows.setSizes([190, 170, 210])
         self.card.card_folded.connect(self._fit_step_pane)
         self.session.cursor_changed.connect(self._fit_step_pane)
-        theme_notifier().theme_changed.connect(self._fit_step_pane)
+        self._text_px = current_theme().text_px
+        theme_notifier().theme_changed.connect(self._follow_theme)
         self._fit_step_pane()
         return self.inspector_rows
 
     @Slot()
+    def _follow_theme(self) -> None:
+        """Give the side panes as much more room as their text has grown."""
+        before, self._text_px = self._text_px, current_theme().text_px
+        left, middle, right = self.columns.sizes()
+        growth = self._text_px / before
+        sides = round(left * growth), round(right * growth)
+        if growth != 1 and sum(sides) < 0.66 * (left + middle + right):
+            self.columns.setSizes([sides[0], left + middle + right - sum(sides), sides[1]])
+        self._fit_step_pane()
+
+    @Slot()
     def _fit_step_pane(self) -> None:
         """Keep room for three lines of the sentence and two of the formula, whatever the size of the type."""
-        line = self.sentence.fontMetrics().lineSpacing()
+        line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(3 * line)
         width = max(self.inspector_rows.width(), 240)
         card = (

@@ -249,7 +249,7 @@ class BufferStrip(QWidget):
         """Return a new tile that is linked with the others."""
         tile = BufferTile(name, self._area.widget())
         grid = tile.grid
-        grid.setMinimumWidth(120)
+        grid.setMinimumWidth(88)
         grid.set_view(self._view)
         grid.show_geometry(self._geometry)
         grid.show_overlays(self._overlays)
