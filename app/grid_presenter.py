@@ -66,6 +66,7 @@ class GridPresenter(QObject):
         ranges.range_reset.connect(self._reset_range)
         ranges.fitting_changed.connect(self._keep_fitting)
         self._focus = 0
+        self._stepped_to = session.cursor
         self._geometry = geometry_of(session.document, session.trace, 0)
         self.refresh_run()
 
@@ -85,8 +86,10 @@ class GridPresenter(QObject):
         """Show the state after the step just done."""
         session = self._session
         row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-        if row >= 0:
+        # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
+        if row >= 0 and session.cursor != self._stepped_to:
             self._focus_on(int(session.stage_trace.triangle[row]))
+        self._stepped_to = session.cursor
         stage = session.cursor.stage
         buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
         self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])

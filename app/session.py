@@ -177,6 +177,7 @@ class Session(QObject):
         self._trace = trace
         count = self.stage_trace.steps.count
         position = count if was_at_end else min(self._cursor.position, count)
+        has_moved = position != self._cursor.position
         self._cursor = replace(self._cursor, position=position)
         has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
         if has_lost_pin:
@@ -184,7 +185,8 @@ class Session(QObject):
         if self._hover is not None and not self.has_pixel(self._hover):
             self._hover = None
         self.document_changed.emit()
-        self.cursor_changed.emit()
+        if has_moved:
+            self.cursor_changed.emit()
         if has_lost_pin:
             self.pin_changed.emit()
         self.history_changed.emit()

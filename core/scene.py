@@ -86,7 +86,9 @@ class Mesh:
             )
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
-        object.__setattr__(self, "transform", checked("transform", self.transform, (4, 4), limit=COORDINATE_LIMIT))
+        object.__setattr__(
+            self, "transform", checked("transform", self.transform, (4, 4), limit=COORDINATE_LIMIT)
+        )
         for name, width in (("normals", 3), ("uvs", 2), ("colors", 4)):
             if getattr(self, name) is not None:
                 values = checked(name, getattr(self, name), ("N", width))

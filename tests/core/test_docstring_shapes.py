@@ -1,9 +1,8 @@
-"""Public functions that take arrays and whose docstring names no shape (a registered method may leave it to its family)."""
-
-import re
+"""Public functions that take arrays name their shapes; a registered method may leave it to its family."""
 
 import inspect
 import pkgutil
+import re
 from importlib import import_module
 from pathlib import Path
 

@@ -1,9 +1,5 @@
-"""Three corners on a line whose determinant is not exactly 0 by rounding: NaN colours (and a RuntimeWarning in ``mix``).
+"""Three corners on a line: the determinant is 0 but for rounding, and snapping may still open the triangle."""
 
-Snapping opens the triangle, so it has pixels; the determinant is 1e-16 of rounding, 1/w = n0 + n1 + n2 is 0 or noise.
-Of 230 such pixels 7 are NaN and 55 have values above 10 for inputs in [0, 1].
-fix_edge_on.py: |det| <= 2^-50 of the sum of the sizes of its products counts as 0: 0 NaN, 0 above 10, recorded cases unchanged.
-"""
 import numpy as np
 import pytest
 
@@ -11,13 +7,18 @@ from core import Settings, draw_triangles
 from tests.core.strategies import clip_of_window
 
 
-@pytest.mark.parametrize("points", [
-    [(9.599, 6.908), (10.235, 3.092), (9.359, 8.348)],
-    [(4.714, 3.155), (1.354, -2.605), (7.507, 7.943)],
-])
+@pytest.mark.parametrize(
+    "points",
+    [
+        [(9.599, 6.908), (10.235, 3.092), (9.359, 8.348)],
+        [(4.714, 3.155), (1.354, -2.605), (7.507, 7.943)],
+    ],
+)
 def test_a_triangle_on_a_line_that_snapping_opens_has_the_values_of_its_corners(points) -> None:
     clip = clip_of_window([points], (16, 16))
-    frame = draw_triangles(clip, 16, 16, attributes=[[[0.0], [0.5], [1.0]]], settings=Settings(visibility="last-drawn"))
+    frame = draw_triangles(
+        clip, 16, 16, attributes=[[[0.0], [0.5], [1.0]]], settings=Settings(visibility="last-drawn")
+    )
     seen = frame.attributes[frame.primitive == 0]
     assert len(seen)
     assert (np.abs(seen - 0.5) <= 0.5 + 1e-6).all()

@@ -1,17 +1,15 @@
-"""The law "each pixel exactly once" fails at a hub on a pixel centre whose rim lies behind the eye.
+"""Each pixel exactly once at a hub on a pixel centre whose rim lies behind the eye.
 
-Edge function of a snapped and an unprojected end: cross((sx w, sy w, w), (x2, y2, w2)) in float64. At the snapped corner
-it should be exactly 0 (as it is for two snapped ends), but w sx, w sy and the products are rounded, so each edge of
-the fan gets a random sign there: 461 of 1,483 random fans leave the hub's pixel 0, 2 or 3 times covered.
-With fix_mixed_edges.py (anchor the edge in its snapped corner, direction rounded to 26 bits so that all is exact): 0 of 1,483,
-and all 41 recorded OpenGL cases unchanged.
+Edges with one snapped end pass through it exactly; rounded, each would get a sign of its own there.
 """
+
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.core.drawing import cover_each
 from tests.core.meshes import fan
 from tests.core.strategies import clip_of_window
-from hypothesis import given, strategies as st
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(4, 9))
@@ -31,6 +29,13 @@ def test_fan_around_a_pixel_centre_with_its_rim_behind_the_eye(seed: int, count:
 def test_minimal() -> None:
     # Hub at the centre (1.5, 1.5) with w = 0.1 (a power of two would be exact), four rim corners at w = -0.7.
     hub = [-0.025, -0.025, 0.0, 0.1]
-    rim = np.array([[1.175, 0.27499999999999997], [0.07499999999999996, 1.175], [-0.8250000000000001, 0.07499999999999996], [0.27499999999999997, -0.8250000000000001]])
+    rim = np.array(
+        [
+            [1.175, 0.27499999999999997],
+            [0.07499999999999996, 1.175],
+            [-0.8250000000000001, 0.07499999999999996],
+            [0.27499999999999997, -0.8250000000000001],
+        ]
+    )
     rim = np.concatenate([rim, np.zeros((4, 1)), np.full((4, 1), -0.7)], axis=1)
     assert (cover_each(fan(hub, rim), (4, 4)).sum(axis=0) == 1).all()
