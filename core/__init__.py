@@ -15,7 +15,8 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 
 from core.frame import STAGES, Frame
 from core.pipeline import draw_triangles, render
-from core.raster import fill_rule, fills, lines, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
+from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
+from core.raster.lines import draw_lines
 from core.scene import (
     Camera,
     ClipScene,
@@ -43,6 +44,7 @@ __all__ = [
     "Settings",
     "Texture",
     "Trace",
+    "draw_lines",
     "draw_triangles",
     "render",
     "trace",

@@ -1,0 +1,35 @@
+"""A main window with a folder for preferences of its own."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from app.document import open_document
+from app.main_window import MainWindow
+from lessons.scenes import built_in_scene
+from pytestqt.qtbot import QtBot
+from widgets.theme import LIGHT, apply_theme
+
+
+@pytest.fixture
+def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[MainWindow]:
+    """Return a shown window with two triangles that share an edge, in the middle of the raster stage."""
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "config"))
+    from PySide6.QtWidgets import QApplication
+
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    apply_theme(application, LIGHT)
+    scene = built_in_scene("shared-edge")
+    made = MainWindow(open_document(scene.make(), scene.title))
+    made.resize(1280, 800)
+    made.show()
+    made.activateWindow()
+    qtbot.waitExposed(made)
+    qtbot.waitUntil(made.isActiveWindow)
+    made.session.set_stage("raster", 4000)
+    yield made
+    made.close()
+    apply_theme(application, LIGHT)
+    made.deleteLater()
+    application.processEvents()

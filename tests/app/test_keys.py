@@ -1,0 +1,72 @@
+"""The table of keys: complete, without a key twice, and what menus, tooltips and the page of keys are made from."""
+
+from app.keys import ACTIONS, action_named, key_text
+from app.main_window import MENUS, MainWindow
+from core import STAGES
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QTabBar
+from app.key_focus import has_use_for
+from pytestqt.qtbot import QtBot
+
+
+def test_no_key_stands_twice() -> None:
+    keys = [QKeySequence(key).toString() for action in ACTIONS for key in action.keys]
+    assert "" not in keys
+    assert sorted(keys) == sorted(set(keys))
+
+
+def test_names_are_unique_and_menus_exist() -> None:
+    names = [action.name for action in ACTIONS]
+    assert len(names) == len(set(names))
+    assert {action.menu for action in ACTIONS} <= {*MENUS, ""}
+
+
+def test_every_action_can_be_reached() -> None:
+    assert [action.name for action in ACTIONS if not action.keys and not action.menu] == []
+
+
+def test_every_stage_has_an_entry() -> None:
+    assert [action_named(f"stage_{k}").name for k in range(len(STAGES))] == [f"stage_{k}" for k in range(len(STAGES))]
+
+
+def test_keys_are_shown_as_they_are_called() -> None:
+    assert key_text(action_named("next_stage")) == "Ctrl+Page Down"
+    assert key_text(action_named("redo")) == "Ctrl+Shift+Z, Ctrl+Y"
+
+
+def test_menus_are_made_from_the_table(window: MainWindow) -> None:
+    texts = [action.text() for menu in window.menuBar().actions() for action in menu.menu().actions()]
+    for action in ACTIONS:
+        made = window.actions_by_name[action.name]
+        assert [key.toString() for key in made.shortcuts()] == [QKeySequence(key).toString() for key in action.keys]
+        if action.menu:
+            assert action.title in texts
+        if action.keys:
+            assert key_text(action) in made.toolTip()
+
+
+def test_the_page_of_keys_shows_the_table(window: MainWindow, qtbot: QtBot) -> None:
+    qtbot.keyClicks(window, "?")
+    assert window.key_help.isVisible()
+    shown = " ".join(label.text() for label in window.key_help.findChildren(QLabel))
+    for action in ACTIONS:
+        if action.keys:
+            assert action.title in shown
+    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    assert not window.key_help.isVisible()
+
+
+def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:
+    def pressed(key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> QKeyEvent:
+        return QKeyEvent(QKeyEvent.Type.ShortcutOverride, key, modifiers)
+
+    button, combo, tabs = QPushButton(), QComboBox(), QTabBar()
+    for widget in (button, combo, tabs):
+        qtbot.addWidget(widget)
+    assert has_use_for(button, pressed(Qt.Key.Key_Space))
+    assert not has_use_for(button, pressed(Qt.Key.Key_Right))
+    assert not has_use_for(button, pressed(Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier))
+    assert has_use_for(combo, pressed(Qt.Key.Key_Down))
+    assert has_use_for(tabs, pressed(Qt.Key.Key_Left))
+    assert not has_use_for(None, pressed(Qt.Key.Key_Space))

@@ -1,0 +1,99 @@
+"""Every key of the table does something that can be seen."""
+
+from pathlib import Path
+
+import pytest
+from app.keys import ACTIONS, KeyAction
+from app.main_window import MainWindow
+from core.steps import Level
+from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+from widgets.theme import current_theme
+
+
+def seen(window: MainWindow) -> tuple[object, ...]:
+    """Return everything that an action may change, as a user could see it."""
+    session, page = window.session, window.page
+    document = session.document
+    return (
+        session.cursor,
+        session.pin,
+        document.raster,
+        document.triangle,
+        document.before,
+        document.settings,
+        getattr(document.scene, "shared", None) is None,
+        page.timeline.is_playing(),
+        page.timeline.speed_box.currentText(),
+        page.current_view(),
+        page.grid.view(),
+        page.prediction.isVisible(),
+        frozenset(page.stepping.pixel_breakpoints),
+        tuple(page.stepping.bookmarks),
+        window.ask_bar.isVisible(),
+        window.key_help.isVisible(),
+        window.isVisible(),
+        window.isFullScreen(),
+        current_theme().name,
+        QGuiApplication.clipboard().image().size().width(),
+        window.statusBar().currentMessage(),
+    )
+
+
+def prepare(window: MainWindow, name: str) -> None:
+    """Bring the window where the action has something to do."""
+    session, page = window.session, window.page
+    session.set_pin((20, 20))
+    if name.startswith("bookmark_"):
+        for k in range(10):
+            session.go_to(40 * k + 4)
+            page.stepping.toggle_bookmark()
+        session.go_to(4000)
+    elif name in ("visited_back", "visited_forward"):
+        session.set_stage("depth")
+        if name == "visited_forward":
+            session.go_back()
+    elif name in ("undo", "redo"):
+        session.set_setting("fill", "bounding-box")
+        if name == "redo":
+            session.undo()
+    elif name == "fit_view":
+        page.grid.zoom_by(3.0)
+    elif name == "focus_all":
+        window.focus_triangle(1)
+    elif name == "stage_5":
+        session.set_stage("cull")
+    elif name.startswith(("level_", "larger_")):
+        session.set_level(Level.GROUP)
+    elif name in ("run_forward", "run_back", "next_event"):
+        session.go_to(400)
+    elif name == "copy_view":
+        QGuiApplication.clipboard().clear()
+
+
+@pytest.mark.parametrize("action", [a for a in ACTIONS if a.keys], ids=lambda action: action.name)
+def test_every_key_does_something(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, action: KeyAction
+) -> None:
+    state = tmp_path / "other.rasterscope"
+    window.save_to(str(state))
+    window.statusBar().clearMessage()
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *args: (str(state), ""))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: (str(tmp_path / "view.png"), ""))
+    prepare(window, action.name)
+    window.statusBar().clearMessage()
+    window.page.grid.setFocus()
+    before = seen(window)
+    QTest.keySequence(window, QKeySequence(action.keys[0]))
+    if action.name == "open_file":
+        qtbot.waitUntil(lambda: not window.job.is_running)
+    assert seen(window) != before
+    if action.name == "presenter":
+        window.toggle_presenter()
+
+
+def test_the_stage_without_a_key_is_in_the_menu(window: MainWindow) -> None:
+    window.actions_by_name["stage_10"].trigger()
+    assert window.session.cursor.stage == "resolve"
