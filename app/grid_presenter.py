@@ -12,6 +12,7 @@ from core.arrays import Integers
 from core.steps import Level
 from widgets.buffer_strip import BufferStrip
 from widgets.grid_buffer import GridBuffer
+from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import Overlay
 from widgets.overlay_legend import OverlayLegend
 from widgets.pixel_grid import PixelGrid
@@ -114,6 +115,11 @@ class GridPresenter(QObject):
             self._focus = triangle
             if self._session.document.triangle is None:
                 self._show_outlines()
+
+    @property
+    def geometry(self) -> GridGeometry:
+        """The outlines that are shown, in the columns and rows of the grid."""
+        return self._geometry
 
     def _show_outlines(self) -> None:
         geometry = geometry_of(self._session.document, self._session.trace, self._focus)

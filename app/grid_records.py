@@ -149,8 +149,7 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
     if stage.stage == "raster":
         overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
         overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
-        if "values" in stage.columns:
-            values = stage.columns.get("values")
+        values = stage.columns.get("values")
         # A line has no edge functions: nothing is outside of an edge.
         for k in range(3 if values is not None else 0):
             assert values is not None

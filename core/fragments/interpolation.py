@@ -20,6 +20,9 @@ from core.methods import method, table
 DETERMINANT_ERROR = 2.0**-50
 """Rounding error of a determinant, as a part of the sum of the sizes of its terms."""
 
+BLOCK = 8192
+"""Fragments mixed at once, so that their numbers stay in the processor's cache."""
+
 
 @dataclass(frozen=True, eq=False)
 class Planes:
@@ -172,9 +175,14 @@ def interpolate(
 
 def mix(weights: Floats, varyings: Floats, primitive: Integers) -> Floats:
     """Return (F, K): the corners' values (P, 3, K) in the proportion of weights (F, 3)."""
-    w0, w1, w2 = (weights[:, k, None] for k in range(3))
-    v0, v1, v2 = (varyings[:, k].take(primitive, axis=0) for k in range(3))
-    return w0 * v0 + w1 * v1 + w2 * v2
+    mixed = np.empty((len(primitive), varyings.shape[2]))
+    corners = [np.ascontiguousarray(varyings[:, k]) for k in range(3)]
+    for start in range(0, len(primitive), BLOCK):
+        part = slice(start, start + BLOCK)
+        w0, w1, w2 = (weights[part, k, None] for k in range(3))
+        v0, v1, v2 = (values.take(primitive[part], axis=0) for values in corners)
+        mixed[part] = w0 * v0 + w1 * v1 + w2 * v2
+    return mixed
 
 
 def interpolate_at(

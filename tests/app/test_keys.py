@@ -27,7 +27,9 @@ def test_every_action_can_be_reached() -> None:
 
 
 def test_every_stage_has_an_entry() -> None:
-    assert [action_named(f"stage_{k}").name for k in range(len(STAGES))] == [f"stage_{k}" for k in range(len(STAGES))]
+    assert [action_named(f"stage_{k}").name for k in range(len(STAGES))] == [
+        f"stage_{k}" for k in range(len(STAGES))
+    ]
 
 
 def test_keys_are_shown_as_they_are_called() -> None:
@@ -39,7 +41,9 @@ def test_menus_are_made_from_the_table(window: MainWindow) -> None:
     texts = [action.text() for menu in window.menuBar().actions() for action in menu.menu().actions()]
     for action in ACTIONS:
         made = window.actions_by_name[action.name]
-        assert [key.toString() for key in made.shortcuts()] == [QKeySequence(key).toString() for key in action.keys]
+        assert [key.toString() for key in made.shortcuts()] == [
+            QKeySequence(key).toString() for key in action.keys
+        ]
         if action.menu:
             assert action.title in texts
         if action.keys:

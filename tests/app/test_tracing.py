@@ -1,0 +1,85 @@
+"""Long runs are traced in the background, can be cancelled, and are refused where they cannot be kept."""
+
+from dataclasses import replace
+
+import pytest
+from app.document import Document, open_document
+from app.main_window import MainWindow
+from app.session import Session
+from core import Settings
+from lessons.scenes import make_scene
+from pytestqt.qtbot import QtBot
+
+SPHERE = "sphere"
+
+
+def all_by_force(document: Document) -> Document:
+    """Return the document with all triangles stepped, every pixel tested."""
+    settings = replace(document.settings, fill="brute-force")
+    return replace(document, settings=settings, triangle=None)
+
+
+def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    before = session.document
+    slow = replace(before, settings=Settings(fill="brute-force"))
+    session.edit(slow)
+    assert session.document is before
+    with qtbot.waitSignal(session.document_changed, timeout=20000):
+        pass
+    assert session.document is slow
+    session.undo()
+    assert session.document is before
+    session.tracing.shut_down()
+
+
+def test_a_quick_edit_takes_the_place_of_a_long_one(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    session.edit(replace(session.document, settings=Settings(fill="brute-force")))
+    quick = replace(session.document, settings=Settings(fill="bounding-box"))
+    session.edit(quick)
+    assert session.document is quick
+    assert not session.tracing.is_busy
+    session.tracing.shut_down()
+    assert session.document is quick
+
+
+def test_of_many_that_wait_the_last_is_kept(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    slow = [replace(session.document, settings=Settings(fill="brute-force", block_size=n)) for n in (1, 2, 4)]
+    for document in slow:
+        session.edit(document, "drag")
+    qtbot.waitUntil(lambda: session.document is slow[2], timeout=30000)
+    session.tracing.shut_down()
+
+
+def test_too_long_a_run_is_refused_with_what_to_do(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene("knot"), "Knot"))
+    before = session.document
+    with pytest.raises(ValueError, match="bring one triangle into focus, or choose another fill"):
+        session.edit(all_by_force(before))
+    assert session.document is before
+
+
+def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtBot) -> None:
+    window.session.open(open_document(make_scene("knot"), "Knot"))
+    before = window.session.document
+    settings = Settings(fill="brute-force")
+    whole = replace(
+        before, raster=replace(before.raster, columns=96, rows=72, origin=None), settings=settings
+    )
+    window.edit(whole)
+    qtbot.waitUntil(window.messages.isVisible, timeout=5000)
+    assert window.messages.text.text() == "Tracing Knot"
+    window.messages.cancel_button.click()
+    assert not window.session.tracing.is_busy
+    assert window.session.document is before
+    assert "cancelled" in window.messages.text.text()
+
+
+def test_a_refused_run_is_told_in_the_window(window: MainWindow) -> None:
+    window.session.open(open_document(make_scene("knot"), "Knot"))
+    document = window.session.document
+    window.edit(all_by_force(document))
+    assert window.session.document is document
+    assert "steps" in window.messages.text.text()

@@ -1,0 +1,46 @@
+"""The program ends with its own exit code, whatever is going on."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+START = """
+import sys
+sys.path.insert(0, {root!r})
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+from app import main_window
+
+def act():
+    window = next(w for w in QApplication.topLevelWidgets() if isinstance(w, main_window.MainWindow))
+    {act}
+    QTimer.singleShot(50, window.close)
+
+QApplication(["rasterscope"])
+QTimer.singleShot(300, act)
+sys.exit(main_window.run_window({target!r}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("target", "act"),
+    [
+        ("single-triangle", "window.page.timeline.toggle_play()"),
+        ("knot", "window.page.show_view('scene')"),
+        ("sphere", "window.session.set_setting('fill', 'brute-force')"),
+        ("torus", "window.open_path('knot')"),
+        ("/nowhere/gone.obj", "pass"),
+    ],
+)
+def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
+    code = START.format(root=str(ROOT), act=act, target=target)
+    environment = {**os.environ, "RASTERSCOPE_CONFIG": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=environment
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "preferences.json").is_file()

@@ -1,0 +1,175 @@
+"""Opening, saving and coming back: menus, drops, broken files, states, preferences."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from app.main_window import MainWindow, first_document
+from app.preferences import load_preferences
+from core.scene import Scene
+from core.steps import Level
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+TETRAHEDRON = """
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+f 1 3 2
+f 1 2 4
+f 2 3 4
+f 1 4 3
+"""
+
+
+def drop(window: MainWindow, *paths: Path) -> None:
+    """Drag files over the window and drop them."""
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
+    place, actions, buttons = QPointF(200, 200), Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
+    modifiers = Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(place.toPoint(), actions, data, buttons, modifiers)
+    QApplication.sendEvent(window, enter)
+    assert enter.isAccepted()
+    QApplication.sendEvent(window, QDropEvent(place, actions, data, buttons, modifiers))
+
+
+@pytest.fixture
+def mesh(tmp_path: Path) -> Path:
+    """Return a small OBJ file."""
+    path = tmp_path / "tetrahedron.obj"
+    path.write_text(TETRAHEDRON)
+    return path
+
+
+def test_a_dropped_mesh_opens_paused_at_the_start(window: MainWindow, qtbot: QtBot, mesh: Path) -> None:
+    drop(window, mesh)
+    qtbot.waitUntil(lambda: window.session.document.title == "tetrahedron", timeout=20000)
+    assert isinstance(window.session.document.scene, Scene)
+    assert window.session.document.triangle_count == 4
+    assert (window.session.cursor.stage, window.session.cursor.position) == ("raster", 0)
+    assert window.windowTitle().startswith("tetrahedron")
+    assert window.preferences.recent_files[0] == str(mesh)
+    assert not window.messages.isVisible()
+    window.actions_by_name["undo"].trigger()
+    assert window.session.document.title == "Two triangles sharing an edge"
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("broken.obj", b"v 0 0 nan\nf 1 1 9\n"),
+        ("empty.obj", b""),
+        ("truncated.glb", b"glTF\x02\x00\x00\x00\xff\xff"),
+        ("not_a_mesh.ply", b"hello"),
+        ("other.rasterscope", b'{"version": 999}'),
+        ("notes.txt", b"hello"),
+    ],
+)
+def test_a_broken_file_leaves_the_scene_as_it_was(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, name: str, content: bytes
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    window.session.set_stage("depth", 400)
+    document, cursor = window.session.document, window.session.cursor
+    window.page.timeline.toggle_play()
+    drop(window, path)
+    qtbot.waitUntil(lambda: not window.job.is_running, timeout=20000)
+    window.page.timeline.show_playing(False)
+    assert window.session.document is document
+    assert window.session.cursor.stage == cursor.stage
+    assert window.messages.isVisible()
+    assert window.messages.text.text().endswith("The open scene stays as it was.")
+    window.dismiss()
+    assert not window.messages.isVisible()
+
+
+def test_a_file_that_is_gone(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    document = window.session.document
+    window.open_path(str(tmp_path / "gone.obj"))
+    qtbot.waitUntil(window.messages.isVisible, timeout=20000)
+    assert window.session.document is document
+
+
+def test_a_built_in_scene_by_menu(window: MainWindow, qtbot: QtBot) -> None:
+    cube = next(action for action in window.scene_menu.actions() if action.data() == "cube")
+    cube.trigger()
+    qtbot.waitUntil(lambda: window.session.document.title == cube.text(), timeout=20000)
+    assert window.page.grid.buffer() is not None
+
+
+def test_a_state_opens_where_it_was_left(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    session = window.session
+    session.set_setting("fill", "scanline")
+    session.set_stage("depth", 300)
+    session.set_level(Level.OPERATION)
+    session.step(1)
+    session.set_pin((30, 20))
+    window.page.stepping.toggle_bookmark()
+    window.page.show_view("clip")
+    path = tmp_path / "here.rasterscope"
+    window.save_to(str(path))
+    color, cursor = session.trace.source.picture.color, session.cursor
+    window.open_path("cube")
+    qtbot.waitUntil(lambda: session.document.title == "Cube", timeout=20000)
+    assert window.page.stepping.bookmarks == []
+    window.page.show_view("pixels")
+    window.open_path(str(path))
+    qtbot.waitUntil(lambda: session.document.settings.fill == "scanline", timeout=20000)
+    assert session.cursor == cursor
+    assert session.pin == (30, 20)
+    assert window.page.current_view() == "clip"
+    assert [mark.position for mark in window.page.stepping.bookmarks] == [cursor.position]
+    assert np.array_equal(session.trace.source.picture.color, color)
+
+
+def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) -> None:
+    window.session.set_stage("interpolate", 900)
+    window.session.set_level(Level.GROUP)
+    window.page.show_view("pyramid")
+    window.page.card.fold_button.click()
+    window.page.timeline.change_speed(2)
+    window.set_theme("dark")
+    speed = window.page.timeline.speed_box.currentData()
+    cursor = window.session.cursor
+    window.close()
+    preferences, warning = load_preferences()
+    assert warning == ""
+    opened, warning = first_document(preferences)
+    assert warning == ""
+    again = MainWindow(opened.document, preferences)
+    qtbot.addWidget(again)
+    again.show_opened(opened)
+    again.restore()
+    again.show()
+    assert again.session.cursor == cursor
+    assert again.page.current_view() == "pyramid"
+    assert not again.page.card.is_folded()
+    assert again.page.timeline.speed_box.currentData() == speed
+    assert preferences.theme == "dark"
+
+
+def test_a_lost_last_state_is_told(window: MainWindow) -> None:
+    window.close()
+    preferences, _ = load_preferences()
+    Path(preferences.last_state).write_text("{}")
+    opened, warning = first_document(preferences)
+    assert warning.startswith("What was open last could not be opened again")
+    assert opened.document.title == "Single triangle"
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_the_view_is_exported(window: MainWindow, tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"view.{ending}"
+    window.export_to(str(path))
+    assert path.stat().st_size > 500
+    assert window.statusBar().currentMessage() == f"Exported view.{ending}."
+
+
+def test_an_export_that_fails_is_told(window: MainWindow, tmp_path: Path) -> None:
+    window.export_to(str(tmp_path / "nowhere" / "view.png"))
+    assert window.messages.text.text().startswith("The view was not exported")

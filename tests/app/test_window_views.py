@@ -1,0 +1,126 @@
+"""Every main view at every stage of every built-in scene, and scenes that show next to nothing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from app.document import open_document
+from app.main_window import MainWindow
+from app.scene_edits import clip_of_window
+from core import STAGES, ClipScene, Settings
+from core.steps import Level
+from lessons.scenes import built_in_scene, scene_names
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+from widgets.theme import DARK, LIGHT, PRESENTER, apply_theme
+
+SIZE = (24, 16)
+
+
+def typed(*corners: tuple[float, float, float, float]) -> ClipScene:
+    """Return one triangle of window corners (x, y, depth, w)."""
+    return ClipScene(clip_of_window(np.array([corners], float), SIZE), size=SIZE)
+
+
+POOR = {
+    "a point": typed((5, 5, 0.5, 1), (5, 5, 0.5, 1), (5, 5, 0.5, 1)),
+    "a line": typed((2, 2, 0.5, 1), (10, 10, 0.5, 1), (18, 18, 0.5, 1)),
+    "clockwise": typed((2, 2, 0.5, 1), (5, 12, 0.5, 1), (20, 3, 0.5, 1)),
+    "outside": typed((200, 2, 0.5, 1), (250, 12, 0.5, 1), (220, 30, 0.5, 1)),
+    "behind the far plane": typed((2, 2, 3, 1), (20, 3, 3, 1), (5, 12, 3, 1)),
+    "behind the eye": ClipScene(np.array([[[0, 0, 0, -1], [1, 0, 0, -1], [0, 1, 0, -1.0]]]), size=SIZE),
+    "w = 0": ClipScene(np.array([[[0, 0, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1.0]]]), size=SIZE),
+    "nothing": ClipScene(np.zeros((1, 3, 4)), size=SIZE),
+    "huge": typed((-1e30, -1e30, 0.5, 1), (1e30, 3, 0.5, 1), (5, 1e30, 0.5, 1)),
+}
+
+
+def look_at_everything(window: MainWindow, views: tuple[str, ...], stages: tuple[str, ...] = STAGES) -> None:
+    """Go through views and stages, from the first step to the last, with a pin; pytest-qt fails on what is raised."""
+    session = window.session
+    first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
+    for view in views:
+        window.page.show_view(view)
+        assert window.page.current_view() == view
+        for stage in stages:
+            session.set_stage(stage, 0)
+            session.step(1)
+            session.go_to(session.stage_trace.steps.count)
+            session.set_pin(((first_column + end_column) // 2, (first_row + end_row) // 2))
+            QApplication.processEvents()
+            assert window.page.grid.buffer() is not None
+            assert window.page.sentence.text()
+        session.set_pin(None)
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_every_view_at_every_stage_of_every_scene(window: MainWindow, name: str) -> None:
+    scene = built_in_scene(name)
+    window.session.open(open_document(scene.make(), scene.title))
+    look_at_everything(window, tuple(window.page.view_names()))
+
+
+@pytest.mark.parametrize("cull", ["none", "back"])
+def test_scenes_that_show_next_to_nothing(window: MainWindow, cull: str) -> None:
+    for name, scene in POOR.items():
+        window.session.open(replace(open_document(scene, name), settings=Settings(cull=cull)))
+        look_at_everything(window, ("pixels",))
+        look_at_everything(window, ("scene", "clip", "pyramid"), ("clip", "raster"))
+
+
+@pytest.mark.parametrize("mode", ["fill", "wireframe"])
+def test_all_levels_both_ways(window: MainWindow, mode: str) -> None:
+    session = window.session
+    session.set_setting("polygon_mode", mode)
+    for stage in STAGES:
+        session.set_stage(stage, 0)
+        for level in Level:
+            session.set_level(level)
+            session.go_to(0)
+            session.step(1)
+            forward = session.cursor
+            session.step(1)
+            if session.cursor != forward:
+                session.step(-1)
+            assert session.cursor == forward
+            session.step(-1)
+            assert session.cursor.position == 0
+
+
+def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None:
+    found = set()
+    for stage in STAGES:
+        window.session.set_stage(stage)
+        QApplication.processEvents()
+        found.add(tuple(window.page.columns.sizes()))
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK, PRESENTER], ids=["light", "dark", "presenter"])
+def test_every_theme_fills_the_window_with_its_ground(
+    window: MainWindow, qtbot: QtBot, theme: object
+) -> None:
+    window.set_theme(theme.name)  # type: ignore[attr-defined]
+    QApplication.processEvents()
+    image = window.grab().toImage()
+    ground = image.pixelColor(image.width() - 2, image.height() - 2)
+    assert ground.name() == theme.window  # type: ignore[attr-defined]
+
+
+def test_the_whole_window_fits_its_smallest_size(window: MainWindow) -> None:
+    window.resize(900, 600)
+    QApplication.processEvents()
+    assert (window.width(), window.height()) == (900, 600)
+    bar = window.page.timeline
+    right = bar.mapTo(window, bar.rect().topRight()).x()
+    assert right <= window.width()
+
+
+def test_dark_and_light_take_turns(window: MainWindow) -> None:
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    window.toggle_theme()
+    assert window.preferences.theme == "dark"
+    window.toggle_theme()
+    assert window.preferences.theme == "light"
+    apply_theme(application, LIGHT)
