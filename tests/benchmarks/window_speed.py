@@ -102,11 +102,12 @@ def main() -> int:
     report("re-trace while dragging a vertex", drags, "  50 ms")
 
     scene = replace(make_scene("torus"), meshes=(torus(columns=76, rows=40),))
+    distance = np.linalg.norm(scene.camera.eye - scene.camera.target)
     for fill in ("hierarchy", "bounding-box", "scanline"):
         orbit = []
         for k in range(30):
             angle = k * np.pi / 15
-            eye = np.array([3 * np.sin(angle), 1.2, 3 * np.cos(angle)])
+            eye = distance * np.array([0.9 * np.sin(angle), 0.43, 0.9 * np.cos(angle)])
             turned = replace(scene, camera=replace(scene.camera, eye=eye))
             start = perf_counter()
             render(turned, Settings(fill=fill))
