@@ -51,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
     if sys.platform.startswith("linux"):
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     load_qt()
-    from app.main_window import grab_window
+    from app.window_start import grab_window
 
     grab_window(
         options.file, options.output, options.size, options.theme, options.stage, options.step, options.view

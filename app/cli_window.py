@@ -18,7 +18,7 @@ def run(target: str | None) -> int:
             "there is no display to open a window on; to render to a file: rasterscope render FILE -o out.png"
         )
     load_qt()
-    from app.main_window import run_window
+    from app.window_start import run_window
 
     # Qt's event loop is not Python: Ctrl+C in the terminal ends the process, as the shell expects.
     signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -33,6 +33,11 @@ class History(Generic[State]):
         """Whether there is a later value."""
         return self._at + 1 < len(self._states)
 
+    def neighbour(self, direction: int) -> State | None:
+        """Return the value that undo (-1) or redo (1) would lead to; ``None``: there is none."""
+        at = self._at + direction
+        return self._states[at] if 0 <= at < len(self._states) else None
+
     def put(self, state: State, merge: str = "") -> None:
         """Make ``state`` the present value and forget what was undone; one of the same gesture replaces the last."""
         del self._states[self._at + 1 :], self._keys[self._at + 1 :]

@@ -33,7 +33,6 @@ from app.document import (
     Document,
     fit_region,
     focus_on,
-    open_document,
     same_view,
 )
 from app.export import copy_widget, export_widget
@@ -43,7 +42,6 @@ from app.mesh_files import EXTENSIONS, OpeningCancelledError
 from app.open_any import Opened, open_any
 from app.preferences import (
     Preferences,
-    load_preferences,
     preferences_folder,
     save_preferences,
     with_recent_file,
@@ -64,7 +62,7 @@ from widgets.ask_bar import AskBar
 from widgets.key_help import KeyEntry, KeyHelp
 from widgets.message_bar import Message, MessageBar, MessageKind
 from widgets.message_bar import Progress as ProgressRecord
-from widgets.theme import DARK, LIGHT, PRESENTER, Theme, apply_theme, current_theme
+from widgets.theme import DARK, LIGHT, PRESENTER, apply_theme, current_theme
 
 MENUS = ("File", "Edit", "Step", "Stage", "Raster", "View", "Help")
 THEMES = {"light": LIGHT, "dark": DARK, "presenter": PRESENTER}
@@ -72,6 +70,12 @@ PROGRESS_AFTER = 300
 """Milliseconds before the progress of opening a file is shown."""
 HINT_MILLISECONDS = 8000
 """How long a hint stays in the status bar."""
+
+
+def the_application() -> QApplication:
+    """Return the application of this process, made at the first call."""
+    found = QApplication.instance()
+    return found if isinstance(found, QApplication) else QApplication(["rasterscope"])
 
 
 class MainWindow(QMainWindow):
@@ -181,6 +185,7 @@ class MainWindow(QMainWindow):
         self.session.pin_changed.connect(self._show_pointed)
         self.session.cursor_changed.connect(self._show_pointed)
         self.page.message_sent.connect(self.tell)
+        self.page.edit_refused.connect(self._warn)
         self.session.edit_failed.connect(self._edit_failed)
         self.session.tracing.busy_changed.connect(self._show_busy)
         self.ask_bar.text_entered.connect(self._take_answer)
@@ -196,7 +201,7 @@ class MainWindow(QMainWindow):
         self.job.ended.connect(self._job_ended)
         self._slow.timeout.connect(self._show_slow)
         self.page.view_bar.currentChanged.connect(self._show_view)
-        _application().focusChanged.connect(self._focus_moved)
+        the_application().focusChanged.connect(self._focus_moved)
 
     # Actions by key and menu.
 
@@ -271,11 +276,16 @@ class MainWindow(QMainWindow):
 
         What only informs goes to the status bar, so that the page does not move while one steps.
         """
-        text = text[:1].upper() + text[1:]
+        is_symbol = len(text.partition(" ")[0]) < 3
+        text = text if is_symbol else text[:1].upper() + text[1:]
         if kind is MessageKind.INFORMATION and not details:
             self.statusBar().showMessage(text, HINT_MILLISECONDS)
         else:
             self.messages.show_message(Message(kind, text, details))
+
+    @Slot(str)
+    def _warn(self, text: str) -> None:
+        self.tell(text, MessageKind.WARNING)
 
     def refuse(self, error: Exception) -> None:
         """Say why an edit came to nothing."""
@@ -338,7 +348,7 @@ class MainWindow(QMainWindow):
 
     def set_theme(self, name: str) -> None:
         """Show the window in a theme by its name."""
-        application = _application()
+        application = the_application()
         apply_theme(application, THEMES[name])
         self.preferences = self.preferences.model_copy(update={"theme": name})
         for action in self.theme_group.actions():
@@ -713,108 +723,3 @@ class MainWindow(QMainWindow):
             self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
         if paths:
             self.open_path(paths[0])
-
-
-def _application() -> QApplication:
-    """Return the application of this process, made at the first call."""
-    found = QApplication.instance()
-    return found if isinstance(found, QApplication) else QApplication(["rasterscope"])
-
-
-def theme_of(name: str, application: QApplication) -> Theme:
-    """Return the theme of a name; ``system`` follows the desktop."""
-    if name in THEMES:
-        return THEMES[name]
-    is_dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
-    return DARK if is_dark else LIGHT
-
-
-def first_document(preferences: Preferences) -> tuple[Opened, str]:
-    """Return what the window shows without a file: what was open last, or else the single triangle."""
-    warning = ""
-    if preferences.last_state:
-        try:
-            return open_any(preferences.last_state), ""
-        except (OSError, ValueError) as error:
-            warning = f"What was open last could not be opened again: {error}"
-    scene = CATALOGUE[0]
-    return Opened(open_document(scene.make(), scene.title)), warning
-
-
-def run_window(target: str | None = None) -> int:
-    """Show the window until it is closed; return the exit code.
-
-    Parameters
-    ----------
-    target : str, optional
-        Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
-        told in the window.
-    """
-    application = _application()
-    application.setApplicationName("Rasterscope")
-    preferences, warning = load_preferences()
-    apply_theme(application, theme_of(preferences.theme, application))
-    opened, not_reopened = first_document(preferences)
-    window = MainWindow(opened.document, preferences)
-    window.show_opened(opened)
-    window.resize(1280, 800)
-    window.restore()
-    window.show()
-    window.page.grid.setFocus(Qt.FocusReason.OtherFocusReason)
-    sys.excepthook = window.report
-    for text in (warning, not_reopened):
-        if text:
-            window.tell(text, MessageKind.WARNING)
-    if target is not None:
-        window.open_path(target)
-    code = application.exec()
-    sys.excepthook = sys.__excepthook__
-    window.close()
-    return code
-
-
-def grab_window(
-    target: str,
-    path: str,
-    size: tuple[int, int] = (1280, 800),
-    theme: str = "light",
-    stage: str | None = None,
-    step: int | None = None,
-    view: str | None = None,
-) -> None:
-    """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
-
-    Parameters
-    ----------
-    stage : str, optional
-        A stage of ``core.STAGES``; by default the one that a state file was saved at, or ``raster``.
-    step : int, optional
-        Position in the stage, in operations done; by default all of them.
-    view : str, optional
-        Main view, as ``pixels`` or ``scene``.
-
-    Raises
-    ------
-    ValueError, OSError
-        If the file cannot be opened, the picture not be written, or there is no such view.
-    """
-    application = _application()
-    apply_theme(application, theme_of(theme, application))
-    opened = open_any(target)
-    window = MainWindow(opened.document)
-    window.show_opened(opened)
-    if stage is not None or step is not None or opened.state is None:
-        window.session.set_stage(stage or window.session.cursor.stage, step)
-    if view is not None and view not in window.page.view_names():
-        raise ValueError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
-    if view is not None:
-        window.page.show_view(view)
-    window.resize(*size)
-    window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)
-    window.show()
-    for _ in range(20):
-        application.processEvents()
-    window.page.settle()
-    export_widget(window, path)
-    window.hide()
-    window.page.views.stop()

@@ -53,7 +53,7 @@ def run_opengl_check(
                 family for family in chosen if not _check_family(renderer, family, count, seed, write)
             ]
     except (OpenGLMissingError, ValueError) as error:
-        print(error, file=sys.stderr)
+        print(f"rasterscope opengl-check: {error}", file=sys.stderr)
         return 2
     if disagreeing:
         write(f"Not the same: {', '.join(disagreeing)}.")

@@ -131,15 +131,28 @@ class Session(QObject):
 
     def undo(self) -> None:
         """Take the last edit back."""
-        if self._history.can_undo:
-            self._history.undo()
-            self._document_replaced()
+        self._go_in_history(-1)
 
     def redo(self) -> None:
         """Do it again."""
-        if self._history.can_redo:
+        self._go_in_history(1)
+
+    def _go_in_history(self, direction: int) -> None:
+        document, stage = self._history.neighbour(direction), self._cursor.stage
+        if document is None:
+            return
+        if document.estimated_seconds > QUICK_SECONDS:
+            self.tracing.start(Order(document, "", stage, direction))
+            return
+        self.tracing.cancel()
+        self._take_neighbour(direction, trace_now(document, stage))
+
+    def _take_neighbour(self, direction: int, trace: Trace) -> None:
+        if direction < 0:
+            self._history.undo()
+        else:
             self._history.redo()
-            self._document_replaced()
+        self._document_replaced(trace)
 
     @property
     def can_undo(self) -> bool:
@@ -163,16 +176,17 @@ class Session(QObject):
 
     @Slot(object)
     def _take_traced(self, traced: Traced) -> None:
-        self._take(traced.order.document, traced.order.gesture, traced.trace)
+        order = traced.order
+        if order.direction == 0:
+            self._take(order.document, order.gesture, traced.trace)
+        elif self._history.neighbour(order.direction) is order.document:
+            self._take_neighbour(order.direction, traced.trace)
 
     def _take(self, document: Document, gesture: str, trace: Trace) -> None:
         self._history.put(document, gesture)
         self._document_replaced(trace)
 
-    def _document_replaced(self, trace: Trace | None = None) -> None:
-        if trace is None:
-            self.tracing.cancel()
-            trace = trace_now(self.document, self._cursor.stage)
+    def _document_replaced(self, trace: Trace) -> None:
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
         self._trace = trace
         count = self.stage_trace.steps.count

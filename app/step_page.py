@@ -47,6 +47,8 @@ class StepPage(QWidget):
 
     message_sent = Signal(str)
     """Something to tell the user."""
+    edit_refused = Signal(str)
+    """Why an edit came to nothing."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -82,10 +84,13 @@ class StepPage(QWidget):
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.stepping.message_sent.connect(self.message_sent)
-        self.scene.edit_refused.connect(self.message_sent)
-        self.views.refused.connect(self.message_sent)
-        self.grids.edit_refused.connect(self.message_sent)
-        self.comparing.edit_refused.connect(self.message_sent)
+        for refusal in (
+            self.scene.edit_refused,
+            self.views.refused,
+            self.grids.edit_refused,
+            self.comparing.edit_refused,
+        ):
+            refusal.connect(self.edit_refused)
         self._lay_out()
 
     # Layout.

@@ -19,6 +19,8 @@ class Order:
     document: Document
     gesture: str
     stage: str
+    direction: int = 0
+    """-1: it comes from undoing, 1: from redoing, 0: it is a new edit."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,6 @@
 """Read-only arrays and the checks that every public function makes on its input."""
 
 from collections.abc import Sequence
-from math import isfinite
 from typing import Any, TypeVar
 
 import numpy as np
@@ -73,11 +72,13 @@ def checked(
     return copy
 
 
-def checked_size(name: str, size: Sequence[int], limit: int) -> tuple[int, int]:
-    """Return ``size`` as (width, height), each from 1 to ``limit`` pixels, or raise ValueError."""
-    if not isinstance(size, Sequence) or len(size) != 2 or any(not isfinite(n) or int(n) != n for n in size):
-        raise ValueError(f"{name} must be two whole numbers (width, height), got {size}")
-    width, height = int(size[0]), int(size[1])
+def checked_size(name: str, size: ArrayLike, limit: int) -> tuple[int, int]:
+    """Return ``size``, (2,) numbers, as (width, height), each from 1 to ``limit`` pixels, or raise ValueError."""
+    numbers = np.asarray(size)
+    is_pair = numbers.shape == (2,) and numbers.dtype.kind in "fiu"
+    if not is_pair or not np.isfinite(numbers).all() or (numbers != np.floor(numbers)).any():
+        raise ValueError(f"{name} must be two whole numbers (width, height), got {size!r}")
+    width, height = (int(number) for number in numbers)
     if not (1 <= width <= limit and 1 <= height <= limit):
         raise ValueError(f"{name} must be 1 to {limit} pixels each way, got {width}x{height}")
     return width, height

@@ -79,7 +79,7 @@ def draw_triangles(
     width: int,
     height: int,
     attributes: ArrayLike | None = None,
-    texture: Texture | None = None,
+    texture: Texture | ArrayLike | None = None,
     settings: Settings | None = None,
 ) -> Frame:
     """Draw triangles given in clip space.
@@ -93,9 +93,12 @@ def draw_triangles(
     attributes : (T, 3, K) array_like, optional
         Values to interpolate; the first four are the colour (missing ones are 0, 0, 0, 1), or the first two the
         texture coordinates where a texture is given.
-    texture : Texture, optional
+    texture : Texture or (h, w, C) array_like, optional
+        Linear texels, row 0 at v = 0; see `core.scene.Texture`.
     settings : Settings, optional
     """
+    if texture is not None and not isinstance(texture, Texture):
+        texture = Texture(np.asarray(texture))
     values = None if attributes is None else np.asarray(attributes)
     return render(ClipScene(np.asarray(clip), values, (width, height), texture), settings)
 

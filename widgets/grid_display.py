@@ -54,6 +54,22 @@ class GridDisplay(QWidget):
         """Return the zoom and pan."""
         return self._view
 
+    def overlays(self) -> tuple[Overlay, ...]:
+        """Return the overlays over the cells, the first lowest."""
+        return self._canvas.overlays
+
+    def hidden(self) -> NDArray[np.bool_] | None:
+        """Return the (H, W) mask of the cells that are covered up; None: none."""
+        return self._canvas.hidden
+
+    def pin(self) -> tuple[int, int] | None:
+        """Return the pinned pixel."""
+        return self._pin
+
+    def step(self) -> NDArray[np.integer] | None:
+        """Return the (N, 2) pixels of the step just done; None: none."""
+        return self._step
+
     def placement(self) -> GridPlacement:
         """Return where the cells stand in the widget now."""
         buffer = self._canvas.buffer

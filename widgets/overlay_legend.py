@@ -66,6 +66,10 @@ class OverlayLegend(QWidget):
             box.setChecked(key in kept)
             box.blockSignals(False)
 
+    def box(self, key: str) -> QCheckBox:
+        """Return the checkbox of an overlay."""
+        return self._boxes[key]
+
     def shown_keys(self) -> frozenset[str]:
         """Return the keys of the overlays that are on."""
         return frozenset(key for key, box in self._boxes.items() if box.isChecked())

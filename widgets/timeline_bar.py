@@ -60,6 +60,10 @@ class TimelineBar(QWidget):
         self._forget_picture()
 
     @Slot(int)
+    def run(self) -> TimelineRun:
+        """Return the run that is shown."""
+        return self._run
+
     def show_position(self, position: int) -> None:
         """Move the grey line; the view follows it."""
         self._position = position

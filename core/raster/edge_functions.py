@@ -10,10 +10,10 @@ Exactness
 to 2^14, so a x, b y and c are multiples of 2^-16 below 2^34: every product and sum fits the 53 bits of float64
 without rounding. *One end projected*: the edge is anchored in its snapped corner, and its direction is rounded to
 whole numbers of 26 bits; then it passes through the corner exactly, as do all edges that meet there, and again
-nothing is rounded. The turn is below 2^-26, a thousandth of the snapping step over the largest raster. *Neither*: IEEE
-multiplication commutes and subtraction is antisymmetric, so ``v2 x v1`` is exactly ``-(v1 x v2)``. In all three cases
-the two triangles of an edge see values of equal size and opposite sign: the decision belongs to the edge, not to the
-triangle, and a shared edge has neither hole nor double hit.
+nothing is rounded. The turn is about 2^-26 at most: a 256th of the snapping step at 1,024 pixels from the corner, a
+quarter of it at 65,536. *Neither*: IEEE multiplication commutes and subtraction is antisymmetric, so ``v2 x v1`` is
+exactly ``-(v1 x v2)``. In all three cases the two triangles of an edge see values of equal size and opposite sign:
+the decision belongs to the edge, not to the triangle, and a shared edge has neither hole nor double hit.
 
 *Monotone*: rounding never reverses an order, so the computed value is monotone in the column and in the row. A
 block's least and greatest value stand at its corner pixels, and a row's inside pixels are one span: blocks and

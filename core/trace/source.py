@@ -1,6 +1,6 @@
 """What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -156,7 +156,3 @@ class TraceSource:
     def picture(self) -> Frame:
         """The buffers after the last row, drawn in batches."""
         return draw(self.scene, self.settings, self.raster)
-
-    def with_settings(self, settings: Settings) -> "TraceSource":
-        """Return the source of the same input under other settings."""
-        return replace(self, settings=settings)

@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from pytestqt.qtbot import QtBot
+
 from app.document import open_document
 from app.main_window import MainWindow
 from lessons.scenes import built_in_scene
-from pytestqt.qtbot import QtBot
 from widgets.theme import LIGHT, apply_theme
 
 

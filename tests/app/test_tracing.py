@@ -3,12 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from pytestqt.qtbot import QtBot
+
 from app.document import Document, open_document
 from app.main_window import MainWindow
 from app.session import Session
 from core import Settings
 from lessons.scenes import make_scene
-from pytestqt.qtbot import QtBot
 
 SPHERE = "sphere"
 
@@ -83,3 +84,19 @@ def test_a_refused_run_is_told_in_the_window(window: MainWindow) -> None:
     window.edit(all_by_force(document))
     assert window.session.document is document
     assert "steps" in window.messages.text.text()
+
+
+def test_undoing_to_a_long_trace_waits_for_it(qtbot: QtBot) -> None:
+    slow = replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
+    session = Session(slow)
+    quick = replace(slow, settings=Settings())
+    session.edit(quick)
+    session.undo()
+    session.undo()
+    assert session.document is quick
+    qtbot.waitUntil(lambda: session.document is slow and not session.tracing.is_busy, timeout=20000)
+    assert not session.can_undo
+    assert session.trace.source.settings == slow.settings
+    session.redo()
+    assert session.document is quick
+    session.tracing.shut_down()

@@ -3,13 +3,14 @@
 from pathlib import Path
 
 import pytest
-from app.keys import ACTIONS, KeyAction
-from app.main_window import MainWindow
-from core.steps import Level
 from PySide6.QtGui import QGuiApplication, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
+
+from app.keys import ACTIONS, KeyAction
+from app.main_window import MainWindow
+from core.steps import Level
 from widgets.theme import current_theme
 
 

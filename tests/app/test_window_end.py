@@ -13,7 +13,7 @@ import sys
 sys.path.insert(0, {root!r})
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from app import main_window
+from app import main_window, window_start
 
 def act():
     window = next(w for w in QApplication.topLevelWidgets() if isinstance(w, main_window.MainWindow))
@@ -22,7 +22,7 @@ def act():
 
 QApplication(["rasterscope"])
 QTimer.singleShot(300, act)
-sys.exit(main_window.run_window({target!r}))
+sys.exit(window_start.run_window({target!r}))
 """
 
 

@@ -4,14 +4,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from app.main_window import MainWindow, first_document
-from app.preferences import load_preferences
-from core.scene import Scene
-from core.steps import Level
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
+
+from app.main_window import MainWindow
+from app.preferences import load_preferences
+from app.window_start import first_document
+from core.scene import Scene
+from core.steps import Level
 
 TETRAHEDRON = """
 v 0 0 0

@@ -4,15 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QToolButton
+from pytestqt.qtbot import QtBot
+
 from app.document import open_document
 from app.main_window import MainWindow
 from core.scene import ClipScene, Scene
 from core.steps import Level
 from lessons.scenes import make_scene
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton
-from pytestqt.qtbot import QtBot
 
 
 def type_value(window: MainWindow, qtbot: QtBot, path: str, text: str) -> None:
@@ -20,8 +21,8 @@ def type_value(window: MainWindow, qtbot: QtBot, path: str, text: str) -> None:
     field = window.page.outline.field(path).edit
     field.setFocus()
     field.selectAll()
-    qtbot.keyClicks(field, text)
-    qtbot.keyClick(field, Qt.Key.Key_Return)
+    QTest.keyClicks(field, text)
+    QTest.keyClick(field, Qt.Key.Key_Return)
 
 
 def place_of(window: MainWindow, column: int, row: int) -> QPoint:
@@ -38,10 +39,10 @@ def test_a_vertex_is_dragged_with_depth_and_w_kept(window: MainWindow, qtbot: Qt
     start = grid.placement().to_widget(*geometry.vertices[vertex])
     assert isinstance(start, QPointF)
     before = scene.clip.copy()
-    qtbot.mousePress(grid, Qt.MouseButton.LeftButton, pos=start.toPoint())
+    QTest.mousePress(grid, Qt.MouseButton.LeftButton, pos=start.toPoint())
     for step in range(1, 6):
-        qtbot.mouseMove(grid, start.toPoint() + QPoint(6 * step, -4 * step))
-    qtbot.mouseRelease(grid, Qt.MouseButton.LeftButton, pos=start.toPoint() + QPoint(30, -20))
+        QTest.mouseMove(grid, start.toPoint() + QPoint(6 * step, -4 * step))
+    QTest.mouseRelease(grid, Qt.MouseButton.LeftButton, pos=start.toPoint() + QPoint(30, -20))
     after = session.document.scene
     assert isinstance(after, ClipScene)
     moved = np.argwhere((after.clip != before).any(axis=2))
@@ -65,7 +66,7 @@ def test_shared_corners_split_and_join(window: MainWindow) -> None:
 
 
 def test_a_click_pins_and_shows_the_history(window: MainWindow, qtbot: QtBot) -> None:
-    qtbot.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place_of(window, 20, 20))
+    QTest.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place_of(window, 20, 20))
     assert window.session.pin == (20, 20)
     assert window.page.detail_tabs.currentWidget() is window.page.history
     assert "20" in window.page.history.place.text()
@@ -74,7 +75,7 @@ def test_a_click_pins_and_shows_the_history(window: MainWindow, qtbot: QtBot) ->
 
 def test_hovering_one_grid_reads_in_all(window: MainWindow, qtbot: QtBot) -> None:
     tile = window.page.strip.tile("edge 0")
-    qtbot.mouseMove(tile.grid, tile.grid.placement().cells_rect(12, 13).center().toPoint())
+    QTest.mouseMove(tile.grid, tile.grid.placement().cells_rect(12, 13).center().toPoint())
     assert window.session.hover == (12, 13)
     assert all(window.page.strip.tile(name).value.text() for name in window.page.strip.names())
     assert window.pointed.text().startswith("pixel (12, 13)")
@@ -112,7 +113,7 @@ def test_w_of_zero_is_refused_with_a_reason(window: MainWindow, qtbot: QtBot) ->
         ("camera/range/near", "-1", "near"),
         ("camera/lens/field_of_view", "0", "field of view"),
         ("camera/lens/field_of_view", "180", "field of view"),
-        ("document/focus/triangle", "1e9", "triangle"),
+        ("document/focus/triangle", "1e9", "between 0 and"),
         ("document/focus/triangle", "1.5", "triangle"),
     ],
 )
@@ -125,7 +126,7 @@ def test_bad_values_of_a_scene_are_told(
     assert window.session.document is document
     field = window.page.outline.field(path)
     told = (window.messages.text.text() if window.messages.isVisible() else "") + field.error_text()
-    assert reason.split()[0] in told.lower()
+    assert reason in told.replace("_", " ").lower()
 
 
 def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:
@@ -143,11 +144,11 @@ def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:
 def test_space_presses_the_button_that_tab_has_reached(window: MainWindow, qtbot: QtBot) -> None:
     button = window.page.timeline.first_button
     button.setFocus(Qt.FocusReason.TabFocusReason)
-    qtbot.keyClick(button, Qt.Key.Key_Space)
+    QTest.keyClick(button, Qt.Key.Key_Space)
     assert not window.page.timeline.is_playing()
     assert window.session.cursor.position == 0
     window.page.grid.setFocus()
-    qtbot.keyClick(window.page.grid, Qt.Key.Key_Space)
+    QTest.keyClick(window.page.grid, Qt.Key.Key_Space)
     assert window.page.timeline.is_playing()
     window.dismiss()
     assert not window.page.timeline.is_playing()
@@ -168,12 +169,12 @@ def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
     field = window.ask_bar.field
     for text, told in (("abc", "Wanted column and row"), ("1000, 3", "is not in the raster")):
         field.selectAll()
-        qtbot.keyClicks(field, text)
-        qtbot.keyClick(field, Qt.Key.Key_Return)
+        QTest.keyClicks(field, text)
+        QTest.keyClick(field, Qt.Key.Key_Return)
         assert told in window.ask_bar.hint.text()
     field.selectAll()
-    qtbot.keyClicks(field, "12, 7")
-    qtbot.keyClick(field, Qt.Key.Key_Return)
+    QTest.keyClicks(field, "12, 7")
+    QTest.keyClick(field, Qt.Key.Key_Return)
     assert window.session.pin == (12, 7)
     assert not window.ask_bar.isVisible()
 
@@ -181,8 +182,8 @@ def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
 def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     window.session.go_to(0)
     window.run_action("edit_condition")
-    qtbot.keyClicks(window.ask_bar.field, "covered and row == 20")
-    qtbot.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
+    QTest.keyClicks(window.ask_bar.field, "covered and row == 20")
+    QTest.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
     window.run_action("run_forward")
     trace = window.session.stage_trace
     row, _ = trace.steps.row_at(window.session.cursor.position)
@@ -191,7 +192,7 @@ def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     assert values["row"] == 20
     window.run_action("edit_condition")
     window.ask_bar.field.setText("no_such_name > 1")
-    qtbot.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
+    QTest.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
     assert "no_such_name" in window.ask_bar.hint.text()
     assert window.page.stepping.condition == "covered and row == 20"
 
@@ -202,10 +203,10 @@ def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> 
     window.show_keys()
     for visible in (window.key_help, window.ask_bar):
         assert visible.isVisible()
-        qtbot.keyClick(window, Qt.Key.Key_Escape)
+        QTest.keyClick(window, Qt.Key.Key_Escape)
         assert not visible.isVisible()
         assert window.session.pin == (3, 3)
-    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    QTest.keyClick(window, Qt.Key.Key_Escape)
     assert window.session.pin is None
 
 

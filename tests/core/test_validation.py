@@ -5,7 +5,18 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
+from core import (
+    Camera,
+    ClipScene,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    Settings,
+    Texture,
+    draw_triangles,
+)
 from core.arrays import checked, checked_size, read_only
 from core.listing import listing
 from core.methods import Method, MethodTable, table
@@ -66,6 +77,10 @@ def test_checked_arrays_are_read_only_copies() -> None:
         ((-3, 5), "size must be 1 to 100 pixels each way, got -3x5"),
         ((5,), r"size must be two whole numbers \(width, height\), got \(5,\)"),
         ((5.5, 4), r"size must be two whole numbers \(width, height\), got \(5.5, 4\)"),
+        ((nan, 4), r"size must be two whole numbers \(width, height\), got \(nan, 4\)"),
+        (("5", 4), r"size must be two whole numbers \(width, height\), got \('5', 4\)"),
+        ((None, 4), r"size must be two whole numbers \(width, height\), got \(None, 4\)"),
+        (5, r"size must be two whole numbers \(width, height\), got 5"),
     ],
 )
 def test_sizes(size, message: str) -> None:
@@ -75,9 +90,21 @@ def test_sizes(size, message: str) -> None:
 
 def test_sizes_that_are_whole_numbers_of_any_type() -> None:
     assert checked_size("size", (np.int32(8), 6.0), 100) == (8, 6)
+    assert checked_size("size", np.array([8, 6], np.int32), 100) == (8, 6)
     assert ClipScene(TRIANGLE, size=(16384, 1)).size == (16384, 1)
     with pytest.raises(ValueError, match="1 to 16384"):
         ClipScene(TRIANGLE, size=(16385, 1))
+
+
+def test_a_texture_may_be_given_as_its_pixels() -> None:
+    pixels = np.arange(12.0).reshape(2, 2, 3)
+    coordinates = np.array([[[0.25, 0.25], [0.75, 0.25], [0.25, 0.75]]])
+    given = draw_triangles(TRIANGLE, 4, 4, coordinates, pixels)
+    wanted = draw_triangles(TRIANGLE, 4, 4, coordinates, Texture(pixels))
+    assert given.color.max() > 1
+    np.testing.assert_array_equal(given.color, wanted.color)
+    with pytest.raises(ValueError, match=r"^texture pixels must be \(h, w, C\), got \(2, 2\)$"):
+        draw_triangles(TRIANGLE, 4, 4, coordinates, pixels[..., 0])
 
 
 @pytest.mark.parametrize(

@@ -119,7 +119,7 @@ def test_wrong_arguments_are_one_line(capsys, arguments, sentence):
     assert run_opengl_check(**arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith(sentence)
+    assert err.startswith(f"rasterscope opengl-check: {sentence}")
     assert err.count("\n") == 1
 
 
@@ -127,7 +127,9 @@ def test_missing_moderngl_is_one_line(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "moderngl", None)
     assert run_opengl_check() == 2
     err = capsys.readouterr().err
-    assert err.startswith("the comparison with OpenGL needs moderngl (pip install moderngl)")
+    assert err.startswith(
+        "rasterscope opengl-check: the comparison with OpenGL needs moderngl (pip install moderngl)"
+    )
     assert err.count("\n") == 1
 
 
@@ -140,7 +142,7 @@ def test_missing_opengl_is_one_line():
     result = run_python(code, GLCONTEXT_LINUX_LIBEGL="libEGL-that-is-not-there.so")
     assert result.returncode == 2
     assert result.stdout == ""
-    assert result.stderr.startswith("OpenGL 3.3 could not be started: ")
+    assert result.stderr.startswith("rasterscope opengl-check: OpenGL 3.3 could not be started: ")
     assert result.stderr.count("\n") == 1
 
 

@@ -1,0 +1,102 @@
+"""The grids of the page: the same arrays as the trace, overlays, ranges, and handles on the triangle in question."""
+
+import numpy as np
+import pytest
+
+from app.document import open_document
+from app.grid_records import buffers_of, mask_overlays
+from app.main_window import MainWindow
+from core import STAGES
+from lessons.scenes import make_scene
+from widgets.grid_overlay import MaskOverlay
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_tiles_show_the_arrays_of_the_trace(window: MainWindow, stage: str) -> None:
+    session = window.session
+    session.set_stage(stage)
+    session.go_to(session.stage_trace.steps.count // 2)
+    state = session.stage_trace.state(session.cursor.position)
+    shown = {name: window.page.strip.tile(name).grid.buffer() for name in window.page.strip.names()}
+    assert set(state) <= set(shown)
+    for name, values in state.items():
+        buffer = shown[name]
+        assert buffer is not None
+        known = np.ones(values.shape[:2], bool) if buffer.known is None else buffer.known
+        assert np.array_equal(buffer.values[known], values[known].astype(buffer.values.dtype), equal_nan=True)
+
+
+def test_a_title_brings_its_buffer_into_the_main_view(window: MainWindow) -> None:
+    window.page.strip.tile("edge 1").title.click()
+    buffer = window.page.grid.buffer()
+    assert buffer is not None
+    assert buffer.name == "edge 1"
+    window.session.set_stage("depth")
+    window.session.set_stage("raster")
+    assert window.page.grid.buffer().name == "edge 1"  # type: ignore[union-attr]
+
+
+def test_overlays_stack(window: MainWindow) -> None:
+    legend = window.page.legend
+    for key in ("covered", "outside 0"):
+        legend.box(key).click()
+    assert {"covered", "outside 0"} <= {overlay.key for overlay in window.page.grid.overlays()}
+    legend.box("covered").click()
+    assert "covered" not in {overlay.key for overlay in window.page.grid.overlays()}
+
+
+def test_masks_are_the_marks_of_the_rows_done(window: MainWindow) -> None:
+    session = window.session
+    trace, raster = session.stage_trace, session.trace.source.raster
+    masks = {
+        o.key: o for o in mask_overlays(trace, raster, session.cursor.position) if isinstance(o, MaskOverlay)
+    }
+    done = trace.steps.rows_done(session.cursor.position)
+    pixels = trace.pixel[:done][trace.marks["covered"][:done]]
+    expected = np.zeros(raster.shape, bool)
+    expected[pixels[:, 1], pixels[:, 0]] = True
+    assert np.array_equal(masks["covered"].mask, expected)
+
+
+def test_a_range_is_kept_until_it_is_reset(window: MainWindow) -> None:
+    window.page.strip.tile("edge 0").title.click()
+    window.page.ranges.range_changed.emit(-10.0, 10.0)
+    assert window.page.grid.buffer().range == (-10.0, 10.0)  # type: ignore[union-attr]
+    window.session.step(1)
+    assert window.page.grid.buffer().range == (-10.0, 10.0)  # type: ignore[union-attr]
+    window.page.ranges.range_reset.emit()
+    assert window.page.grid.buffer().range != (-10.0, 10.0)  # type: ignore[union-attr]
+
+
+def test_handles_are_on_the_triangle_that_is_stepped(window: MainWindow) -> None:
+    session, grids = window.session, window.page.grids
+    session.go_to(4)
+    assert grids.geometry.focus == 0
+    session.go_to(session.stage_trace.steps.count)
+    assert grids.geometry.focus == 1
+
+
+def test_handles_go_to_the_triangle_that_is_clicked(window: MainWindow) -> None:
+    session, grids = window.session, window.page.grids
+    session.go_to(session.stage_trace.steps.count)
+    rows, columns = np.nonzero(session.trace.source.picture.primitive == 0)
+    window.page.grid.pixel_clicked.emit(int(columns[0]), int(rows[0]))
+    assert grids.geometry.focus == 0
+
+
+def test_a_region_of_a_large_picture_counts_its_own_pixels(window: MainWindow) -> None:
+    window.session.open(open_document(make_scene("sphere"), "Sphere"))
+    first_column, first_row, _, _ = window.session.trace.source.raster.bounds
+    window.page.grid.pixel_clicked.emit(2, 3)
+    assert window.session.pin == (first_column + 2, first_row + 3)
+    for buffer in buffers_of(window.session.stage_trace, window.session.trace, 0):
+        assert buffer.origin == (first_column, first_row)
+
+
+def test_only_a_history_in_sight_is_told(window: MainWindow) -> None:
+    page = window.page
+    page.detail_tabs.setCurrentWidget(page.variables)
+    window.session.set_hover((20, 20))
+    assert "Point at a pixel" in page.history.verdict.text()
+    page.detail_tabs.setCurrentWidget(page.history)
+    assert "Point at a pixel" not in page.history.verdict.text()

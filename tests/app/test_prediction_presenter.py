@@ -1,0 +1,97 @@
+"""Predict, then reveal: nothing on the page gives the answer away; verdicts are right."""
+
+import pytest
+from PySide6.QtWidgets import QApplication
+
+from app.main_window import MainWindow
+from app.prediction_presenter import question_about
+from core import STAGES
+
+
+@pytest.fixture
+def asking(window: MainWindow) -> MainWindow:
+    """Return the window at the first step of the raster stage, with prediction on."""
+    window.session.go_to(0)
+    window.run_action("predict")
+    return window
+
+
+def test_results_are_hidden_while_asking(asking: MainWindow) -> None:
+    page = asking.page
+    assert page.prediction.isVisible()
+    for name in ("picture", "triangles"):
+        hidden = page.strip.tile(name).grid.hidden()
+        assert hidden is not None
+        assert hidden.all()
+    assert all(len(places) == 0 for places in page.timeline.bar.run().marks.values())
+    asking.session.set_pin((30, 20))
+    page.detail_tabs.setCurrentWidget(page.history)
+    assert "Point at a pixel" in page.history.verdict.text()
+    assert page.pointed_text((30, 20)) == ""
+
+
+def test_everything_is_shown_again(asking: MainWindow) -> None:
+    asking.run_action("predict")
+    page = asking.page
+    assert not page.prediction.isVisible()
+    assert page.strip.tile("picture").grid.hidden() is None
+    assert page.grid.hidden() is None
+    assert any(len(places) for places in page.timeline.bar.run().marks.values())
+
+
+def test_coverage_is_clicked_and_judged_at_once(asking: MainWindow) -> None:
+    page = asking.page
+    covered = asking.session.trace.source.picture.primitive >= 0
+    right = next((x, y) for y in range(48) for x in range(64) if covered[y, x])
+    wrong = next((x, y) for y in range(48) for x in range(64) if not covered[y, x])
+    page.grid.pixel_clicked.emit(*right)
+    assert page.prediction.verdict.text().startswith("Right:")
+    page.grid.pixel_clicked.emit(*wrong)
+    assert page.prediction.verdict.text().startswith("Not right:")
+    page.grid.pixel_clicked.emit(*wrong)
+    assert page.prediction.count.text() == "1 of 2 right"
+    hidden = page.grid.hidden()
+    assert hidden is not None
+    assert not hidden[right[1], right[0]]
+    assert hidden.sum() == hidden.size - 2
+    page.prediction.reveal_button.click()
+    assert page.prediction.verdict.text().startswith("It is so: 1 of ")
+    assert asking.session.cursor.position == asking.session.stage_trace.steps.count
+
+
+def test_the_next_pixel_is_asked_and_answered(asking: MainWindow) -> None:
+    session, view = asking.session, asking.page.prediction
+    session.step(1)
+    trace = session.stage_trace
+    asked = question_about(trace, trace.steps.rows_done(session.cursor.position))
+    assert asked is not None
+    assert view.question.text() == asked.question.text
+    view.choice_buttons[int(asked.answer)].click()
+    assert view.verdict.text().startswith("Right: ")
+    assert not view.verdict.text().startswith("Right: Right")
+    before = session.cursor.position
+    view.next_button.click()
+    assert trace.steps.rows_done(session.cursor.position) == trace.steps.rows_done(before) + 1
+
+
+def test_a_reveal_counts_neither_way(asking: MainWindow) -> None:
+    asking.session.step(1)
+    view = asking.page.prediction
+    view.reveal_button.click()
+    assert view.verdict.text().startswith("It is so: ")
+    assert view.count.text() == ""
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow, stage: str) -> None:
+    session, view = asking.session, asking.page.prediction
+    session.set_stage(stage, 0)
+    for _ in range(6):
+        session.step(1)
+        QApplication.processEvents()
+        row = session.stage_trace.steps.rows_done(session.cursor.position)
+        if row < session.stage_trace.steps.row_count:
+            asked = question_about(session.stage_trace, row)
+            assert (asked is None) == ("nothing to predict" in view.question.text())
+    session.go_to(session.stage_trace.steps.count)
+    assert view.question.text().startswith("This stage is done.")

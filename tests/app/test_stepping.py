@@ -1,0 +1,147 @@
+"""The stepping presenter: runs to events, pins, breakpoints, lines and bookmarks; what the rail and timeline show."""
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.main_window import MainWindow
+from app.stepping_presenter import EVENT_TITLES
+from core import STAGES
+from core.steps import Level
+from widgets.marks import Mark
+
+
+@pytest.mark.parametrize("event", ["covered", "rejected"])
+def test_runs_to_events_and_back(window: MainWindow, event: str) -> None:
+    session, stepping = window.session, window.page.stepping
+    stepping.event_kind = event
+    session.go_to(0)
+    trace = session.stage_trace
+    found = []
+    for _ in range(3):
+        stepping.run_to_event(1)
+        row, _ = trace.steps.row_at(session.cursor.position)
+        assert trace.marks[event][row]
+        found.append(session.cursor.position)
+    assert found == sorted(set(found))
+    stepping.run_to_event(-1)
+    assert session.cursor.position == found[1]
+
+
+def test_the_buttons_beside_the_choice_run_too(window: MainWindow) -> None:
+    window.session.go_to(0)
+    window.page.next_event_button.click()
+    after = window.session.cursor.position
+    assert after > 0
+    window.page.next_event_button.click()
+    window.page.previous_event_button.click()
+    assert window.session.cursor.position == after
+
+
+def test_an_event_that_does_not_come_is_told(window: MainWindow) -> None:
+    position = window.session.cursor.position
+    window.page.stepping.event_kind = "nan"
+    window.page.stepping.run_to_event(1)
+    assert window.session.cursor.position == position
+    assert window.statusBar().currentMessage().startswith("No further step")
+
+
+def test_every_event_can_be_chosen(window: MainWindow) -> None:
+    box = window.page.event_box
+    assert [box.itemData(k) for k in range(box.count())] == list(EVENT_TITLES)
+    box.setCurrentIndex(2)
+    box.activated.emit(2)
+    assert window.page.stepping.event_kind == box.itemData(2)
+
+
+def test_runs_to_the_pinned_pixel(window: MainWindow) -> None:
+    session = window.session
+    session.go_to(0)
+    window.run_action("next_at_pin")
+    assert "Pin a pixel first" in window.statusBar().currentMessage()
+    session.set_pin((30, 20))
+    window.run_action("next_at_pin")
+    row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+    assert session.stage_trace.pixel[row].tolist() == [30, 20]
+
+
+def test_breakpoints_of_pixels_and_lines(window: MainWindow) -> None:
+    session, stepping = window.session, window.page.stepping
+    session.set_pin((30, 20))
+    stepping.toggle_pixel_breakpoint()
+    session.go_to(0)
+    stepping.run_to_breakpoint(1)
+    first = session.cursor.position
+    row, _ = session.stage_trace.steps.row_at(first)
+    assert session.stage_trace.pixel[row].tolist() == [30, 20]
+    stepping.toggle_pixel_breakpoint()
+    explanation = session.explanation
+    assert explanation is not None
+    assert explanation.listing is not None
+    stepping.toggle_line_breakpoint(explanation.listing.function.__name__, explanation.line)
+    session.go_to(0)
+    stepping.run_to_breakpoint(1)
+    reached = session.explanation
+    assert reached is not None
+    assert reached.line == explanation.line
+    assert session.cursor.position < first
+
+
+def test_without_a_breakpoint_the_run_goes_to_the_end(window: MainWindow) -> None:
+    window.run_action("run_forward")
+    assert window.session.cursor.position == window.session.stage_trace.steps.count
+    window.run_action("run_back")
+    assert window.session.cursor.position == 0
+
+
+def test_bookmarks(window: MainWindow) -> None:
+    session, stepping = window.session, window.page.stepping
+    here = session.cursor
+    stepping.toggle_bookmark()
+    assert Mark.BOOKMARK in window.page.timeline.bar.run().marks
+    session.set_stage("depth")
+    stepping.go_to_bookmark(0)
+    assert session.cursor == here
+    stepping.toggle_bookmark()
+    stepping.go_to_bookmark(0)
+    assert "not set" in window.statusBar().currentMessage()
+
+
+def test_the_rail_shows_every_stage_and_its_counts(window: MainWindow, qtbot: QtBot) -> None:
+    session = window.session
+    for index, stage in enumerate(STAGES):
+        window.page.rail.stage_chosen.emit(index)
+        assert session.cursor.stage == stage
+
+
+def test_levels_are_named_as_the_stage_has_them(window: MainWindow) -> None:
+    buttons = window.page.timeline.level_buttons
+    window.session.set_stage("clip")
+    assert (buttons[Level.GROUP].text(), buttons[Level.PIXEL].text()) == ("Plane", "Edge")
+    window.session.set_stage("raster")
+    assert buttons[Level.PIXEL].text() == "Pixel"
+    window.session.set_setting("fill", "scanline")
+    assert buttons[Level.GROUP].text() == "Span"
+
+
+def test_a_level_button_changes_how_far_a_step_goes(window: MainWindow) -> None:
+    session = window.session
+    session.go_to(0)
+    window.page.timeline.level_buttons[Level.TRIANGLE].click()
+    window.page.timeline.forward_button.click()
+    assert session.cursor.position == session.stage_trace.steps.boundaries(Level.TRIANGLE)[1]
+    window.page.timeline.back_button.click()
+    assert session.cursor.position == 0
+    assert not window.page.timeline.back_button.isEnabled()
+
+
+def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
+    session = window.session
+    session.set_level(Level.PIXEL)
+    session.go_to(0)
+    session.step(1)
+    pixel = session.stage_trace.pixel[0]
+    for grid in (window.page.grid, window.page.strip.tile("edge 0").grid):
+        shown = grid.step()
+        assert shown is not None
+        assert np.array_equal(shown, pixel[None])
