@@ -9,6 +9,8 @@ Needs the extra gpu: pip install moderngl."""
 EXAMPLES = """examples:
   rasterscope opengl-check
   rasterscope opengl-check single shared --count 100 --seed 7
+
+Exit code: 0 all families agree, 1 one does not, 2 there is no OpenGL to compare with, or wrong usage.
 """
 
 

@@ -16,6 +16,8 @@ EXAMPLES = """examples:
   rasterscope screenshot near-plane -o clip.svg --stage clip --step 4
 """
 ENDINGS = (".png", ".svg", ".pdf")
+SMALLEST = (900, 600)
+"""Least size of the window in pixels."""
 
 
 def step_from_text(text: str) -> int:
@@ -25,12 +27,20 @@ def step_from_text(text: str) -> int:
     return int(text)
 
 
+def window_size_from_text(text: str) -> tuple[int, int]:
+    """Return a size that the window can have."""
+    size = size_from_text(text)
+    if size[0] < SMALLEST[0] or size[1] < SMALLEST[1]:
+        raise argparse.ArgumentTypeError(f"must be at least {SMALLEST[0]}x{SMALLEST[1]}, got {text}")
+    return size
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
     parser.add_argument(
-        "--size", metavar="WxH", type=size_from_text, default=(1280, 800), help="of the window (1280x800)"
+        "--size", metavar="WxH", type=window_size_from_text, default=(1280, 800), help="of the window (1280x800)"
     )
     parser.add_argument(
         "--theme", choices=("light", "dark"), default="light", help="look of the window (light)"

@@ -22,6 +22,7 @@ from app.file_writing import whole_file
 from app.open_any import Opened
 from app.trace_tables import arrays, csv_lines, json_lines
 from core import STAGES, Trace, trace
+from core.raster.binning import bound
 from core.trace import StageTrace
 
 DESCRIPTION = (
@@ -40,6 +41,9 @@ examples:
   rasterscope trace teapot.obj --triangle 2000 --stage depth --format json -o depth.json
   rasterscope trace cube --triangle 3 --stage raster --size 24x16 --set fill=blocks --format npz -o fill.npz
 """
+
+LONGEST_TRACE = 5_000_000
+"""Pixel tests that a trace may have: each keeps all its numbers."""
 
 
 def region_from_text(text: str) -> tuple[int, int, int, int]:
@@ -91,6 +95,8 @@ def run(options: argparse.Namespace) -> int:
     opened = open_file(options)
     with overflow_told():
         traced = make_trace(opened, options)
+        if STAGES.index(options.stage) >= STAGES.index("raster"):
+            check_length(traced)
         stage = traced.stage(options.stage)
     if options.format == "npz":
         with whole_file(options.output) as file:
@@ -120,6 +126,22 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
     if opened.state is None:
         document = focus_on(document, triangle)
     return replace(document, triangle=triangle).make_trace()
+
+
+def check_length(traced: Trace) -> None:
+    """Raise ValueError for a trace that tests more pixels than can be kept."""
+    source = traced.source
+    if source.geometry.outlines is not None:
+        return
+    boxes = bound(source.geometry.edges, source.raster)
+    tests = int(((boxes.column_end - boxes.column) * (boxes.row_end - boxes.row)).sum())
+    if source.settings.fill == "brute-force":
+        tests = len(source.geometry.edges) * source.raster.shape[0] * source.raster.shape[1]
+    if tests > LONGEST_TRACE:
+        raise ValueError(
+            f"the trace may have {tests:,} pixel tests, and {LONGEST_TRACE:,} can be kept: choose one --triangle, "
+            "a smaller --size or --region, or another fill"
+        )
 
 
 def json_of(stage: StageTrace, traced: Trace, document: Document) -> Iterable[str]:

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.grid_records import geometry_of
-from app.scene_presenter import FAMILY_TITLES, settings_records
+from app.scene_presenter import settings_records
 from app.session import Session
 from app.tracing import QUICK_SECONDS
 from app.workers import Job, Progress
@@ -18,6 +18,7 @@ from core.trace import TraceSource
 from widgets.compare_view import CompareView, Comparison
 from widgets.grid_buffer import BufferKind, GridBuffer, number_text
 from widgets.grid_overlay import Mark, MaskOverlay
+from widgets.stage_texts import family_title
 
 BUFFERS = (
     ("color", "Colour"),
@@ -213,5 +214,5 @@ def settings_difference(mine: Settings, other: Settings) -> str:
         value = getattr(other, field.name)
         if value != getattr(mine, field.name):
             text = table.get(field.name, value).title if isinstance(value, str) else str(value)
-            parts.append(f"{FAMILY_TITLES[field.name][0].lower()}: {text}")
+            parts.append(f"{family_title(field.name).lower()}: {text}")
     return ", ".join(parts)

@@ -1,8 +1,6 @@
-"""A view as a picture (PNG), a drawing (SVG) or a page (PDF), on the clipboard, and a table as CSV."""
+"""A view as a picture (PNG), a drawing (SVG) or a page (PDF), and on the clipboard."""
 
-import csv
-from collections.abc import Callable, Iterable, Sequence
-from io import StringIO
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QSizeF
@@ -53,16 +51,6 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
 def copy_widget(widget: QWidget) -> None:
     """Put a widget, as it is seen, on the clipboard as a picture."""
     QGuiApplication.clipboard().setImage(widget_image(widget))
-
-
-def write_table(path: str | Path, names: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    """Write a table as CSV (UTF-8, commas, a line of names first); raises OSError as ``export_widget``."""
-    text = StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    writer.writerows(rows)
-    with whole_file(path) as file:
-        file.write(text.getvalue().encode())
 
 
 def widget_image(widget: QWidget, scale: float | None = None) -> QImage:

@@ -125,8 +125,3 @@ def key_text(action: KeyAction) -> str:
             key = key.replace(short, long)
         texts.append(key)
     return ", ".join(texts)
-
-
-def action_named(name: str) -> KeyAction:
-    """Return one action of the table."""
-    return next(action for action in ACTIONS if action.name == name)

@@ -12,26 +12,8 @@ from core.scene import ClipScene, Scene
 from core.settings import families
 from widgets.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.settings_panel import Setting, SettingChoice, SettingsPanel
+from widgets.stage_texts import FAMILY_TITLES
 
-FAMILY_TITLES = {
-    "cull": ("Cull", "Geometry"),
-    "clipping": ("Clipping", "Geometry"),
-    "coverage": ("Corners", "Raster"),
-    "fill_rule": ("Fill rule", "Raster"),
-    "fill": ("Fill", "Raster"),
-    "block_size": ("Block size", "Raster"),
-    "polygon_mode": ("Polygons", "Raster"),
-    "line": ("Lines", "Raster"),
-    "pixel_center": ("Pixel centres", "Raster"),
-    "interpolation": ("Interpolation", "Fragments"),
-    "provoking": ("Flat takes", "Fragments"),
-    "texture_filter": ("Texture filter", "Fragments"),
-    "wrap": ("Texture wrap", "Fragments"),
-    "shading": ("Shading", "Fragments"),
-    "visibility": ("Visibility", "Framebuffer"),
-    "depth": ("Depth", "Framebuffer"),
-    "blend": ("Blending", "Framebuffer"),
-}
 BLOCK_SIZES = (1, 2, 4, 8, 16, 32)
 
 

@@ -7,13 +7,13 @@ What the source holds is checked by fingerprints: a mesh file that has changed s
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from app.document import Document, TeachingRaster
+from app.document import VIEWS, Document, TeachingRaster
 from app.field_problems import field_problem
 from app.file_writing import whole_file
 from app.mesh_formats import Report
@@ -120,7 +120,8 @@ def load_state(
         scene, mesh_path, warnings = scene_from_record(
             record.scene, path.resolve().parent, progress, is_cancelled
         )
-        return _state(record, scene, mesh_path), warnings
+        state = _state(record, scene, mesh_path)
+        return without_stray_pin(state, warnings)
     except StateFileError as problem:
         raise StateFileError(f"{path.name} cannot be opened: {problem}") from problem
     except MemoryError as problem:
@@ -180,6 +181,8 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
     )
     with in_field("triangle and raster"):
         document.make_trace()
+    if record.view not in VIEWS:
+        raise StateFileError(f"view must be one of {', '.join(VIEWS)}, got {record.view}")
     return State(
         document=document,
         stage=record.stage,
@@ -189,6 +192,18 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         bookmarks=tuple((mark.stage, mark.position) for mark in record.bookmarks),
         view=record.view,
     )
+
+
+def without_stray_pin(state: State, warnings: tuple[str, ...]) -> tuple[State, tuple[str, ...]]:
+    """Return the state and the warnings; a pin beside the traced raster is taken away, with a warning."""
+    if state.pin is None:
+        return state, warnings
+    column, row = state.pin
+    first_column, first_row, end_column, end_row = state.document.make_trace().source.raster.bounds
+    if first_column <= column < end_column and first_row <= row < end_row:
+        return state, warnings
+    text = f"The pinned pixel ({column}, {row}) is not in the raster: nothing is pinned."
+    return replace(state, pin=None), (*warnings, text)
 
 
 def readable_json(value: Any, indent: str = "") -> str:

@@ -1,14 +1,17 @@
 """Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.session import Cursor, Session
+from app.session import Session
 from core import STAGES
+from core.arrays import Flags, Integers
 from core.conditions import Condition, parse_condition
 from core.frame import StageCount
+from core.run_to import next_at_pixel, next_marked
 from core.steps import Level
 from core.trace import StageTrace
 from widgets.marks import Mark
@@ -48,6 +51,12 @@ class Bookmark:
 
     stage: str
     position: int
+
+
+def nearest(positions: Integers, position: int, direction: int) -> int | None:
+    """Return the nearest of rising positions after (1) or before (-1) a position, ``None`` where there is none."""
+    found = positions[positions > position] if direction > 0 else positions[positions < position]
+    return int(found[0 if direction > 0 else -1]) if len(found) else None
 
 
 class SteppingPresenter(QObject):
@@ -201,29 +210,21 @@ class SteppingPresenter(QObject):
         if pin is None:
             self.message_sent.emit("Pin a pixel first: click it.")
             return
-        trace = self._session.stage_trace
-        rows = trace.rows_at_pixel(*pin)
-        self._run_to(trace.steps.starts[1:][rows], direction, f"at pixel ({pin[0]}, {pin[1]})")
+        reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
+        self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
 
     def run_to_event(self, direction: int) -> None:
         """Go to the next or last event of the chosen kind."""
-        trace = self._session.stage_trace
-        flags = trace.marks.get(self.event_kind, np.zeros(trace.steps.row_count, bool))
-        self._run_to(
-            trace.steps.starts[1:][flags], direction, f"of the kind “{EVENT_TITLES[self.event_kind]}”"
-        )
+        trace, position = self._session.stage_trace, self._session.cursor.position
+        reached = next_marked(trace, position, self.event_kind, direction)
+        self._go_on(reached, direction, f"of the kind “{EVENT_TITLES[self.event_kind]}”")
 
     def run_to_breakpoint(self, direction: int) -> None:
         """Go to the next or last breakpoint, or else to the end."""
-        trace = self._session.stage_trace
-        positions = self._break_positions(trace)
-        beyond = (
-            positions > self._session.cursor.position
-            if direction > 0
-            else positions < self._session.cursor.position
-        )
-        if beyond.any():
-            self._run_to(positions, direction, "")
+        trace, position = self._session.stage_trace, self._session.cursor.position
+        reached = nearest(self._break_positions(trace), position, direction)
+        if reached is not None:
+            self._session.go_to(reached)
         else:
             self.go_to_end(direction)
 
@@ -236,11 +237,10 @@ class SteppingPresenter(QObject):
         else:
             self.message_sent.emit(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
 
-    def _run_to(self, positions: np.ndarray, direction: int, what: str) -> None:
-        at = self._session.cursor.position
-        found = positions[positions > at] if direction > 0 else positions[positions < at]
-        if len(found):
-            self._session.go_to(int(found.min() if direction > 0 else found.max()))
+    def _go_on(self, reached: int | None, direction: int, what: str) -> None:
+        """Go to a position that a run has reached, or tell that there is none."""
+        if reached is not None:
+            self._session.go_to(reached)
         else:
             self.message_sent.emit(
                 f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage."
@@ -281,28 +281,28 @@ class SteppingPresenter(QObject):
 
     def run_to_line(self, function: str, line: int) -> None:
         """Go to the next step of a line of a listing."""
-        self._run_to(self._line_positions(self._session.stage_trace, function, line), 1, f"at line {line}")
+        positions = self._line_positions(self._session.stage_trace, function, line)
+        self._go_on(nearest(positions, self._session.cursor.position, 1), 1, f"at line {line}")
 
-    def _break_positions(self, trace: StageTrace) -> np.ndarray:
+    def _break_positions(self, trace: StageTrace) -> Integers:
         """Return the positions, rising, just after a step that a breakpoint stands on."""
-        found = [np.empty(0, np.int64)]
-        for pixel in self.pixel_breakpoints:
-            found.append(trace.steps.starts[1:][trace.rows_at_pixel(*pixel)])
+        found = [trace.steps.starts[1:][self._break_rows(trace)]]
         for function, line in self.line_breakpoints:
             found.append(self._line_positions(trace, function, line))
-        if self._condition is not None:
-            found.append(trace.steps.starts[1:][self._rows_of_condition(trace)])
         return np.unique(np.concatenate(found))
 
-    def _rows_of_condition(self, trace: StageTrace) -> np.ndarray:
-        """Return (R,) bool; a stage without the variables of the condition has no such row."""
-        assert self._condition is not None
-        try:
-            return self._condition.holds(trace)
-        except ValueError:
-            return np.zeros(trace.steps.row_count, bool)
+    def _break_rows(self, trace: StageTrace) -> Flags:
+        """Return (R,) bool, the rows of a breakpoint's pixel or of the condition."""
+        found = np.zeros(trace.steps.row_count, bool)
+        for pixel in self.pixel_breakpoints:
+            found[trace.rows_at_pixel(*pixel)] = True
+        if self._condition is not None:
+            # A stage without the variables of the condition has no such row.
+            with suppress(ValueError):
+                found |= self._condition.holds(trace)
+        return found
 
-    def _line_positions(self, trace: StageTrace, function: str, line: int) -> np.ndarray:
+    def _line_positions(self, trace: StageTrace, function: str, line: int) -> Integers:
         steps = trace.steps
         found = [np.empty(0, np.int64)]
         for number, kind in enumerate(steps.kinds):
@@ -344,7 +344,3 @@ class SteppingPresenter(QObject):
             return
         mark = self.bookmarks[index]
         self._session.set_stage(mark.stage, mark.position)
-
-    def cursor(self) -> Cursor:
-        """Return where the cursor is."""
-        return self._session.cursor

@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QApplication
 
 from app.document import open_document
 from app.export import export_widget
-from app.main_window import THEMES, MainWindow, the_application
+from app.look import THEMES, the_application
+from app.main_window import MainWindow
 from app.open_any import Opened, open_any
 from app.preferences import Preferences, load_preferences
 from lessons.scenes import CATALOGUE
@@ -50,7 +51,7 @@ def run_window(target: str | None = None) -> int:
     apply_theme(application, theme_of(preferences.theme, application))
     opened, not_reopened = first_document(preferences)
     window = MainWindow(opened.document, preferences)
-    window.show_opened(opened)
+    window.files.show_opened(opened)
     window.resize(1280, 800)
     window.restore()
     window.show()
@@ -60,7 +61,7 @@ def run_window(target: str | None = None) -> int:
         if text:
             window.tell(text, MessageKind.WARNING)
     if target is not None:
-        window.open_path(target)
+        window.files.open_path(target)
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close()
@@ -96,7 +97,7 @@ def grab_window(
     apply_theme(application, theme_of(theme, application))
     opened = open_any(target)
     window = MainWindow(opened.document)
-    window.show_opened(opened)
+    window.files.show_opened(opened)
     if stage is not None or step is not None or opened.state is None:
         window.session.set_stage(stage or window.session.cursor.stage, step)
     if view is not None and view not in window.page.view_names():

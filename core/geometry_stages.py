@@ -19,7 +19,7 @@ from core.raster.edge_functions import EdgeFunctions, orient, set_up_edges
 from core.raster.snapping import place_corners
 from core.raster.wireframe import Outlines, set_up_outlines
 from core.scene import AnyScene, ClipScene, Scene
-from core.settings import Settings
+from core.settings import Settings, families
 from core.surface import light_vertices
 
 
@@ -61,11 +61,14 @@ def timed(count: StageCount) -> Iterator[StageCount]:
 
 def check_needs(scene: AnyScene, settings: Settings) -> None:
     """Refuse, with a sentence, a method that the scene cannot serve."""
-    needs_perspective = "perspective" in table.get("depth", settings.depth).needs
-    if needs_perspective and isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-        raise ValueError(
-            "depth inverse-w needs a perspective camera: 1/w is constant for an orthographic one"
-        )
+    if not isinstance(scene, Scene) or scene.camera.projection == "perspective":
+        return
+    for family in families():
+        chosen = table.get(family, getattr(settings, family))
+        if "perspective" in chosen.needs:
+            raise ValueError(
+                f"{family} {chosen.name} needs a perspective camera: 1/w is constant for an orthographic one"
+            )
 
 
 def process_geometry(

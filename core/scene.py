@@ -212,6 +212,8 @@ class Scene:
     """(4,) float64 linear colour that the frame is cleared to."""
 
     def __post_init__(self) -> None:
+        if isinstance(self.meshes, Mesh):
+            raise ValueError("meshes must be a sequence of meshes, got one mesh")
         object.__setattr__(self, "meshes", tuple(self.meshes))
         object.__setattr__(self, "lights", tuple(self.lights))
         if not self.meshes:

@@ -39,7 +39,7 @@ class Settings:
     def __post_init__(self) -> None:
         for family in families():
             table.get(family, str(getattr(self, family)))
-        if not isinstance(self.block_size, int) or not 1 <= self.block_size <= BLOCK_SIZE_LIMIT:
+        if type(self.block_size) is not int or not 1 <= self.block_size <= BLOCK_SIZE_LIMIT:
             raise ValueError(
                 f"block_size must be a whole number from 1 to {BLOCK_SIZE_LIMIT}, got {self.block_size!r}"
             )

@@ -74,24 +74,6 @@ def window_triangle(
     return np.asarray(ndc * weight[:, None])
 
 
-def window_corners(clip: ArrayLike, size: tuple[int, int]) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return x, y (pixels), depth and w, each (3,) float64, of clip-space corners (3, 4).
-
-    The inverse of ``window_triangle``.
-
-    Raises
-    ------
-    ValueError
-        If ``clip`` is not (3, 4) finite numbers, or a w is 0.
-    """
-    corners = checked("clip", clip, (3, 4))
-    w = corners[:, 3]
-    if (w == 0).any():
-        raise ValueError("w must not be 0: such a corner has no place in the window")
-    x, y, z = (corners[:, k] / w for k in range(3))
-    return (x + 1) * (size[0] / 2), (y + 1) * (size[1] / 2), (z + 1) / 2, w.copy()
-
-
 def single_triangle() -> ClipScene:
     """One triangle with red, green and blue corners, the first nearest and the last farthest."""
     clip = window_triangle([8, 57, 22.5], [6, 15.5, 42], [0.2, 0.5, 0.8], [1, 1.5, 2.5], TEACHING_SIZE)

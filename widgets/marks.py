@@ -4,7 +4,7 @@ from collections.abc import Callable
 from enum import Enum
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
 from widgets.theme import Theme, current_theme
 
@@ -66,14 +66,6 @@ def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0) -> QPixmap:
     draw_mark(painter, mark, QRectF(0.5, 0.5, side - 1, side - 1))
     painter.end()
     return pixmap
-
-
-def mark_icon(mark: Mark, side: int = 16) -> QIcon:
-    """Return a mark as an icon that stays sharp at the usual scale factors."""
-    icon = QIcon()
-    for ratio in (1.0, 2.0, 3.0):
-        icon.addPixmap(mark_pixmap(mark, side, ratio))
-    return icon
 
 
 def _pen(color: str, box: QRectF, share: float = 0.16) -> QPen:

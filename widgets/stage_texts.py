@@ -103,25 +103,26 @@ STAGE_CARDS: Mapping[str, StageCard] = {
 }
 """The cards of all stages."""
 
-FAMILY_TITLES: Mapping[str, str] = {
-    "cull": "Cull faces",
-    "clipping": "Clipping",
-    "coverage": "Coverage",
-    "fill_rule": "Fill rule",
-    "fill": "Fill",
-    "polygon_mode": "Polygon mode",
-    "line": "Lines",
-    "pixel_center": "Pixel centre",
-    "interpolation": "Interpolation",
-    "provoking": "Provoking corner",
-    "texture_filter": "Texture filter",
-    "wrap": "Texture wrap",
-    "shading": "Shading",
-    "visibility": "Visibility",
-    "depth": "Depth format",
-    "blend": "Blending",
+FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
+    "cull": ("Cull", "Geometry"),
+    "clipping": ("Clipping", "Geometry"),
+    "coverage": ("Corners", "Raster"),
+    "fill_rule": ("Fill rule", "Raster"),
+    "fill": ("Fill", "Raster"),
+    "block_size": ("Block size", "Raster"),
+    "polygon_mode": ("Polygons", "Raster"),
+    "line": ("Lines", "Raster"),
+    "pixel_center": ("Pixel centres", "Raster"),
+    "interpolation": ("Interpolation", "Fragments"),
+    "provoking": ("Flat takes", "Fragments"),
+    "texture_filter": ("Texture filter", "Fragments"),
+    "wrap": ("Texture wrap", "Fragments"),
+    "shading": ("Shading", "Fragments"),
+    "visibility": ("Visibility", "Framebuffer"),
+    "depth": ("Depth", "Framebuffer"),
+    "blend": ("Blending", "Framebuffer"),
 }
-"""What the families of methods are called; one that is not here goes by its own name."""
+"""What the families of methods are called, and the heading that they stand under."""
 
 
 @dataclass(frozen=True)
@@ -173,5 +174,5 @@ def method_text(family: str, name: str) -> MethodText:
 
 
 def family_title(family: str) -> str:
-    """Return what a family of methods is called."""
-    return FAMILY_TITLES.get(family, family.replace("_", " ").capitalize())
+    """Return what a family of methods is called; one that is not in the table goes by its own name."""
+    return FAMILY_TITLES[family][0] if family in FAMILY_TITLES else family.replace("_", " ").capitalize()

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.session import Pixel, Session
-from core.arrays import Floats
-from core.fragments.interpolation import numerators, plane_value
 from core.steps import Level
 from core.trace import TraceSource
 
@@ -86,15 +84,3 @@ def fragment_at(
         return -1
     passed = here[source.depth_tests.passes[here]]
     return int(passed[-1]) if len(passed) else int(here[-1])
-
-
-def weights_at(source: TraceSource, primitive: int, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """Return perspective-correct weights (N, 3) and 1/w (N,) of a primitive at window positions (N,) each.
-
-    Both are those of the whole plane of the triangle, beyond its edges too; NaN or infinite where 1/w is 0.
-    """
-    which = np.full(len(x), primitive)
-    shares = np.stack(numerators(source.geometry.planes, which, x, y), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        weights = shares / shares.sum(axis=1, keepdims=True)
-    return weights, plane_value(source.geometry.inverse_w_plane, which, x, y)

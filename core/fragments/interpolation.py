@@ -174,14 +174,15 @@ def interpolate(
 
 
 def mix(weights: Floats, varyings: Floats, primitive: Integers) -> Floats:
-    """Return (F, K): the corners' values (P, 3, K) in the proportion of weights (F, 3)."""
+    """Return (F, K): the corners' values (P, 3, K) in the proportion of weights (F, 3); NaN where 1/w is 0."""
     mixed = np.empty((len(primitive), varyings.shape[2]))
     corners = [np.ascontiguousarray(varyings[:, k]) for k in range(3)]
     for start in range(0, len(primitive), BLOCK):
         part = slice(start, start + BLOCK)
         w0, w1, w2 = (weights[part, k, None] for k in range(3))
         v0, v1, v2 = (values.take(primitive[part], axis=0) for values in corners)
-        mixed[part] = w0 * v0 + w1 * v1 + w2 * v2
+        with np.errstate(invalid="ignore", over="ignore"):
+            mixed[part] = w0 * v0 + w1 * v1 + w2 * v2
     return mixed
 
 

@@ -106,15 +106,6 @@ def clamp_depth(depth: Floats, is_in_range: Flags) -> tuple[Floats, Flags]:
     return np.where(is_in_range, np.minimum(np.maximum(depth, 0.0), 1.0), depth), keeps
 
 
-def previous_of_pixel(pixel: Integers) -> Integers:
-    """Return for every fragment the one before it at the same pixel: (F,) int64 index, -1 for the first."""
-    order = np.argsort(pixel, kind="stable")
-    previous = np.full(len(pixel), -1, np.int64)
-    same = pixel[order[1:]] == pixel[order[:-1]]
-    previous[order[1:][same]] = order[:-1][same]
-    return previous
-
-
 def layers(pixel: Integers) -> list[Integers]:
     """Split fragments in drawing order into layers: the first of every pixel, the second, and so on.
 

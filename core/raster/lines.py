@@ -102,14 +102,16 @@ def draw_lines(
 def segment_parameter(centers: Floats, ends: Floats) -> Floats:
     """Place of pixel centres (P, 2) on their segments (P, 2, 2), along the longer axis: (P,) float64.
 
-    0 at the first end, 1 at the second, 0 everywhere if they coincide. A little below 0 or above 1 where a
-    pixel is drawn whose centre lies beyond the end; OpenGL extrapolates there, and so do we.
+    0 at the first end, 1 at the second, 0 everywhere if they coincide (or are too close to divide by). A little
+    below 0 or above 1 where a pixel is drawn whose centre lies beyond the end; OpenGL extrapolates there, and so
+    do we.
     """
     start, length = ends[:, 0], ends[:, 1] - ends[:, 0]
     is_steep = np.abs(length[:, 1]) > np.abs(length[:, 0])
     along = np.where(is_steep, centers[:, 1] - start[:, 1], centers[:, 0] - start[:, 0])
     whole = np.where(is_steep, length[:, 1], length[:, 0])
-    return np.asarray(np.where(whole == 0, 0.0, along / np.where(whole == 0, 1.0, whole)))
+    is_point = np.abs(whole) < np.finfo(np.float64).tiny
+    return np.asarray(np.where(is_point, 0.0, along / np.where(is_point, 1.0, whole)))
 
 
 def interpolate_line(owner: Integers, t: Floats, values: ArrayLike, w: ArrayLike | None = None) -> Floats:

@@ -153,7 +153,8 @@ class TestWriting:
             capture_output=True,
             text=True,
             cwd=tmp_path,
-            env={"PYTHONPATH": str(ROOT)},
+            # Bytecode cut off at the limit would be taken for whole by every later start.
+            env={"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
         )
         assert run.returncode == 1
         (line,) = run.stderr.splitlines()
@@ -238,3 +239,12 @@ def test_numbers_that_overflow_are_one_warning(tmp_path):
     assert run.returncode in (0, 1)
     (line,) = run.stderr.splitlines()
     assert line.startswith("rasterscope")
+
+
+@pytest.mark.parametrize(
+    "arguments", [["knot", "--size", "512x512", "--set", "fill=brute-force"], ["cube", "--size", "9999x9999"]]
+)
+def test_a_trace_that_cannot_be_kept(tmp_path, arguments):
+    line = refused(1, "trace", *arguments, "--stage", "depth", "-o", "out.json", cwd=tmp_path)
+    assert "pixel tests, and 5,000,000 can be kept: choose one --triangle" in line
+    assert list(tmp_path.iterdir()) == []

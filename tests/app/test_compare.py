@@ -44,13 +44,13 @@ def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBo
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     view = window.page.compare_view
     assert view.isVisible()
-    assert window.actions_by_name["compare"].isChecked()
+    assert window.menus.actions_by_name["compare"].isChecked()
     assert "pixels differ" in view.summary.text()
     assert view.family_box.currentData() == "fill"
     assert view.value_box.currentData() == "scanline-lecture"
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     assert window.page.current_view() == "pixels"
-    assert not window.actions_by_name["compare"].isChecked()
+    assert not window.menus.actions_by_name["compare"].isChecked()
 
 
 def test_b_follows_the_page_but_for_its_difference(window: MainWindow) -> None:

@@ -1,6 +1,5 @@
 """Exporting a view: what stands in the files is what is seen."""
 
-import csv
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -10,7 +9,7 @@ from PySide6.QtGui import QGuiApplication, QImage, QPainter
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QWidget
 
-from app.export import copy_widget, export_widget, widget_image, write_table
+from app.export import copy_widget, export_widget, widget_image
 from app.file_writing import FileWriteError
 from core import Settings, render
 from lessons.scenes import make_scene
@@ -168,10 +167,3 @@ def test_another_ending_is_refused(grid, tmp_path):
 def test_a_file_that_cannot_be_written_is_one_sentence(grid, tmp_path, ending):
     with pytest.raises(FileWriteError, match=r"cannot be written: there is no folder"):
         export_widget(grid, tmp_path / "gone" / f"a{ending}")
-
-
-def test_a_table_is_csv(tmp_path):
-    write_table(tmp_path / "a.csv", ["name", "value"], [["a, b", 0.1], ['"µ"', None], ["two\nlines", 3]])
-    with open(tmp_path / "a.csv", encoding="utf-8", newline="") as file:
-        found = list(csv.reader(file))
-    assert found == [["name", "value"], ["a, b", "0.1"], ['"µ"', ""], ["two\nlines", "3"]]

@@ -7,9 +7,11 @@ from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
 from pytestqt.qtbot import QtBot
 
 from app.key_focus import has_use_for
-from app.keys import ACTIONS, action_named, key_text
-from app.main_window import MENUS, MainWindow
+from app.keys import ACTIONS, key_text
+from app.main_window import MainWindow
+from app.menus import MENUS
 from core import STAGES
+from widgets.theme import DARK, current_theme
 
 
 def test_no_key_stands_twice() -> None:
@@ -29,21 +31,21 @@ def test_every_action_can_be_reached() -> None:
 
 
 def test_every_stage_has_an_entry() -> None:
-    assert [action_named(f"stage_{k}").name for k in range(len(STAGES))] == [
-        f"stage_{k}" for k in range(len(STAGES))
-    ]
+    names = [action.name for action in ACTIONS if action.name.startswith("stage_")]
+    assert names == [f"stage_{k}" for k in range(len(STAGES))]
 
 
 def test_keys_are_shown_as_they_are_called() -> None:
-    assert key_text(action_named("next_stage")) == "Ctrl+Page Down"
-    assert key_text(action_named("redo")) == "Ctrl+Shift+Z, Ctrl+Y"
+    texts = {action.name: key_text(action) for action in ACTIONS}
+    assert texts["next_stage"] == "Ctrl+Page Down"
+    assert texts["redo"] == "Ctrl+Shift+Z, Ctrl+Y"
 
 
 def test_menus_are_made_from_the_table(window: MainWindow) -> None:
     menus = [menu for menu in window.menuBar().findChildren(QMenu) if menu.title().lstrip("&") in MENUS]
     texts = [action.text() for menu in menus for action in menu.actions()]
     for action in ACTIONS:
-        made = window.actions_by_name[action.name]
+        made = window.menus.actions_by_name[action.name]
         assert [key.toString() for key in made.shortcuts()] == [
             QKeySequence(key).toString() for key in action.keys
         ]
@@ -53,15 +55,27 @@ def test_menus_are_made_from_the_table(window: MainWindow) -> None:
             assert key_text(action) in made.toolTip()
 
 
+def test_menus_that_are_not_of_the_table(window: MainWindow) -> None:
+    actions = {action.text(): action for menu in window.findChildren(QMenu) for action in menu.actions()}
+    assert not actions["No files yet"].isEnabled()
+    actions["16 × 12"].trigger()
+    raster = window.session.document.raster
+    assert (raster.columns, raster.rows) == (16, 12)
+    actions["Dark"].trigger()
+    assert current_theme() == DARK
+    assert window.preferences.theme == "dark"
+    assert [action.text() for action in window.menus.theme_group.actions() if action.isChecked()] == ["Dark"]
+
+
 def test_the_page_of_keys_shows_the_table(window: MainWindow, qtbot: QtBot) -> None:
     QTest.keyClicks(window, "?")
-    assert window.key_help.isVisible()
-    shown = " ".join(label.text() for label in window.key_help.findChildren(QLabel))
+    assert window.overlays.key_help.isVisible()
+    shown = " ".join(label.text() for label in window.overlays.key_help.findChildren(QLabel))
     for action in ACTIONS:
         if action.keys:
             assert action.title in shown
     QTest.keyClick(window, Qt.Key.Key_Escape)
-    assert not window.key_help.isVisible()
+    assert not window.overlays.key_help.isVisible()
 
 
 def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from app.document import Document, TeachingRaster
+from app.document import Document, TeachingRaster, open_document
 from app.file_writing import FileWriteError
 from app.open_any import open_any
 from app.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
@@ -157,7 +157,7 @@ def states(draw):
         stage,
         draw(st.integers(0, count)),
         draw(st.integers(0, 4)),
-        draw(st.none() | st.tuples(st.integers(0, 15), st.integers(0, 11))),
+        draw(st.none() | st.tuples(st.integers(0, raster.columns - 1), st.integers(0, raster.rows - 1))),
         draw(st.lists(st.tuples(st.sampled_from(STAGES), st.integers(0, 99)), max_size=3)),
         "pixels",
     )
@@ -522,3 +522,19 @@ def test_the_file_can_be_read_by_people(tmp_path):
 )
 def test_readable_json_is_json(value):
     assert json.loads(readable_json(value)) == value
+
+
+def test_a_pin_beside_the_raster_is_taken_away_with_a_warning(tmp_path):
+    path = tmp_path / "state.rasterscope"
+    document = open_document(make_scene("single-triangle"), "Single triangle")
+    save_state(path, State(document, pin=(9999, 3)))
+    state, warnings = load_state(path)
+    assert state.pin is None
+    assert warnings == ("The pinned pixel (9999, 3) is not in the raster: nothing is pinned.",)
+
+
+def test_a_view_that_is_not_there_is_refused(tmp_path):
+    path = tmp_path / "state.rasterscope"
+    save_state(path, State(open_document(make_scene("single-triangle"), "Single triangle"), view="zz"))
+    with pytest.raises(StateFileError, match=r"view must be one of pixels, scene, .*, got zz"):
+        load_state(path)

@@ -69,7 +69,7 @@ def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtB
     whole = replace(
         before, raster=replace(before.raster, columns=96, rows=72, origin=None), settings=settings
     )
-    window.edit(whole)
+    window.edits.edit(whole)
     qtbot.waitUntil(window.messages.isVisible, timeout=5000)
     assert window.messages.text.text() == "Tracing Knot"
     window.messages.cancel_button.click()
@@ -81,7 +81,7 @@ def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtB
 def test_a_refused_run_is_told_in_the_window(window: MainWindow) -> None:
     window.session.open(open_document(make_scene("knot"), "Knot"))
     document = window.session.document
-    window.edit(all_by_force(document))
+    window.edits.edit(all_by_force(document))
     assert window.session.document is document
     assert "steps" in window.messages.text.text()
 

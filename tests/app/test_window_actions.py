@@ -33,8 +33,8 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         page.prediction.isVisible(),
         frozenset(page.stepping.pixel_breakpoints),
         tuple(page.stepping.bookmarks),
-        window.ask_bar.isVisible(),
-        window.key_help.isVisible(),
+        window.overlays.ask_bar.isVisible(),
+        window.overlays.key_help.isVisible(),
         window.isVisible(),
         window.isFullScreen(),
         current_theme().name,
@@ -63,7 +63,7 @@ def prepare(window: MainWindow, name: str) -> None:
     elif name == "fit_view":
         page.grid.zoom_by(3.0)
     elif name == "focus_all":
-        window.focus_triangle(1)
+        window.edits.focus_triangle(1)
     elif name == "stage_5":
         session.set_stage("cull")
     elif name.startswith(("level_", "larger_")):
@@ -79,7 +79,7 @@ def test_every_key_does_something(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, action: KeyAction
 ) -> None:
     state = tmp_path / "other.rasterscope"
-    window.save_to(str(state))
+    window.files.save_to(str(state))
     window.statusBar().clearMessage()
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *args: (str(state), ""))
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: (str(tmp_path / "view.png"), ""))
@@ -89,12 +89,12 @@ def test_every_key_does_something(
     before = seen(window)
     QTest.keySequence(window, QKeySequence(action.keys[0]))
     if action.name == "open_file":
-        qtbot.waitUntil(lambda: not window.job.is_running)
+        qtbot.waitUntil(lambda: not window.files.job.is_running)
     assert seen(window) != before
     if action.name == "presenter":
         window.toggle_presenter()
 
 
 def test_the_stage_without_a_key_is_in_the_menu(window: MainWindow) -> None:
-    window.actions_by_name["stage_10"].trigger()
+    window.menus.actions_by_name["stage_10"].trigger()
     assert window.session.cursor.stage == "resolve"

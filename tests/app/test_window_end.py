@@ -32,7 +32,7 @@ sys.exit(window_start.run_window({target!r}))
         ("single-triangle", "window.page.timeline.toggle_play()"),
         ("knot", "window.page.show_view('scene')"),
         ("sphere", "window.session.set_setting('fill', 'brute-force')"),
-        ("torus", "window.open_path('knot')"),
+        ("torus", "window.files.open_path('knot')"),
         ("/nowhere/gone.obj", "pass"),
     ],
 )

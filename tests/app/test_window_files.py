@@ -55,8 +55,9 @@ def test_a_dropped_mesh_opens_paused_at_the_start(window: MainWindow, qtbot: QtB
     assert (window.session.cursor.stage, window.session.cursor.position) == ("raster", 0)
     assert window.windowTitle().startswith("tetrahedron")
     assert window.preferences.recent_files[0] == str(mesh)
+    assert window.menus.recent_menu.actions()[0].data() == str(mesh)
     assert not window.messages.isVisible()
-    window.actions_by_name["undo"].trigger()
+    window.menus.actions_by_name["undo"].trigger()
     assert window.session.document.title == "Two triangles sharing an edge"
 
 
@@ -80,7 +81,7 @@ def test_a_broken_file_leaves_the_scene_as_it_was(
     document, cursor = window.session.document, window.session.cursor
     window.page.timeline.toggle_play()
     drop(window, path)
-    qtbot.waitUntil(lambda: not window.job.is_running, timeout=20000)
+    qtbot.waitUntil(lambda: not window.files.job.is_running, timeout=20000)
     window.page.timeline.show_playing(False)
     assert window.session.document is document
     assert window.session.cursor.stage == cursor.stage
@@ -92,13 +93,13 @@ def test_a_broken_file_leaves_the_scene_as_it_was(
 
 def test_a_file_that_is_gone(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     document = window.session.document
-    window.open_path(str(tmp_path / "gone.obj"))
+    window.files.open_path(str(tmp_path / "gone.obj"))
     qtbot.waitUntil(window.messages.isVisible, timeout=20000)
     assert window.session.document is document
 
 
 def test_a_built_in_scene_by_menu(window: MainWindow, qtbot: QtBot) -> None:
-    cube = next(action for action in window.scene_menu.actions() if action.data() == "cube")
+    cube = next(action for action in window.menus.scene_menu.actions() if action.data() == "cube")
     cube.trigger()
     qtbot.waitUntil(lambda: window.session.document.title == cube.text(), timeout=20000)
     assert window.page.grid.buffer() is not None
@@ -114,13 +115,13 @@ def test_a_state_opens_where_it_was_left(window: MainWindow, qtbot: QtBot, tmp_p
     window.page.stepping.toggle_bookmark()
     window.page.show_view("clip")
     path = tmp_path / "here.rasterscope"
-    window.save_to(str(path))
+    window.files.save_to(str(path))
     color, cursor = session.trace.source.picture.color, session.cursor
-    window.open_path("cube")
+    window.files.open_path("cube")
     qtbot.waitUntil(lambda: session.document.title == "Cube", timeout=20000)
     assert window.page.stepping.bookmarks == []
     window.page.show_view("pixels")
-    window.open_path(str(path))
+    window.files.open_path(str(path))
     qtbot.waitUntil(lambda: session.document.settings.fill == "scanline", timeout=20000)
     assert session.cursor == cursor
     assert session.pin == (30, 20)
@@ -135,7 +136,7 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
     window.page.show_view("pyramid")
     window.page.card.fold_button.click()
     window.page.timeline.change_speed(2)
-    window.set_theme("dark")
+    window.look.set_theme("dark")
     speed = window.page.timeline.speed_box.currentData()
     cursor = window.session.cursor
     window.close()
@@ -145,7 +146,7 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
     assert warning == ""
     again = MainWindow(opened.document, preferences)
     qtbot.addWidget(again)
-    again.show_opened(opened)
+    again.files.show_opened(opened)
     again.restore()
     again.show()
     assert again.session.cursor == cursor
@@ -167,11 +168,11 @@ def test_a_lost_last_state_is_told(window: MainWindow) -> None:
 @pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
 def test_the_view_is_exported(window: MainWindow, tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"view.{ending}"
-    window.export_to(str(path))
+    window.files.export_to(str(path))
     assert path.stat().st_size > 500
     assert window.statusBar().currentMessage() == f"Exported view.{ending}."
 
 
 def test_an_export_that_fails_is_told(window: MainWindow, tmp_path: Path) -> None:
-    window.export_to(str(tmp_path / "nowhere" / "view.png"))
+    window.files.export_to(str(tmp_path / "nowhere" / "view.png"))
     assert window.messages.text.text().startswith("The view was not exported")

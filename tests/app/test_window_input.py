@@ -48,20 +48,20 @@ def test_a_vertex_is_dragged_with_depth_and_w_kept(window: MainWindow, qtbot: Qt
     moved = np.argwhere((after.clip != before).any(axis=2))
     assert len(moved) in (1, 2)
     assert np.array_equal(after.clip[..., 2:], before[..., 2:])
-    window.actions_by_name["undo"].trigger()
+    window.menus.actions_by_name["undo"].trigger()
     undone = session.document.scene
     assert isinstance(undone, ClipScene)
     assert np.array_equal(undone.clip, before)
-    window.actions_by_name["redo"].trigger()
+    window.menus.actions_by_name["redo"].trigger()
     assert np.array_equal(session.document.scene.clip, after.clip)  # type: ignore[union-attr]
 
 
 def test_shared_corners_split_and_join(window: MainWindow) -> None:
     session = window.session
-    window.actions_by_name["toggle_shared"].trigger()
+    window.menus.actions_by_name["toggle_shared"].trigger()
     assert session.document.scene.shared is None  # type: ignore[union-attr]
-    assert not window.actions_by_name["toggle_shared"].isChecked()
-    window.actions_by_name["toggle_shared"].trigger()
+    assert not window.menus.actions_by_name["toggle_shared"].isChecked()
+    window.menus.actions_by_name["toggle_shared"].trigger()
     assert session.document.scene.shared is not None  # type: ignore[union-attr]
 
 
@@ -166,24 +166,24 @@ def test_no_button_lacks_a_name_or_a_tooltip(window: MainWindow) -> None:
 
 def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
     window.run_action("go_to_pixel")
-    field = window.ask_bar.field
+    field = window.overlays.ask_bar.field
     for text, told in (("abc", "Wanted column and row"), ("1000, 3", "is not in the raster")):
         field.selectAll()
         QTest.keyClicks(field, text)
         QTest.keyClick(field, Qt.Key.Key_Return)
-        assert told in window.ask_bar.hint.text()
+        assert told in window.overlays.ask_bar.hint.text()
     field.selectAll()
     QTest.keyClicks(field, "12, 7")
     QTest.keyClick(field, Qt.Key.Key_Return)
     assert window.session.pin == (12, 7)
-    assert not window.ask_bar.isVisible()
+    assert not window.overlays.ask_bar.isVisible()
 
 
 def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     window.session.go_to(0)
     window.run_action("edit_condition")
-    QTest.keyClicks(window.ask_bar.field, "covered and row == 20")
-    QTest.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
+    QTest.keyClicks(window.overlays.ask_bar.field, "covered and row == 20")
+    QTest.keyClick(window.overlays.ask_bar.field, Qt.Key.Key_Return)
     window.run_action("run_forward")
     trace = window.session.stage_trace
     row, _ = trace.steps.row_at(window.session.cursor.position)
@@ -191,17 +191,17 @@ def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     assert values["covered"]
     assert values["row"] == 20
     window.run_action("edit_condition")
-    window.ask_bar.field.setText("no_such_name > 1")
-    QTest.keyClick(window.ask_bar.field, Qt.Key.Key_Return)
-    assert "no_such_name" in window.ask_bar.hint.text()
+    window.overlays.ask_bar.field.setText("no_such_name > 1")
+    QTest.keyClick(window.overlays.ask_bar.field, Qt.Key.Key_Return)
+    assert "no_such_name" in window.overlays.ask_bar.hint.text()
     assert window.page.stepping.condition == "covered and row == 20"
 
 
 def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> None:
     window.session.set_pin((3, 3))
     window.run_action("go_to_pixel")
-    window.show_keys()
-    for visible in (window.key_help, window.ask_bar):
+    window.overlays.toggle_keys()
+    for visible in (window.overlays.key_help, window.overlays.ask_bar):
         assert visible.isVisible()
         QTest.keyClick(window, Qt.Key.Key_Escape)
         assert not visible.isVisible()
@@ -241,10 +241,10 @@ def test_focus_raster_and_start_are_edits_like_others(window: MainWindow) -> Non
     assert session.document.triangle is None
     window.run_action("toggle_cleared")
     assert session.document.before == "cleared"
-    window.focus_triangle(5)
+    window.edits.focus_triangle(5)
     window.run_action("fit_region")
     while session.document is not focused:
         session.undo()
-    assert window.actions_by_name["undo"].isEnabled()
+    assert window.menus.actions_by_name["undo"].isEnabled()
     QApplication.processEvents()
     assert window.page.outline.field("document/focus/triangle").value() == focused.triangle

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
@@ -169,11 +169,21 @@ def test_listing_of_flat_interpolation(provoking: int, values: list[float]) -> N
     )
 
 
+HORIZON = np.array(
+    [
+        [[-1 / 4, -1 / 4, -0.225, 1 / 4], [-1 / 4, -1.5 / 7, -0.225, 1 / 4], [0, -1 / 4, -0.225, 1 / 4]],
+        [[3, -16.5 / 7, -1.35, 1.5], [-6, 12 / 7, -1.35, 1.5], [12, -18 / 7, -2.7, 3]],
+    ]
+)
+"""1/w of the second triangle is 0 at a pixel above the raster (1, 7)."""
+
+
 @given(
     perspective_triangles(3),
     st.lists(PIXELS, min_size=1, max_size=20),
     st.sampled_from(["perspective", "affine"]),
 )
+@example((HORIZON, (1, 7)), [(0, 0), (0, 0), (0, 0), (0, 12)], "perspective")
 def test_a_fragment_gets_the_same_values_alone_and_among_others(case, at, mode: str) -> None:
     clip, size = case
     assume(has_area(clip, size))

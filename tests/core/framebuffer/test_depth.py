@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, draw_triangles, render
-from core.framebuffer.depth import clamp_depth, depth_test, layers, previous_of_pixel, run_depth_tests
+from core.framebuffer.depth import clamp_depth, depth_test, layers, run_depth_tests
 from core.methods import table
 from tests.core.strategies import clip_of_window, perspective_triangles
 
@@ -84,14 +84,6 @@ def test_layers_name_each_pixel_once_and_keep_the_order(pixel: list[int]) -> Non
     assert sorted(np.concatenate(found).tolist() if found else []) == list(range(len(at)))
     number = {int(f): n for n, layer in enumerate(found) for f in layer}
     assert all(number[f] == pixel[:f].count(pixel[f]) for f in range(len(pixel)))
-
-
-@given(st.lists(st.integers(0, 6), max_size=40))
-def test_previous_fragment_of_the_same_pixel(pixel: list[int]) -> None:
-    previous = previous_of_pixel(np.array(pixel, np.int64))
-    for f, found in enumerate(previous):
-        earlier = [g for g in range(f) if pixel[g] == pixel[f]]
-        assert found == (earlier[-1] if earlier else -1)
 
 
 @given(st.sampled_from(STORED_VALUES := [0.0, 0.25, 0.5, 1.0]), st.sampled_from(STORED_VALUES), st.booleans())

@@ -68,6 +68,7 @@ def test_every_listing_names_the_line_that_draws(line):
 
 @pytest.mark.parametrize("line", METHODS)
 @given(ends=SEGMENTS, last_pixel=st.booleans(), size=st.tuples(st.integers(1, 24), st.integers(1, 24)))
+@example(ends=[(0.0, 0.0, 0.0, 2.225073858507e-311)], last_pixel=True, size=(1, 1))
 def test_clipping_is_restriction(line, ends, last_pixel, size):
     segments = as_segments(ends)
     clipped = draw_lines(segments, *size, line=line, last_pixel=last_pixel)
