@@ -40,7 +40,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
     parser.add_argument(
-        "--size", metavar="WxH", type=window_size_from_text, default=(1280, 800), help="of the window (1280x800)"
+        "--size",
+        metavar="WxH",
+        type=window_size_from_text,
+        default=(1280, 800),
+        help="of the window (1280x800)",
     )
     parser.add_argument(
         "--theme", choices=("light", "dark"), default="light", help="look of the window (light)"

@@ -30,7 +30,7 @@ class FileDesk(QObject):
 
     def __init__(self, page: StepPage, messages: MessageBar, window: QWidget) -> None:
         super().__init__(window)
-        self._page, self._session, self._messages, self._window = page, page.session, messages, window
+        self._page, self._session, self._messages = page, page.session, messages
         self.job = Job(self)
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.progress.opening_cancelled.connect(self._tell_cancelled)
@@ -47,7 +47,7 @@ class FileDesk(QObject):
         endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION))
         folder = str(Path(self._session.document.path).parent) if self._session.document.path else ""
         path, _ = QFileDialog.getOpenFileName(
-            self._window, "Open", folder, f"Meshes and states ({endings});;All files (*)"
+            self._page.window(), "Open", folder, f"Meshes and states ({endings});;All files (*)"
         )
         if path:
             self.open_path(path)
@@ -124,7 +124,7 @@ class FileDesk(QObject):
     def ask_save(self) -> None:
         """Ask where the state is to be saved, and save it."""
         path, _ = QFileDialog.getSaveFileName(
-            self._window, "Save state", f"state{EXTENSION}", f"States (*{EXTENSION})"
+            self._page.window(), "Save state", f"state{EXTENSION}", f"States (*{EXTENSION})"
         )
         if path:
             self.save_to(path)
@@ -144,7 +144,7 @@ class FileDesk(QObject):
     def ask_export(self) -> None:
         """Ask where the current view is to go, and export it."""
         kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
-        path, _ = QFileDialog.getSaveFileName(self._window, "Export view", "view.png", kinds)
+        path, _ = QFileDialog.getSaveFileName(self._page.window(), "Export view", "view.png", kinds)
         if path:
             self.export_to(path)
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from core.frame import STAGES
+from widgets.stage_texts import SHORT_TITLES
 
 
 @dataclass(frozen=True)
@@ -29,19 +30,6 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES = (
     "View",
     "Edit",
     "Files",
-)
-
-_STAGE_TITLES = (
-    "Transform",
-    "Cull",
-    "Clip",
-    "Edge functions",
-    "Bin",
-    "Raster",
-    "Interpolate",
-    "Shade",
-    "Depth",
-    "Blend",
 )
 
 ACTIONS: tuple[KeyAction, ...] = (
@@ -72,10 +60,11 @@ ACTIONS: tuple[KeyAction, ...] = (
         for k in range(10)
     ),
     *(
-        KeyAction(f"stage_{k}", (str((k + 1) % 10),), _STAGE_TITLES[k], STAGE_GROUP, "Stage")
-        for k in range(len(STAGES) - 1)
+        KeyAction(
+            f"stage_{k}", (str((k + 1) % 10),) if k < 10 else (), SHORT_TITLES[stage], STAGE_GROUP, "Stage"
+        )
+        for k, stage in enumerate(STAGES)
     ),
-    KeyAction("stage_10", (), "Resolve", STAGE_GROUP, "Stage"),
     KeyAction("next_stage", ("Ctrl+PgDown",), "Next stage", STAGE_GROUP, "Stage"),
     KeyAction("previous_stage", ("Ctrl+PgUp",), "Previous stage", STAGE_GROUP, "Stage"),
     KeyAction("pin_left", ("Alt+Left",), "Move the pin left", POINTING),

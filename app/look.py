@@ -22,7 +22,6 @@ class Look(QObject):
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self._window = window
         self._theme_before = ""
 
     @Slot(str)
@@ -37,10 +36,12 @@ class Look(QObject):
 
     def toggle_presenter(self) -> None:
         """Fill the screen with large type, or go back to the window."""
-        if self._window.isFullScreen():
-            self._window.showNormal()
+        window = self.parent()  # Not an attribute: a window in a cycle would not end when it is let go.
+        assert isinstance(window, QWidget)
+        if window.isFullScreen():
+            window.showNormal()
             self.set_theme(self._theme_before or "light")
         else:
             self._theme_before = next(name for name in THEMES if THEMES[name] == current_theme())
-            self._window.showFullScreen()
+            window.showFullScreen()
             self.set_theme("presenter")

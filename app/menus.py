@@ -32,14 +32,13 @@ class Menus(QObject):
 
     def __init__(self, window: QMainWindow) -> None:
         super().__init__(window)
-        self._window = window
         self.actions_by_name: dict[str, QAction] = {}
         self.recent_menu = QMenu("Open &recent", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.theme_group = QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
         for entry in ACTIONS:
-            made = self._make_action(entry)
+            made = self._make_action(entry, window)
             if entry.menu:
                 menus[entry.menu].addAction(made)
             else:
@@ -55,8 +54,8 @@ class Menus(QObject):
         self.recent_menu.triggered.connect(self._choose_recent)
         self.show_recent(())
 
-    def _make_action(self, entry: KeyAction) -> QAction:
-        made = QAction(entry.title, self._window)
+    def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
+        made = QAction(entry.title, window)
         made.setShortcuts([QKeySequence(key) for key in entry.keys])
         made.setCheckable(entry.is_checkable)
         made.setData(entry.name)

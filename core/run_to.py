@@ -5,7 +5,6 @@ A trace is data, so running is a search in its columns; nothing is executed. Pos
 """
 
 from core.arrays import Flags
-from core.conditions import Condition
 from core.trace.stage_trace import StageTrace
 
 FORWARD, BACK = 1, -1
@@ -69,16 +68,3 @@ def next_at_pixel(
     """Return the position of the next row that is about one pixel."""
     events = (trace.pixel[:, 0] == column) & (trace.pixel[:, 1] == row)
     return next_event(trace, position, events, direction)
-
-
-def next_where(
-    trace: StageTrace, position: int, condition: Condition, direction: int = FORWARD
-) -> int | None:
-    """Return the position of the next row that meets a condition.
-
-    Raises
-    ------
-    ValueError
-        If the condition names what the stage does not have.
-    """
-    return next_event(trace, position, condition.holds(trace), direction)

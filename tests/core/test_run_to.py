@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core import Settings, trace
 from core.conditions import TEXT_LIMIT, parse_condition, variable_names
-from core.run_to import BACK, FORWARD, next_at_pixel, next_event, next_marked, next_where
+from core.run_to import BACK, FORWARD, next_at_pixel, next_event, next_marked
 from core.trace.stage_trace import MARKS
 from tests.core.trace.trace_cases import SCENES
 
@@ -61,7 +61,6 @@ def test_a_stage_without_rows_has_no_event():
     empty = trace(SCENES["clip"], Settings(), 3).stage("raster")
     assert next_marked(empty, 0, "covered") is None
     assert next_at_pixel(empty, 0, 3, 3, BACK) is None
-    assert next_where(empty, 0, parse_condition("value_0 < 1")) is None
 
 
 def test_wrong_events():
@@ -110,8 +109,8 @@ def test_conditions(found, text, wanted):
     holds = condition.holds(found)
     assert holds.dtype == bool
     assert np.array_equal(holds, wanted)
-    assert next_where(found, 0, condition) == search(found, 0, wanted, FORWARD)
-    assert next_where(found, found.steps.count, condition, BACK) == search(
+    assert next_event(found, 0, condition.holds(found)) == search(found, 0, wanted, FORWARD)
+    assert next_event(found, found.steps.count, condition.holds(found), BACK) == search(
         found, found.steps.count, wanted, BACK
     )
 
