@@ -20,6 +20,18 @@ LEVEL_FACTOR = 4
 
 @method(
     "fill",
+    "bounding-box",
+    "Bounding box",
+    source="Zwicker 2016, Binning; Pellacini, brute force triangle rasterization",
+    exact_for="every triangle",
+)
+def bounding_box(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
+    """Test every pixel of the box around the triangle."""
+    return rows_of(boxes, np.arange(len(edges)))
+
+
+@method(
+    "fill",
     "hierarchy",
     "Hierarchy of blocks",
     source="Zwicker 2016, Further improvement; Greene 1996",
@@ -40,18 +52,6 @@ def hierarchy(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: in
 def blocks(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Discard or accept whole blocks, test the pixels of the others."""
     return runs_of_blocks(one_level(edges, boxes, raster, block_size), boxes)
-
-
-@method(
-    "fill",
-    "bounding-box",
-    "Bounding box",
-    source="Zwicker 2016, Binning; Pellacini, brute force triangle rasterization",
-    exact_for="every triangle",
-)
-def bounding_box(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
-    """Test every pixel of the box around the triangle."""
-    return rows_of(boxes, np.arange(len(edges)))
 
 
 @method(

@@ -57,7 +57,7 @@ def prepare(window: MainWindow, name: str) -> None:
         if name == "visited_forward":
             session.go_back()
     elif name in ("undo", "redo"):
-        session.set_setting("fill", "bounding-box")
+        session.set_setting("fill", "scanline")
         if name == "redo":
             session.undo()
     elif name == "fit_view":
