@@ -5,6 +5,7 @@ The same functions serve the picture (in batches, nothing kept) and the trace (a
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +32,8 @@ from core.raster.wireframe import (
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
 from core.surface import shade_fragments
+
+Batch = TypeVar("Batch")
 
 __all__ = [
     "Geometry",
@@ -250,16 +253,20 @@ def _covered(
             edges = geometry.edges.part(int(first), int(end))
             _, runs = schedule(edges, settings, raster)
             count.outgoing += int(runs.lengths.sum())
-        batches = cover(edges, runs, raster)
-        while True:
-            with timed(counts["raster"]):
-                batch = next(batches, None)
-            if batch is None:
-                break
-            fragments, tested = batch
+        for fragments, tested in _timed_batches(cover(edges, runs, raster), counts["raster"]):
             counts["raster"].incoming += tested
             counts["raster"].outgoing += len(fragments)
             yield replace(fragments, primitive=fragments.primitive + int(first))
+
+
+def _timed_batches(batches: Iterator[Batch], count: StageCount) -> Iterator[Batch]:
+    """Yield what ``batches`` yields, and add the time that it takes to make them."""
+    while True:
+        with timed(count):
+            batch = next(batches, None)
+        if batch is None:
+            return
+        yield batch
 
 
 def _outlined(
@@ -268,12 +275,7 @@ def _outlined(
     """Yield the pixels of the outlines of all primitives."""
     counts["bin"].incoming = len(geometry.edges)
     batches = draw_outlines(outlines_of(geometry), raster, settings.line)
-    while True:
-        with timed(counts["raster"]):
-            batch = next(batches, None)
-        if batch is None:
-            break
-        fragments, _ = batch
+    for fragments, _ in _timed_batches(batches, counts["raster"]):
         counts["bin"].outgoing += len(fragments)
         counts["raster"].incoming += len(fragments)
         counts["raster"].outgoing += len(fragments)

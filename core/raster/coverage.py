@@ -88,8 +88,7 @@ def _cover_batch(edges: EdgeFunctions, runs: Runs, raster: Raster) -> tuple[Frag
     primitive, row = runs.triangle.take(run), runs.row.take(run)
     if runs.accepted.all():
         return Fragments(primitive, column, row), 0
-    x, _ = raster.centers(column, column)
-    _, y = raster.centers(runs.row, runs.row)
+    x, y = raster.along(column), raster.along(runs.row)
     covered = runs.accepted.take(run)
     tested = len(covered) - int(np.count_nonzero(covered))
     inside = np.ones(len(covered), bool)

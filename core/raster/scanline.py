@@ -32,7 +32,7 @@ def scanline(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int
     rows = rows_of(boxes, np.arange(len(edges)))
     start, stop = rows.start, rows.stop
     crossings = np.empty((len(rows), 3))
-    _, y = raster.centers(rows.start, rows.row)
+    y = raster.along(rows.row)
     for k in range(3):
         a, b, c = (coefficient[rows.triangle, k] for coefficient in (edges.a, edges.b, edges.c))
         owns_tie = edges.owns_tie[rows.triangle, k]

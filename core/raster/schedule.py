@@ -45,7 +45,11 @@ class Raster:
 
     def centers(self, column: Integers, row: Integers) -> tuple[Floats, Floats]:
         """Return x and y (F,) of the centres of pixels."""
-        return column + np.float64(self.center), row + np.float64(self.center)
+        return self.along(column), self.along(row)
+
+    def along(self, index: Integers) -> Floats:
+        """Return x of columns, or y of rows (F,): where their pixels' centres lie along that axis."""
+        return index + np.float64(self.center)
 
     def index(self, column: Integers, row: Integers) -> Integers:
         """Return the place of pixels (F,) in flattened buffers."""
