@@ -64,8 +64,8 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
 def snap(window: Floats) -> tuple[Floats, Flags]:
     """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool."""
     is_projected = np.all(np.abs(window) <= SNAP_LIMIT, axis=-1)
-    snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
-    return np.where(is_projected[..., None], snapped, np.nan), is_projected
+    near = np.where(is_projected[..., None], window, np.nan)
+    return np.rint(near * SUBPIXELS) / SUBPIXELS, is_projected
 
 
 @method(

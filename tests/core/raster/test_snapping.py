@@ -97,3 +97,9 @@ def test_float64_leaves_every_corner_to_its_homogeneous_position() -> None:
     positions, is_projected = keep(np.zeros((2, 3, 2)))
     assert not is_projected.any()
     assert np.isnan(positions).all()
+
+
+def test_a_corner_too_far_to_be_snapped_overflows_nothing() -> None:
+    # 205 / 2.3e-303 times 256 is beyond float64: such a corner is left alone, without a warning.
+    clip = np.array([[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0], [0.0, 205.0, 0.0, 2.3e-303]]])
+    assert place_corners(clip, (16, 16), "snapped").is_projected.tolist() == [[True, True, False]]
