@@ -2,8 +2,9 @@
 
     python3 bootstrap.py run [arguments of the program]
     python3 bootstrap.py test [arguments of pytest]
+    python3 bootstrap.py bench [arguments of rasterscope bench]
 
-Both make the environment .venv beside this file when it is missing, and install the pinned packages into it.
+All make the environment .venv beside this file when it is missing, and install the pinned packages into it.
 What is installed is stamped with a hash of the pins, so a second start needs no network. On Linux the loader
 is asked which system libraries Qt lacks. Whatever stands in the way is told in one sentence, with an exit
 code of its own.
@@ -51,13 +52,17 @@ SYSTEM: str = sys.platform
 UNIX_SOCKETS: int = getattr(socket, "AF_UNIX", 0)  # Windows has none, and is not asked for a display
 RUN_PINS = ("requirements.txt",)
 TEST_PINS = ("requirements.txt", "requirements-gpu.txt", "requirements-test.txt")
-HEADLESS_COMMANDS = ("render", "trace", "methods", "scenes", "screenshot", "opengl-check")
+BENCH_PINS = ("requirements.txt", "requirements-gpu.txt", "requirements-bench.txt")
+HEADLESS_COMMANDS = ("render", "trace", "methods", "scenes", "screenshot", "opengl-check", "bench")
+QT_COMMANDS = ("screenshot", "bench")
 ANSWERING_OPTIONS = ("-h", "--help", "--version")
 USAGE = """usage: python3 bootstrap.py run [FILE | arguments of the program]
        python3 bootstrap.py test [arguments of pytest]
+       python3 bootstrap.py bench [--quick] [--workload NAME ...] [--rounds N] [-o DIR]
 
 run    starts Rasterscope (run --help lists what it can do)
 test   runs the whole check: format, lint, types, import contracts, tests
+bench  measures Rasterscope against other libraries, which it installs
 """
 
 # What pip writes when it is the connection that failed, not the package.
@@ -343,7 +348,7 @@ def require_display(environment: dict[str, str]) -> None:
     )
 
 
-# --- the two commands --------------------------------------------------------------------------------------
+# --- the commands ------------------------------------------------------------------------------------------
 
 
 def prepare(root: Path, pins_files: Sequence[str], needs_qt: bool) -> None:
@@ -362,11 +367,22 @@ def clean_environment(root: Path) -> dict[str, str]:
 
 
 def run(root: Path, arguments: Sequence[str]) -> int:
-    """Start the program with these arguments, in the user's folder; on POSIX it takes this process over."""
+    """Start the program with these arguments, in the user's folder."""
     window = needs_window(arguments)
     if window:
         require_display(dict(os.environ))
-    prepare(root, RUN_PINS, needs_qt=window or "screenshot" in arguments[:1])
+    prepare(root, RUN_PINS, needs_qt=window or bool(set(arguments[:1]) & set(QT_COMMANDS)))
+    return start_program(root, arguments)
+
+
+def bench(root: Path, arguments: Sequence[str]) -> int:
+    """Run the program's command bench with the libraries that it compares with."""
+    prepare(root, BENCH_PINS, needs_qt=True)
+    return start_program(root, ["bench", *arguments])
+
+
+def start_program(root: Path, arguments: Sequence[str]) -> int:
+    """Start the program with these arguments; on POSIX it takes this process over."""
     environment = clean_environment(root)
     # -P: a folder named app or core where the user stands must not be taken for ours.
     command = [str(venv_python(root)), "-P", "-m", "app", *arguments]
@@ -409,7 +425,7 @@ def test(root: Path, arguments: Sequence[str]) -> int:
     return 0
 
 
-COMMANDS: dict[str, Callable[[Path, Sequence[str]], int]] = {"run": run, "test": test}
+COMMANDS: dict[str, Callable[[Path, Sequence[str]], int]] = {"run": run, "test": test, "bench": bench}
 
 
 def main(arguments: Sequence[str], root: Path = ROOT) -> int:

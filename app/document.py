@@ -116,12 +116,16 @@ class Document:
         return trace(self.traced_scene, settings or self.settings, self.triangle, self.region, self.before)
 
 
+STEPPED = Settings(fill="bounding-box")
+"""How a scene is first stepped: every pixel of a box tested, one after another, is the plainest fill to follow."""
+
+
 def open_document(scene: AnyScene, title: str, path: str = "", settings: Settings | None = None) -> Document:
     """Return a scene as it is first shown: a small one as a whole, a large one at one triangle."""
     width, height = scene.size
     fits = width <= TEACHING_LIMIT[0] and height <= TEACHING_LIMIT[1]
     raster = TeachingRaster(width, height) if fits else same_view(scene, 64, 48)
-    document = Document(scene, raster, settings or Settings(), title=title, path=path)
+    document = Document(scene, raster, settings or STEPPED, title=title, path=path)
     if document.triangle_count <= TRACED_TOGETHER:
         return document
     return focus_on(document, central_triangle(document))

@@ -171,7 +171,7 @@ def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverla
     if stage.stage != "raster":
         return None
     done = stage.steps.rows_done(position)
-    kinds = np.array([kind in ("span", "line") for kind in stage.steps.kinds])
+    kinds = np.array([kind in ("span", "lane-row", "line") for kind in stage.steps.kinds])
     rows = np.flatnonzero(kinds[stage.steps.kind[:done]])
     if not len(rows):
         return None

@@ -188,7 +188,7 @@ def question_about(trace: StageTrace, row: int) -> Asked | None:
         numbers = ", ".join(number_text(_number(values[f"value_{k}"])) for k in range(3))
         reveal = f"{pixel} is {'inside' if covered else 'outside'}; the edge functions are {numbers}."
         return choice(f"Does triangle {triangle} cover {pixel}?", yes_no, 0 if covered else 1, reveal)
-    if trace.stage == "depth" and kind == "test":
+    if trace.stage == "depth" and kind in ("test", "rounded"):
         passes = bool(values["passes"])
         new, old = number_text(_number(values["stored"])), number_text(_number(values["before"]))
         reveal = f"{new} against {old}: it {'passes' if passes else 'fails'}."

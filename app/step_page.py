@@ -84,6 +84,7 @@ class StepPage(QWidget):
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.stepping.message_sent.connect(self.message_sent)
+        self.views.frame_measured.connect(self.stepping.show_frame)
         for refusal in (
             self.scene.edit_refused,
             self.views.refused,
@@ -325,12 +326,15 @@ class StepPage(QWidget):
         self.stepping.event_kind = self.event_box.itemData(index)
 
     def settle(self) -> None:
-        """Wait until everything that is drawn a moment later (formulas) is there."""
+        """Wait until everything that is drawn a moment later (formulas, the 3D view) is there."""
         for _ in range(100):
             QCoreApplication.processEvents()
             if self.formula.is_complete():
-                return
+                break
             QThread.msleep(10)
+        while self.views.is_drawing:
+            QCoreApplication.processEvents()
+            QThread.msleep(5)
 
     # Remembered layout.
 

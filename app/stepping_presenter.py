@@ -1,12 +1,13 @@
 """Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session import Session
+from app.views.scene_figures import FrameFigures
 from core import STAGES
 from core.arrays import Flags, Integers
 from core.conditions import Condition, parse_condition
@@ -42,7 +43,13 @@ LEVEL_NAMES = {
     "bin": {Level.GROUP: "Large block", Level.PIXEL: "Block"},
 }
 """What the levels between triangle and operation are in the stages before the first pixel."""
-GROUP_OF_FILL = {"hierarchy": "Block", "blocks": "Block", "scanline": "Span", "scanline-lecture": "Span"}
+GROUP_OF_FILL = {
+    "hierarchy": "Block",
+    "blocks": "Block",
+    "scanline": "Span",
+    "scanline-lecture": "Span",
+    "spans": "Lane or span",
+}
 
 
 @dataclass(frozen=True)
@@ -79,6 +86,7 @@ class SteppingPresenter(QObject):
         """Name of the listing's function and line."""
         self.bookmarks: list[Bookmark] = []
         self._condition: Condition | None = None
+        self._frame: FrameFigures | None = None
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
         session.pin_changed.connect(self.refresh_marks)
@@ -139,13 +147,29 @@ class SteppingPresenter(QObject):
         self._timeline.show_run(TimelineRun(trace.steps.count, marks))
         self._timeline.show_position(self._session.cursor.position)
 
+    @Slot(object)
+    def show_frame(self, figures: FrameFigures | None) -> None:
+        """Show in the rail where the time of a frame of the 3D view went; None: of the traced picture again."""
+        if figures is not self._frame:
+            self._frame = figures
+            self.show_rail()
+
     def show_rail(self) -> None:
-        """Show what every stage took in, gave out, and how long it took for the whole raster."""
-        counts = self._session.trace.source.picture.statistics
+        """Show what every stage took in, gave out, and which part of the time it took."""
+        # A prediction is about the traced picture, whose figures are hidden then.
+        frame = None if self._session.is_predicting else self._frame
+        if frame is not None:
+            counts, whole, measured = frame.stages, frame.seconds, "the last frame of the 3D view"
+        else:
+            counts = self._session.trace.source.picture.statistics
+            whole, measured = sum(count.seconds for count in counts.values()), "the traced picture"
         entries = []
         for index, stage in enumerate(STAGES):
             state = StageState.CURRENT if stage == self._session.cursor.stage else StageState.DONE
-            entries.append(self._entry(index, stage, counts[stage], state))
+            share = counts[stage].seconds / whole if whole > 0 else 0.0
+            entries.append(
+                replace(self._entry(index, stage, counts[stage], state), share=share, measured=measured)
+            )
         self._rail.show_stages(entries)
 
     def _entry(self, index: int, stage: str, count: StageCount, state: StageState) -> StageEntry:

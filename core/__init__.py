@@ -14,9 +14,11 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 """
 
 from core.frame import STAGES, Frame
+from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
 from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
 from core.raster.lines import draw_lines
+from core.raster.spans import fill  # noqa: F401
 from core.scene import (
     Camera,
     ClipScene,
@@ -39,12 +41,14 @@ __all__ = [
     "Frame",
     "Material",
     "Mesh",
+    "Picture",
     "PointLight",
     "Scene",
     "Settings",
     "Texture",
     "Trace",
     "draw_lines",
+    "draw_picture",
     "draw_triangles",
     "render",
     "trace",

@@ -1,62 +1,43 @@
-"""The stages from the vertices to the edge functions: everything before the first pixel is looked at."""
+"""The stages from the vertices to the edge functions: everything before the first pixel is looked at.
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from time import perf_counter
+Vertices are transformed, projected and snapped once, however many triangles share them; triangles point to them.
+"""
+
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.fragments.interpolation import Planes, set_up_planes, value_plane
+from core.arrays import Floats, Integers
 from core.frame import StageCount
-from core.geometry.culling import CullVerdicts, cull, plane_distances
+from core.geometry.culling import cull, plane_distances
+from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes
 from core.geometry.sutherland_hodgman import DEPTH_PLANES, Clipped, clip_primitives
-from core.geometry.vertex_stage import VertexStage, transform_vertices
+from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
+from core.geometry_record import Geometry, all_projected, clipping_distances
 from core.methods import table
-from core.primitives import DrawingOrder, Primitives
-from core.raster.edge_functions import EdgeFunctions, orient, set_up_edges
-from core.raster.snapping import place_corners
-from core.raster.wireframe import Outlines, set_up_outlines
+from core.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
+from core.raster.edge_functions import gather_area, orient
+from core.raster.snapping import WindowVertices, place_corners, place_vertices
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
 from core.surface import light_vertices
+from core.timing import timed
 
-
-@dataclass(frozen=True, eq=False)
-class Geometry:
-    """Everything that is known of the triangles before the first pixel is looked at."""
-
-    vertices: VertexStage
-    assembled: Primitives
-    """All triangles of the scene."""
-    culled: CullVerdicts
-    kept: Primitives
-    """Those that were not culled, in drawing order."""
-    clipped: Clipped | None
-    """``None``: nothing was clipped against."""
-    clipping_inserted: str
-    """Why clipping runs although the settings have none: the method that needs it, else empty."""
-    primitives: Primitives
-    """What is drawn, in drawing order: kept triangles and pieces."""
-    edges: EdgeFunctions
-    planes: Planes
-    depth_plane: tuple[Floats, Floats, Floats]
-    """(P,) each: window depth as a linear function of the pixel."""
-    inverse_w_plane: tuple[Floats, Floats, Floats]
-    is_in_range: Flags
-    """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
-    uses_depth_test: bool
-    outlines: Outlines | None
-    """The edges that a wireframe draws; ``None``: triangles are filled."""
-
-
-@contextmanager
-def timed(count: StageCount) -> Iterator[StageCount]:
-    """Add the time of the block to ``count``."""
-    start = perf_counter()
-    yield count
-    count.seconds += perf_counter() - start
+__all__ = [
+    "Geometry",
+    "assemble",
+    "check_needs",
+    "clip",
+    "clip_planes",
+    "corner_values",
+    "drawing_order",
+    "face",
+    "in_drawing_order",
+    "place",
+    "process_geometry",
+    "timed",
+]
 
 
 def check_needs(scene: AnyScene, settings: Settings) -> None:
@@ -82,93 +63,175 @@ def process_geometry(
         Only these triangles, in drawing order.
     """
     check_needs(scene, settings)
-    is_outlined: bool = table.get("polygon_mode", settings.polygon_mode).function()
     with timed(counts["transform"]):
         vertices = transform_vertices(scene)
-        assembled = assemble(scene, vertices, settings, chosen)
+        assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         counts["transform"].incoming = counts["transform"].outgoing = len(assembled)
 
     with timed(counts["cull"]):
-        corners = place_corners(assembled.clip, scene.size, settings.coverage)
-        culled = cull(assembled.clip, orient(corners), settings.cull)
-        primitives = assembled.select(culled.kept)
+        window, outcode = place(assembled, scene.size, settings)
+        facing = face(assembled, window, scene.size, settings)
+        culled = cull(assembled, outcode, facing, settings.cull)
         drawing = drawing_order(vertices, settings)
-        rank = np.argsort(drawing.order, kind="stable")
-        kept = primitives = primitives.take(np.argsort(rank[primitives.triangle], kind="stable"))
-        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(primitives)
+        if chosen is None and drawing.is_as_given and culled.kept.all():
+            kept, doubled_area = assembled, facing
+        else:
+            index = in_drawing_order(np.flatnonzero(culled.kept), assembled, drawing)
+            kept, doubled_area = assembled.take(index), facing.take(index)
+        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept)
 
     with timed(counts["clip"]):
-        planes, inserted = clip_planes(primitives, settings)
-        clipped = None
-        counts["clip"].incoming = len(primitives)
-        shares = None
-        if planes:
-            distances = plane_distances(primitives.clip)
-            if inserted:
-                # Only what needs it, whatever is drawn with it.
-                distances[(primitives.clip[..., 3] > 0).all(axis=1)] = 0
-            clipped = clip_primitives(primitives, distances, planes)
-            primitives = clipped.primitives
-            if is_outlined:
-                corner_shares = replace(kept, varyings=np.tile(np.eye(3), (len(kept), 1, 1)))
-                shares = clip_primitives(corner_shares, distances, planes).primitives.varyings
+        counts["clip"].incoming = len(kept)
+        primitives, clipped, inserted = clip(kept, outcode, settings)
         counts["clip"].outgoing = len(primitives)
-        counts["clip"].note = inserted if inserted else ("" if planes else "not-chosen")
+        counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
 
     with timed(counts["edges"]):
-        corners = place_corners(primitives.clip, scene.size, settings.coverage)
-        edges = set_up_edges(corners, settings.fill_rule)
-        interpolation = set_up_planes(corners.homogeneous)
-        z, w = primitives.clip[..., 2], primitives.clip[..., 3]
         counts["edges"].incoming = counts["edges"].outgoing = len(primitives)
-        return Geometry(
-            vertices=vertices,
-            assembled=assembled,
-            culled=culled,
-            kept=kept,
-            clipped=clipped,
-            clipping_inserted=inserted,
-            primitives=primitives,
-            edges=edges,
-            planes=interpolation,
-            depth_plane=value_plane(interpolation, (z + w) / 2),
-            inverse_w_plane=value_plane(interpolation, np.ones_like(w)),
-            is_in_range=np.all((w > 0) & (z >= -w) & (z <= w), axis=1),
-            uses_depth_test=drawing.uses_depth_test,
-            outlines=set_up_outlines(primitives, corners, shares, scene.size) if is_outlined else None,
+        if primitives is not kept:
+            window, outcode = place(primitives, scene.size, settings)
+            doubled_area = face(primitives, window, scene.size, settings)
+    return Geometry(
+        vertices=vertices,
+        assembled=assembled,
+        culled=culled,
+        kept=kept,
+        clipped=clipped,
+        clipping_inserted=inserted,
+        primitives=primitives,
+        window=window,
+        outcode=outcode,
+        doubled_area=doubled_area,
+        uses_depth_test=drawing.uses_depth_test,
+        settings=settings,
+        count=counts["edges"],
+    )
+
+
+def assemble(
+    scene: AnyScene,
+    vertices: VertexStage,
+    settings: Settings,
+    count: StageCount,
+    chosen: Integers | None = None,
+) -> IndexedPrimitives:
+    """Point the ``chosen`` (T,) triangles, or all, to their vertices, which are lit when their values are asked for."""
+    values_of = partial(corner_values, scene, vertices, settings, count)
+    if chosen is None:
+        number = np.arange(len(vertices.corners))
+        return IndexedPrimitives(
+            vertices.clip_rows, vertices.corner_rows, number, vertices.mesh, values_of, number
         )
+    number = np.asarray(chosen, np.int64)
+    vertex_clip, corner = vertices.clip_rows, vertices.corner_rows.take(number, axis=1)
+    if corner.size < vertex_clip.shape[1]:
+        # A few triangles of many: only their own vertices go on.
+        vertex_clip, corner = vertex_clip.take(corner.T.ravel(), axis=1), own_corners(np.arange(len(number)))
+    return IndexedPrimitives(vertex_clip, corner, number, vertices.mesh.take(number), values_of, number)
+
+
+def corner_values(
+    scene: AnyScene, vertices: VertexStage, settings: Settings, count: StageCount, triangle: Integers
+) -> CornerValues:
+    """Return what is interpolated over triangles (P,); the time goes to ``count``."""
+    with timed(count):
+        if isinstance(scene, ClipScene):
+            assert scene.attributes is not None
+            count_of_triangles, _, width = scene.attributes.shape
+            rows = scene.attributes.reshape(3 * count_of_triangles, width)
+            layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
+            values = CornerValues(rows, layout, own_corners(triangle))
+        else:
+            values = light_vertices(scene, vertices, settings, triangle)
+        if settings.interpolation != "flat":
+            return values
+        provoking = table.get("provoking", settings.provoking).function()
+        return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
+
+
+def place(
+    primitives: IndexedPrimitives, size: tuple[int, int], settings: Settings
+) -> tuple[WindowVertices, Outcodes]:
+    """Return where the vertices of primitives lie in the window of ``size`` and against the view volume.
+
+    Returns
+    -------
+    window : WindowVertices
+    outcode : (M,) uint8
+    """
+    clip_position = primitives.vertex_clip.T
+    return place_vertices(clip_position, size, settings.coverage), outcodes(clip_position)
+
+
+def face(
+    primitives: IndexedPrimitives, window: WindowVertices, size: tuple[int, int], settings: Settings
+) -> Floats:
+    """Return (P,) float64 as ``core.raster.edge_functions.orient``, from vertices that are placed already."""
+    facing = gather_area(window.x, window.y, primitives.corner)
+    lost = np.flatnonzero(~all_projected(window, primitives.corner))
+    if len(lost):
+        facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
+    return facing
 
 
 def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
     """Return the triangles (T,) of the scene from the first drawn to the last."""
     order: DrawingOrder = table.get("visibility", settings.visibility).function(
-        vertices.clip[vertices.corners]
+        CornerPositionsOnDemand(vertices)
     )
     return order
 
 
-def assemble(
-    scene: AnyScene, vertices: VertexStage, settings: Settings, chosen: Integers | None = None
-) -> Primitives:
-    """Gather the corners of the ``chosen`` (T,) triangles with what is to be interpolated over them."""
-    triangle = np.arange(len(vertices.corners)) if chosen is None else np.asarray(chosen, np.int64)
-    corners = vertices.corners[triangle]
-    if isinstance(scene, ClipScene):
-        assert scene.attributes is not None
-        varyings = scene.attributes[triangle]
-        layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, varyings.shape[2]))}
-    else:
-        varyings, layout = light_vertices(scene, vertices, settings, triangle)
-    if settings.interpolation == "flat":
-        provoking = table.get("provoking", settings.provoking).function()
-        varyings = np.repeat(varyings[:, provoking : provoking + 1], 3, axis=1)
-    return Primitives(vertices.clip[corners], varyings, triangle, vertices.mesh[triangle], layout)
+def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder) -> Integers:
+    """Return ``index`` (P,) of assembled triangles from the first drawn to the last."""
+    number = assembled.triangle.take(index)
+    if drawing.is_as_given:
+        return index if (number[1:] >= number[:-1]).all() else index[np.argsort(number, kind="stable")]
+    place = np.full(len(drawing.order), -1)
+    place[number] = index
+    ordered = place.take(drawing.order)
+    return ordered[ordered >= 0]
 
 
-def clip_planes(primitives: Primitives, settings: Settings) -> tuple[tuple[int, ...], str]:
+def clip(
+    kept: IndexedPrimitives, outcode: Outcodes, settings: Settings
+) -> tuple[IndexedPrimitives, Clipped | None, str]:
+    """Clip what crosses a plane that the settings, or a method that they choose, have to be kept to.
+
+    Parameters
+    ----------
+    kept : IndexedPrimitives
+    outcode : (M,) uint8, of its vertices
+    settings : Settings
+
+    Returns
+    -------
+    primitives : IndexedPrimitives
+        ``kept`` itself where nothing crosses.
+    clipped : Clipped, optional
+    inserted : str
+        See ``Geometry.clipping_inserted``.
+    """
+    joined = joined_bits(outcode, kept.corner)
+    crosses_eye = has_bits(joined, BEHIND_BIT)
+    planes, inserted = clip_planes(settings, bool(crosses_eye.any()))
+    if not planes:
+        return kept, None, inserted
+    crossing = has_bits(joined, sum(1 << plane for plane in planes))
+    if inserted:
+        crossing &= crosses_eye
+    if crossing.any():
+        clipped = clip_primitives(kept.gathered(), clipping_distances(kept, inserted), planes)
+        return index_corners(clipped.primitives), clipped, inserted
+    none = kept.take(np.empty(0, np.int64))
+    clipped = clip_primitives(none.gathered(), plane_distances(none.clip), planes)
+    return kept, replace(clipped, primitives=kept.gathered()), inserted
+
+
+def clip_planes(settings: Settings, crosses_eye: bool) -> tuple[tuple[int, ...], str]:
     """Return the planes to clip against, and the method that asked for them where the settings did not."""
     planes: tuple[int, ...] = table.get("clipping", settings.clipping).function()
-    if planes or (primitives.clip[..., 3] > 0).all():
+    if planes or not crosses_eye:
         return planes, ""
     for family in ("polygon_mode", "fill", "interpolation"):
         chosen = table.get(family, getattr(settings, family))

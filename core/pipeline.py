@@ -11,10 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
-from core.fragments.interpolation import interpolate, plane_value
+from core.fragments.interpolation import Interpolator, interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
-from core.framebuffer.depth import DepthFormat, clamp_depth, layers, run_depth_tests
+from core.framebuffer.blending import blend_stacks
+from core.framebuffer.depth import DepthFormat, Stored, clamp_depth, run_depth_tests
+from core.framebuffer.fixed_depth import fixed_value
 from core.framebuffer.nearest import NearestFragments
+from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
 from core.raster.binning import bound
@@ -117,14 +120,14 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
 
 def fragment_depth(
     geometry: Geometry, fragments: Fragments, raster: Raster, depth_format: DepthFormat
-) -> tuple[Floats, Flags, Singles]:
+) -> tuple[Floats, Flags, Stored]:
     """Return the window depth of fragments, whether it is in range, and what would be stored.
 
     Returns
     -------
     depth : (F,) float64, clamped where the triangle is in range as a whole
     keeps : (F,) bool, False too where 1/w is stored and shows a point behind the eye
-    stored : (F,) float32
+    stored : (F,) of the format's ``stored_type``
     """
     if isinstance(fragments, LineFragments):
         outlines = outlines_of(geometry)
@@ -136,7 +139,14 @@ def fragment_depth(
         is_in_range = geometry.is_in_range.take(fragments.primitive)
     depth, keeps = clamp_depth(depth, is_in_range)
     if depth_format.quantity == "z":
-        return depth, keeps, depth_format.store(depth)
+        stored = depth_format.store(depth)
+        if depth_format.is_planar and not isinstance(fragments, LineFragments):
+            planes = geometry.fixed_planes
+            on_plane = planes.is_linear.take(fragments.primitive)
+            stored = np.where(
+                on_plane, fixed_value(planes, fragments.primitive, fragments.column, fragments.row), stored
+            )
+        return depth, keeps, stored
     inverse_w = fragment_inverse_w(geometry, fragments, raster)
     return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
 
@@ -188,10 +198,10 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     cover_count = np.zeros(pixel_count, np.int32)
     owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
     nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
-    kept: list[tuple[Fragments, Singles]] = []
+    kept: list[tuple[Fragments, Stored]] = []
 
     # Coverage and depth of every fragment, in batches.
-    cover_primitives = _covered if geometry.outlines is None else _outlined
+    cover_primitives = covered if geometry.outlines is None else _outlined
     for fragments in cover_primitives(geometry, settings, raster, counts):
         with timed(counts["depth"]):
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
@@ -235,28 +245,34 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     )
 
 
-def _covered(
-    geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+def covered(
+    geometry: Geometry,
+    settings: Settings,
+    raster: Raster,
+    counts: dict[str, StageCount],
+    chosen: Integers | None = None,
 ) -> Iterator[Fragments]:
-    """Yield the covered pixels of all primitives, a few million looked-at pixels at a time."""
+    """Yield the covered pixels of the ``chosen`` (C,) primitives, or all, a few million looked-at pixels at a time."""
     count = counts["bin"]
-    count.incoming = len(geometry.edges)
-    first_column, first_row, end_column, end_row = raster.bounds
     with timed(count):
-        boxes = bound(geometry.edges, raster)
+        edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
+        number = np.arange(len(edges)) if chosen is None else chosen
+        count.incoming += len(edges)
+        first_column, first_row, end_column, end_row = raster.bounds
+        boxes = bound(edges, raster)
         area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
         if settings.fill == "brute-force":
             area[:] = (end_row - first_row) * (end_column - first_column)
         ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         with timed(count):
-            edges = geometry.edges.part(int(first), int(end))
-            _, runs = schedule(edges, settings, raster)
+            part = edges.part(int(first), int(end))
+            _, runs = schedule(part, settings, raster)
             count.outgoing += int(runs.lengths.sum())
-        for fragments, tested in _timed_batches(cover(edges, runs, raster), counts["raster"]):
+        for fragments, tested in _timed_batches(cover(part, runs, raster), counts["raster"]):
             counts["raster"].incoming += tested
             counts["raster"].outgoing += len(fragments)
-            yield replace(fragments, primitive=fragments.primitive + int(first))
+            yield replace(fragments, primitive=number.take(fragments.primitive + int(first)))
 
 
 def _timed_batches(batches: Iterator[Batch], count: StageCount) -> Iterator[Batch]:
@@ -288,7 +304,11 @@ def _interpolate(
     """Return the interpolated values (F, K) float64 of fragments."""
     with timed(count):
         count.incoming = count.outgoing = len(fragments)
-        return fragment_values(geometry, settings, fragments, raster)[1]
+        if isinstance(fragments, LineFragments):
+            return fragment_values(geometry, settings, fragments, raster)[1]
+        values, mode = geometry.primitives.values, settings.interpolation
+        interpolator = Interpolator(geometry.planes, values, mode, settings.provoking)
+        return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
 
 
 def _shade(
@@ -312,7 +332,7 @@ def _blend(
     geometry: Geometry,
     settings: Settings,
     raster: Raster,
-    kept: list[tuple[Fragments, Singles]],
+    kept: list[tuple[Fragments, Stored]],
     counts: dict[str, StageCount],
 ) -> None:
     """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
@@ -322,22 +342,22 @@ def _blend(
         _join([f.column for f, _ in kept]),
         _join([f.row for f, _ in kept]),
     )
-    stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, np.float32)
-    order = np.argsort(owner, kind="stable")
-    fragments = fragments_of(geometry, owner[order], column[order], row[order])
-    pixel = raster.index(fragments.column, fragments.row)
+    stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, depth_format.stored_type)
+    if (owner[1:] < owner[:-1]).any():
+        order = np.argsort(owner, kind="stable")
+        owner, column, row, stored = owner[order], column[order], row[order], stored[order]
+    fragments = fragments_of(geometry, owner, column, row)
     with timed(counts["depth"]):
-        cleared = np.full(len(color), depth_format.cleared, np.float32)
-        tests = run_depth_tests(stored[order], pixel, cleared, depth_format, geometry.uses_depth_test)
-        fragments, pixel = fragments.select(tests.passes), pixel[tests.passes]
+        stacks = stack_fragments(raster.index(column, row))
+        cleared = np.full(len(color), depth_format.cleared, depth_format.stored_type)
+        passes = run_depth_tests(stored, stacks, cleared, depth_format, geometry.uses_depth_test).passes
+        fragments = fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
     source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
     with timed(counts["blend"]):
         rule = table.get("blend", settings.blend).function
-        for layer in layers(pixel):
-            at = pixel[layer]
-            color[at] = rule(source[layer], color[at])
-        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
+        blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)
+        counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
 
 
 def _join(parts: list[Integers]) -> Integers:

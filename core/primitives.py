@@ -1,6 +1,8 @@
-"""The record that stages hand on: triangles in clip space with everything that is to be interpolated."""
+"""The records that stages hand on: triangles in clip space with everything that is to be interpolated."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -41,9 +43,110 @@ class Primitives:
 
 
 @dataclass(frozen=True, eq=False)
+class CornerValues:
+    """What is interpolated over P triangles; corners that have the same values share one row."""
+
+    rows: Floats
+    """(M, K) float64."""
+    layout: dict[str, slice]
+    """Which of the K values are what, see ``Primitives``."""
+    index: Integers
+    """(3, P) int64, the row of every corner."""
+
+    @property
+    def at_corners(self) -> Floats:
+        """(P, 3, K) float64."""
+        return self.rows.take(self.index.T, axis=0)
+
+
+@dataclass(frozen=True, eq=False)
+class IndexedPrimitives:
+    """P primitives whose corners are vertices; what ``Primitives`` holds is gathered when it is first asked for."""
+
+    vertex_clip: Floats
+    """(4, M) float64, clip-space x, y, z, w of the vertices."""
+    corner: Integers
+    """(3, P) int64, the vertices of every primitive."""
+    triangle: Integers
+    """(P,) int64, see ``Primitives``."""
+    mesh: Integers
+    """(P,) int64, see ``Primitives``."""
+    values_of: Callable[[Integers], CornerValues]
+    """The values at the corners of ``source``, or of any part of it."""
+    source: Integers
+    """(P,) int64, the number by which ``values_of`` knows each primitive."""
+
+    def __len__(self) -> int:
+        return len(self.triangle)
+
+    def take(self, index: Integers) -> "IndexedPrimitives":
+        """Return the primitives of ``index`` (Q,), in that order."""
+        return replace(
+            self,
+            corner=self.corner.take(index, axis=1),
+            triangle=self.triangle.take(index),
+            mesh=self.mesh.take(index),
+            source=self.source.take(index),
+        )
+
+    def clip_of(self, index: Integers) -> Floats:
+        """Return the clip positions (Q, 3, 4) of primitives (Q,)."""
+        return self.vertex_clip.take(self.corner.take(index, axis=1), axis=1).T
+
+    @cached_property
+    def clip(self) -> Floats:
+        """(P, 3, 4) float64, clip space."""
+        return self.vertex_clip.take(self.corner, axis=1).T
+
+    @cached_property
+    def values(self) -> CornerValues:
+        """What is interpolated, with one row for corners that share it."""
+        return self.values_of(self.source)
+
+    @cached_property
+    def varyings(self) -> Floats:
+        """(P, 3, K) float64, values at the corners."""
+        return self.values.at_corners
+
+    @property
+    def layout(self) -> dict[str, slice]:
+        """Which of the K values are what, see ``Primitives``."""
+        return self.values.layout
+
+    def gathered(self) -> Primitives:
+        """Return the same primitives, each with its own corners."""
+        return Primitives(self.clip, self.varyings, self.triangle, self.mesh, self.layout)
+
+
+def index_corners(primitives: Primitives) -> IndexedPrimitives:
+    """Return the same primitives, every corner a vertex of its own."""
+    count = len(primitives)
+    rows = primitives.varyings.reshape(3 * count, primitives.varyings.shape[2])
+
+    def values_of(source: Integers) -> CornerValues:
+        return CornerValues(rows, primitives.layout, own_corners(source))
+
+    number = np.arange(count)
+    vertex_clip = np.ascontiguousarray(primitives.clip.reshape(-1, 4).T)
+    return IndexedPrimitives(
+        vertex_clip, own_corners(number), primitives.triangle, primitives.mesh, values_of, number
+    )
+
+
+def own_corners(number: Integers) -> Integers:
+    """Return (3, P): the corners of triangles (P,) where triangle t has the vertices 3 t, 3 t + 1 and 3 t + 2."""
+    return 3 * number + np.arange(3)[:, None]
+
+
+@dataclass(frozen=True, eq=False)
 class DrawingOrder:
     """In which order primitives are drawn, and whether the depth test decides."""
 
     order: Integers
     """(P,) int64, the primitives from the first drawn to the last."""
     uses_depth_test: bool
+
+    @property
+    def is_as_given(self) -> bool:
+        """Whether the primitives are drawn in the order of their numbers."""
+        return bool((self.order[1:] > self.order[:-1]).all())

@@ -21,7 +21,7 @@ class Settings:
     clipping: str = "homogeneous"
     coverage: str = "snapped"
     fill_rule: str = "shared-edge"
-    fill: str = "bounding-box"
+    fill: str = "spans"
     polygon_mode: str = "fill"
     line: str = "bresenham"
     pixel_center: str = "half"

@@ -5,6 +5,7 @@ Vectors are shown in the component that matters most; their other components fol
 
 from collections.abc import Callable, Mapping, Sequence
 
+from widgets import formulas_packed
 from widgets.equation import (
     DIGITS,
     Part,
@@ -258,4 +259,5 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     },
     **{f"shade.{kind}.{name}": make for kind in ("lit", "textured-lit") for name, make in _LIT.items()},
     "shade.textured.albedo": albedo,
+    **formulas_packed.FORMULAS,
 }

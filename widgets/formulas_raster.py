@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from widgets import formulas_spans
 from widgets.equation import (
     Part,
     all_of,
@@ -343,4 +344,5 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "raster.span.span": span,
     "raster.line.ends": line_ends,
     "raster.line.round": line_rounded,
+    **formulas_spans.FORMULAS,
 }

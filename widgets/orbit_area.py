@@ -72,7 +72,6 @@ class OrbitArea(QWidget):
         if orbit != self._orbit:
             self._orbit = orbit
             self._orbit_replaced()
-            self.update()
 
     def set_home(self, home: Orbit) -> None:
         """Say what a double click and the Home key go back to; emits nothing."""
@@ -102,6 +101,7 @@ class OrbitArea(QWidget):
 
     def _orbit_replaced(self) -> None:
         """Draw from another direction."""
+        self.update()
 
     # Pointer.
 

@@ -11,6 +11,9 @@ from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QSizePolicy, QWidget
 from widgets.marks import blended
 from widgets.theme import current_theme, theme_notifier
 
+_BAR_ROOM = 5
+"""Height of the bar of a stage's share of the time, with the gap above it."""
+
 
 class StageState(Enum):
     """Where a stage stands; each has a word and a look."""
@@ -38,10 +41,14 @@ class StageEntry:
     """The pipeline has put it in by itself, to provide what a later stage needs."""
     reason: str = ""
     """Why it is not needed or was inserted."""
+    share: float | None = None
+    """Part of the whole time, 0 to 1, shown as a bar; ``None``: not known."""
+    measured: str = ""
+    """What took that time, such as ``the traced picture``."""
 
 
 class StageButton(QAbstractButton):
-    """One stage: key and name, counts, time."""
+    """One stage: key and name, counts, time, and a bar as long as its share of the time."""
 
     def __init__(self, entry: StageEntry, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -60,6 +67,8 @@ class StageButton(QAbstractButton):
             words.append(StageState.INSERTED.value)
         status = f"{', '.join(words)}: {entry.reason}" if entry.reason else ", ".join(words)
         figures = " in ".join(part for part in (entry.counts, entry.duration) if part)
+        if entry.share is not None:
+            figures += f", {100 * entry.share:.0f} % of {entry.measured or 'all stages'}"
         key = f" ({entry.key})" if entry.key else ""
         self.setToolTip("\n".join(part for part in (f"{entry.name}{key}", figures, status) if part))
         self.setAccessibleName(f"Stage {entry.name}")
@@ -72,14 +81,14 @@ class StageButton(QAbstractButton):
         return self._entry
 
     def sizeHint(self) -> QSize:
-        """Room for the widest of the three lines."""
+        """Room for the widest of the three lines, and the bar below them."""
         entry = self._entry
         name = QFontMetrics(self._name_font(is_bold=True)).horizontalAdvance(entry.name)
         small = QFontMetrics(self._small_font())
         key = small.horizontalAdvance(entry.key) + 6 if entry.key else 0
         lines = (entry.counts or self._state_word(), entry.duration)
         width = max(name + key, *(small.horizontalAdvance(line) for line in lines))
-        height = QFontMetrics(self._name_font()).height() + 2 * small.height() + 12
+        height = QFontMetrics(self._name_font()).height() + 2 * small.height() + 12 + _BAR_ROOM
         return QSize(width + 14, height)
 
     def minimumSizeHint(self) -> QSize:
@@ -94,7 +103,7 @@ class StageButton(QAbstractButton):
         return super().event(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw ground, state and the three lines."""
+        """Draw ground, state, the three lines and the bar."""
         del event
         theme = current_theme()
         entry = self._entry
@@ -127,6 +136,18 @@ class StageButton(QAbstractButton):
             top = inner.top() + name_height + 1 + number * small.height()
             text = small.elidedText(line, Qt.TextElideMode.ElideRight, inner.width() + 4)
             painter.drawText(QRect(inner.left(), top, inner.width() + 6, small.height()), middle, text)
+        if entry.share is not None:
+            self._paint_share(painter, entry.share)
+
+    def _paint_share(self, painter: QPainter, share: float) -> None:
+        """Draw the bar: neutral, for the accent says where we are."""
+        theme = current_theme()
+        track = QRectF(7.0, self.height() - 9.0, self.width() - 14.0, 3.0)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(theme.selection))
+        painter.drawRect(track)
+        painter.setBrush(QColor(theme.muted_text))
+        painter.drawRect(QRectF(track.left(), track.top(), track.width() * min(share, 1.0), track.height()))
 
     def _paint_ground(self, painter: QPainter, *, is_current: bool) -> None:
         theme = current_theme()
@@ -179,6 +200,8 @@ class PipelineRail(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._buttons: list[StageButton] = []
+        self._widest: list[int] = []
+        """Room that each stage has needed so far: numbers that change many times a second must move nothing."""
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.setSpacing(2)
@@ -246,9 +269,14 @@ class PipelineRail(QWidget):
         return False
 
     def _share_width(self) -> None:
-        for place, button in enumerate(self._buttons):
-            self._row.setStretch(place, button.sizeHint().width())
-        self.updateGeometry()
+        wanted = [button.sizeHint().width() for button in self._buttons]
+        if len(wanted) == len(self._widest):
+            wanted = [max(pair) for pair in zip(wanted, self._widest, strict=True)]
+        if wanted != self._widest:
+            self._widest = wanted
+            for place, width in enumerate(wanted):
+                self._row.setStretch(place, width)
+            self.updateGeometry()
 
     def _set_tab_stop(self) -> None:
         """Make the present stage the one that Tab reaches."""
@@ -266,5 +294,6 @@ class PipelineRail(QWidget):
 
     @Slot()
     def _follow_theme(self) -> None:
+        self._widest = []
         self._share_width()
         self.update()

@@ -1,20 +1,32 @@
 """A picture of a scene under the pointer: turn, move, magnify, pick a pixel, drag the vertices in focus."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, QSizeF, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QImage,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QWidget
 
 from widgets.caption_paint import caption_height, paint_caption, paint_empty
 from widgets.diagram import Spot
-from widgets.grid_buffer import GridBuffer
-from widgets.image import buffer_image
+from widgets.frame_corner import FrameCorner, SizeChoice
+from widgets.image import display_image
 from widgets.ink import faded, ink_color
 from widgets.label_places import LabelPlaces
 from widgets.orbit_area import GRAB_RADIUS, OrbitArea
+from widgets.picture_area import picture_area
 from widgets.space_paint import paint_label, paint_spot
 from widgets.theme import Theme, current_theme
 
@@ -52,7 +64,7 @@ class ScenePicture:
     """A drawn scene."""
 
     pixels: NDArray[np.uint8] = field(repr=False)
-    """(H, W, 4) sRGB bytes, row 0 at the bottom; stretched over the view."""
+    """(H, W, 4) sRGB bytes, row 0 at the bottom; alpha is not shown."""
     handles: tuple[SceneHandle, ...] = ()
     marks: tuple[SceneMark, ...] = ()
     labels: tuple[tuple[float, float, str, str], ...] = ()
@@ -77,13 +89,23 @@ class SceneView(OrbitArea):
     """Vertex."""
     size_changed = Signal()
     """The picture should have another size: see :meth:`picture_size`."""
+    size_chosen = Signal(str)
+    """Name of a size that the user has chosen in the corner's menu."""
+    picture_painted = Signal(float)
+    """New pixels are on the screen; when, by ``time.perf_counter``, in seconds."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._picture: ScenePicture | None = None
         self._image = QImage()
+        self._reduced = QImage()
+        """The picture at the size that it was last painted at, where that is smaller."""
         self._caption = ""
         self._origin = (0.0, 0.0)
+        self._fixed_size: tuple[int, int] | None = None
+        self._has_new_pixels = False
+        self._corner = FrameCorner(self)
+        self._corner.size_chosen.connect(self.size_chosen)
         self.empty_text = "Nothing to show yet"
         self.setAccessibleName("3D scene")
 
@@ -95,9 +117,10 @@ class SceneView(OrbitArea):
         """Show a picture; None: the empty text."""
         before, self._picture = self._picture, picture
         if picture is None:
-            self._image = QImage()
+            self._image, self._reduced = QImage(), QImage()
         elif before is None or before.pixels is not picture.pixels:
-            self._image = buffer_image(GridBuffer("scene", picture.pixels, "color"), current_theme())
+            self._image, self._reduced = display_image(picture.pixels), QImage()
+            self._has_new_pixels = True
         caption = self.empty_text if picture is None else picture.caption
         self.setAccessibleDescription(caption)
         self.update()
@@ -111,10 +134,35 @@ class SceneView(OrbitArea):
             if self.picture_size() != before:
                 self.size_changed.emit()
 
+    def show_figures(self, text: str) -> None:
+        """Show in the corner what the last picture took."""
+        self._corner.show_figures(text)
+
+    def show_sizes(self, choices: Sequence[SizeChoice], chosen: str) -> None:
+        """Offer sizes of the picture in the corner's menu; one of them is chosen."""
+        self._corner.show_sizes(choices, chosen)
+
+    def corner(self) -> FrameCorner:
+        """Return the corner with figures and sizes."""
+        return self._corner
+
+    def fix_picture_size(self, size: tuple[int, int] | None) -> None:
+        """Ask for pictures of this (width, height), whatever the size of the view; None: of the view's own."""
+        if size != self._fixed_size:
+            self._fixed_size = size
+            self.update()
+            self.size_changed.emit()
+
     def picture_size(self) -> tuple[int, int]:
-        """Return the columns and rows of a picture with one pixel for each pixel of the screen."""
-        area, ratio = self._space_area(), self.devicePixelRatioF()
+        """Return the columns and rows of the picture: the fixed ones, or one pixel for each of the screen."""
+        if self._fixed_size is not None:
+            return self._fixed_size
+        area, ratio = self._room(), self.devicePixelRatioF()
         return max(round(area.width() * ratio), 1), max(round(area.height() * ratio), 1)
+
+    def pixels_per_point(self) -> float:
+        """Return how many pixels of the picture a logical pixel of the view shows, along one axis."""
+        return self.picture_size()[0] / max(self._space_area().width(), 1.0)
 
     def paint_to(self, painter: QPainter) -> None:
         """Paint what is seen, to any device of the widget's size."""
@@ -124,10 +172,7 @@ class SceneView(OrbitArea):
             return
         area = self._space_area()
         painter.fillRect(self.rect(), QColor(theme.panel))
-        # A draft of fewer pixels is stretched; smoothly, so that turning a mesh does not flicker.
-        is_stretched = self._image.width() < area.width() * painter.device().devicePixelRatioF() - 1
-        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_stretched)
-        painter.drawImage(area, self._image)
+        painter.drawImage(area, self._image_for(area.size() * painter.device().devicePixelRatioF()))
         painter.save()
         painter.setClipRect(area)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -145,16 +190,50 @@ class SceneView(OrbitArea):
         self.paint_to(painter)
         self._paint_focus_ring(painter)
         painter.end()
+        if self._has_new_pixels:
+            self._has_new_pixels = False
+            self.picture_painted.emit(perf_counter())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Ask for a picture of the new size."""
         super().resizeEvent(event)
-        self.size_changed.emit()
+        self._place_corner()
+        if self._fixed_size is None:
+            self.size_changed.emit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Offer the sizes of the picture where they are looked for too."""
+        self._corner.open_menu(event.globalPos())
+
+    def _orbit_replaced(self) -> None:
+        """Paint nothing: what is seen changes with the next picture."""
+
+    def _place_corner(self) -> None:
+        margin = current_theme().unit
+        self._corner.move(margin, margin)
+        self._corner.set_most_width(self.width() - 2 * margin)
 
     def _space_area(self) -> QRectF:
+        """Return where the picture is."""
+        if self._fixed_size is None:
+            return self._room()
+        return picture_area(self._room(), self._fixed_size, self.devicePixelRatioF())
+
+    def _room(self) -> QRectF:
         """Return the part above the caption."""
         height = caption_height(self._caption, self.width(), current_theme())
         return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
+
+    def _image_for(self, room: QSizeF) -> QImage:
+        """Return the picture for so many pixels of the screen: magnified pixels stay squares, others are averaged."""
+        wanted = QSize(round(room.width()), round(room.height()))
+        if wanted.width() >= self._image.width() or wanted.isEmpty():
+            return self._image
+        if self._reduced.size() != wanted:
+            self._reduced = self._image.scaled(
+                wanted, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
+            )
+        return self._reduced
 
     def _place(self, x: float, y: float) -> QPointF | None:
         """Return the widget position of fractions of the picture."""
@@ -165,6 +244,8 @@ class SceneView(OrbitArea):
     def _paint_over(self, painter: QPainter, picture: ScenePicture, area: QRectF, theme: Theme) -> None:
         """Paint marks, handles and words."""
         places = LabelPlaces(area.adjusted(2, 2, -2, -2))
+        if self._corner.isVisible():
+            places.take(QRectF(self._corner.geometry()))
         scale = theme.text_px / 13
         for handle in picture.handles:
             place = self._place(handle.x, handle.y)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 
+from widgets import sentences_packed
 from widgets.number_text import joined, pair_text, spoken, vector_text
 from widgets.sentences_raster import pixel_name
 from widgets.step_values import StepValues
@@ -299,6 +300,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "depth.out-of-range.range": out_of_range,
     "depth.store.depth": depth_stored,
     "depth.store.write": untested,
+    **sentences_packed.SENTENCES,
     "blend.opaque.write": opaque,
     "blend.over.source": over_source,
     "blend.over.color": over_color,

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 
+from widgets import sentences_spans
 from widgets.number_text import counted, joined, spoken, vector_text
 from widgets.sentences_edges import tie_reason
 from widgets.step_values import StepValues
@@ -13,8 +14,7 @@ SNAP_DISTANCE = 1 / 256
 
 def pixel_name(step: StepValues) -> str:
     """Say which pixel."""
-    column, row = step.pixel
-    return f"Pixel ({column}, {row})"
+    return step.pixel_name
 
 
 def _distance(step: StepValues, edge: int) -> str:
@@ -168,4 +168,5 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "raster.span.span": span,
     "raster.line.ends": line_ends,
     "raster.line.round": line_rounded,
+    **sentences_spans.SENTENCES,
 }

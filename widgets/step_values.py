@@ -19,6 +19,8 @@ PLANE_SIGNS = {
     "top": ("y", -1),
 }
 """Clip planes: the signed distance is w plus or minus one coordinate."""
+KEY_NUMBER_BITS = 24
+"""Bits of a packed key below the depth."""
 
 
 class StepValues:
@@ -44,6 +46,12 @@ class StepValues:
         if self._pixel is not None and min(self._pixel) >= 0:
             return self._pixel
         return self.whole("column"), self.whole("row")
+
+    @property
+    def pixel_name(self) -> str:
+        """The pixel as it is called in a sentence."""
+        column, row = self.pixel
+        return f"Pixel ({column}, {row})"
 
     def has(self, *names: str) -> bool:
         """Tell whether the step has all of these numbers."""
@@ -99,6 +107,16 @@ class StepValues:
         if by_side == owns:
             return "shared-edge"
         return "inclusive" if owns[min(edge, len(owns) - 1)] else "exclusive"
+
+
+def key_fields(key: int) -> tuple[str, str]:
+    """Write the fields of a packed key in hexadecimal: the depth, and the number of the triangle plus one below it."""
+    return f"0x{key >> KEY_NUMBER_BITS:010x}", f"0x{key & ((1 << KEY_NUMBER_BITS) - 1):06x}"
+
+
+def key_text(key: int) -> str:
+    """Write a packed key in hexadecimal."""
+    return " | ".join(key_fields(key))
 
 
 def is_left_or_bottom(a: float, b: float) -> bool:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from core.trace import Explanation
-from widgets.step_values import ATTRIBUTES
+from widgets.step_values import ATTRIBUTES, key_fields
 from widgets.variables import Value, Variable
 
 GIVEN = ""
@@ -29,6 +29,8 @@ class VariableText:
     """0, 1 or 2 where the variable belongs to that edge."""
     previous: str = ""
     """The variable that holds its value before the step, where there was one."""
+    is_key: bool = False
+    """Whether it is a packed key, to be shown in hexadecimal."""
 
 
 def _given(label: str, meaning: str, spread: str = "") -> VariableText:
@@ -72,6 +74,48 @@ LINE_VARIABLES: Mapping[str, VariableText] = {
     "t": VariableText("t", "How far the pixel lies along the line: 0 at the first end, 1 at the second."),
 }
 """Variables of lines (wireframes)."""
+
+
+SPAN_VARIABLES: Mapping[str, VariableText] = {
+    "corner_y": _given("y#", "y of the corner as coverage sees it, in pixels.", "edges"),
+    "first_row": VariableText("first row", "Lowest row of pixel centres in the triangle and the raster."),
+    "row_count": VariableText("rows", "Rows of pixel centres in the triangle and the raster."),
+    "lane": VariableText("lane", "Place of the triangle among all, the tallest first."),
+    "lane_count": VariableText("lanes", "Triangles that have rows.", "lane"),
+    "level": _given("level", "Rows of the triangle below this one: all lanes go up level by level."),
+    **{
+        f"{name}_{k}": VariableText(f"{letter}{k}", meaning, edge=k)
+        for k in range(3)
+        for name, letter, meaning in (
+            ("numerator", "N", "Numerator of the crossing, exact: the edge function at column 0."),
+            ("quotient", "q", "Column at which the row crosses the edge: N over dy."),
+        )
+    },
+    "left": VariableText("left bound", "The larger crossing of the edges on the left, in columns."),
+    "left_guard": VariableText(
+        "left guard", "Keeps rounding from deciding, and ties to their owner.", "left"
+    ),
+    "start": VariableText("start", "First column of the span."),
+    "right": VariableText("right bound", "The smaller crossing of the edges on the right, in columns."),
+    "right_guard": VariableText(
+        "right guard", "Keeps rounding from deciding, and ties to their owner.", "right"
+    ),
+    "stop": VariableText("stop", "Column after the last of the span."),
+    "length": VariableText("length", "Pixels of the span."),
+    "place": VariableText("place", "Place of the span among all, the longest first; −1: none."),
+    "span_count": VariableText("spans", "Spans of all triangles together.", "length"),
+    "pass_number": VariableText(
+        "pass", "Place of the pixel in its span: pass k draws the k-th of every span."
+    ),
+    "pass_size": VariableText("pixels in pass", "Spans that are long enough to have a pixel in this pass."),
+    "drawn_before": VariableText("before this pass", "Pixels that earlier passes have drawn.", "rank"),
+    "rank": VariableText("rank", "Place of the pixel in the order of execution, over all triangles."),
+    "dx": _given(
+        "dx#", "Way of the edge to the right: what the numerator grows by from row to row.", "edges"
+    ),
+    "dy": _given("dy#", "Way of the edge upwards: below 0 on the left side of the triangle.", "edges"),
+}
+"""Variables of the fill ``spans``; those of its spans are those of other fills too."""
 
 
 TEXTS: Mapping[str, Mapping[str, VariableText]] = {
@@ -137,6 +181,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "raster": {
         **_PIXEL,
+        **SPAN_VARIABLES,
         **{
             f"value_{k}": VariableText(f"E{k} (snapped)", "Decision value: above 0 is inside.", edge=k)
             for k in range(3)
@@ -156,8 +201,6 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
             f"crossing_{k}": VariableText(f"crossing {k}", "x where the row crosses the edge.", edge=k)
             for k in range(3)
         },
-        "start": VariableText("start", "First column of the span."),
-        "stop": VariableText("stop", "Column after the last of the span."),
         **_CENTRE,
         **_COEFFICIENTS,
         "owns_tie": _given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
@@ -208,9 +251,18 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText("new value", "What the depth method stores of the fragment."),
+        "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
+        "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
+        "before_key": VariableText("key before", "Key in the buffer; the lesser one stays.", is_key=True),
         "before": VariableText("buffer before", "What the depth buffer held."),
         "passes": VariableText("passes", "Whether the fragment is kept."),
         "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
+        "after_key": VariableText(
+            "key in buffer", "The lesser of both keys.", previous="before_key", is_key=True
+        ),
+        "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
+        "across": VariableText("across", "Change of the depth with a column, in units of 2⁻³⁸.", "stored"),
+        "up": VariableText("up", "Change of the depth with a row, in units of 2⁻³⁸.", "stored"),
     },
     "blend": {
         **_PIXEL,
@@ -229,6 +281,14 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
 """Variables of each stage in the order of the algorithm; what is not here stays hidden."""
 
 
+_OF_LANE = frozenset({"corner_y", "first_row", "row_count", "lane", "lane_count"})
+_OF_LANE_ROW = frozenset({f"{name}_{k}" for name in ("numerator", "quotient") for k in range(3)}) | {
+    *("dx", "dy", "left", "left_guard", "right", "right_guard", "length", "span_count"),
+}
+_OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
+_OF_SPANS = frozenset(SPAN_VARIABLES) - {"start", "stop"}
+_PLANE = frozenset({"origin", "across", "up"})
+
 HIDDEN: Mapping[str, frozenset[str]] = {
     "clip.untouched": frozenset({"edge"}),
     "edges.orientation": frozenset({"corner", "homogeneous"}),
@@ -237,8 +297,16 @@ HIDDEN: Mapping[str, frozenset[str]] = {
     "bin.box": frozenset({"size", "a", "b", "c"}),
     "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center", "a", "b", "c"}),
     "bin.whole-image": frozenset({"size", "center", "a", "b", "c"}),
-    "raster.span": frozenset({"column", "x"}),
+    "raster.test": _OF_SPANS,
+    "raster.accept": _OF_SPANS,
+    "raster.span": frozenset({"column", "x"}) | _OF_SPANS,
     "raster.line": frozenset({"column", "x", "y", "a", "b", "c", "owns_tie"}),
+    "raster.lane": frozenset({"column", "row", "x", "y", "a", "b", "c", "owns_tie"}) | (_OF_SPANS - _OF_LANE),
+    "raster.lane-row": frozenset({"column", "x", "a", "b", "c"}) | _OF_LANE | _OF_PASS,
+    "raster.pass": (_OF_SPANS - _OF_PASS) | {"owns_tie"},
+    "depth.rounded": _PLANE,
+    "depth.out-of-range": _PLANE,
+    "depth.store": _PLANE,
 }
 """Variables that rows of a kind have no use for."""
 
@@ -264,6 +332,8 @@ def step_variables(explanation: Explanation) -> tuple[Variable, ...]:
 
 def _rows(text: VariableText, now: Any, before: Any) -> list[Variable]:
     """Return one row, or one for every element that gets its own."""
+    if text.is_key:
+        return _key_rows(text, int(now), None if before is None else int(before))
     if not text.spread:
         return [Variable(text.label, _value(now), _value(before), text.meaning, text.edge)]
     elements = np.asarray(now)
@@ -279,6 +349,21 @@ def _rows(text: VariableText, now: Any, before: Any) -> list[Variable]:
         )
         for k, element in enumerate(elements)
     ]
+
+
+def _key_rows(text: VariableText, now: int, before: int | None) -> list[Variable]:
+    """Return the two fields of a packed key: the depth, and the number of the triangle plus one."""
+    depth, number = _digits(now)
+    earlier_depth, earlier_number = _digits(before) if before is not None else (None, None)
+    return [
+        Variable(text.label, depth, earlier_depth, f"{text.meaning} Its upper bits, in hexadecimal."),
+        Variable(f"{text.label}, number", number, earlier_number, "Its lower 24 bits, in hexadecimal."),
+    ]
+
+
+def _digits(key: int) -> tuple[str, str]:
+    depth, number = key_fields(key)
+    return depth.removeprefix("0x"), number.removeprefix("0x")
 
 
 def _value(value: Any) -> Value:

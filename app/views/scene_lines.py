@@ -1,10 +1,11 @@
 """Lines in space drawn into a picture by the core's own line method, hidden parts faint."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles
+from core.arrays import Floats, Integers
 from core.framebuffer.display import Bytes
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import transform
@@ -54,7 +55,12 @@ def visible_part(clip: Floats) -> tuple[Floats, Integers]:
 
 
 def draw_space_lines(
-    pixels: Bytes, inverse_w: Singles, lines: tuple[SpaceLine, ...], matrix: Floats, colors: list[str]
+    pixels: Bytes,
+    depth: Floats,
+    inverse_w: Callable[[Floats], Floats],
+    lines: tuple[SpaceLine, ...],
+    matrix: Floats,
+    colors: list[str],
 ) -> None:
     """Draw lines over a picture.
 
@@ -62,8 +68,10 @@ def draw_space_lines(
     ----------
     pixels : (H, W, 4) uint8
         The picture, written to.
-    inverse_w : (h, w) float32
-        1/w of what is seen, 0 where nothing is; may be coarser than the picture.
+    depth : (H, W) float64
+        Depth of what is seen.
+    inverse_w : callable
+        1/w of depths (F,).
     lines : tuple of SpaceLine
         From the first drawn to the last.
     matrix : (4, 4) float64
@@ -88,13 +96,13 @@ def draw_space_lines(
 
     # 1/w is linear in the window, as depth is.
     near = interpolate_line(drawn.owner, drawn.steps.t, (1 / clip[..., 3])[..., None])[:, 0]
-    rows, columns = inverse_w.shape
-    row, column = drawn.pixels[:, 1] * rows // height, drawn.pixels[:, 0] * columns // width
-    seen = inverse_w[row, column]
+    column, row = drawn.pixels.T
+    farthest = depth[row, column]
     # A line on a slanted surface or along its border counts as seen if it would be in a pixel beside.
     for up, right in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-        beside = inverse_w[np.clip(row + up, 0, rows - 1), np.clip(column + right, 0, columns - 1)]
-        seen = np.minimum(seen, beside)
+        beside = depth[np.clip(row + up, 0, height - 1), np.clip(column + right, 0, width - 1)]
+        farthest = np.maximum(farthest, beside)
+    seen = inverse_w(farthest)
     opacity = np.where(
         near >= seen * (1 - DEPTH_BIAS), 1.0, np.array([line.hidden for line in lines])[line_of]
     )

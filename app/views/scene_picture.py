@@ -1,22 +1,45 @@
 """The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes."""
 
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from app.views.scene_figures import FrameFigures
 from app.views.scene_lines import SpaceLine, draw_space_lines
 from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
-from core import Settings, render
-from core.arrays import Floats, Integers, Singles
-from core.framebuffer.display import Bytes, linear_light, to_display
+from core import Camera, Settings
+from core.arrays import Floats, Integers
+from core.framebuffer.display import Bytes, linear_light
+from core.framebuffer.fixed_depth import SCALE
 from core.geometry.matrices import transform
+from core.picture.workers import BandWorkers
+from core.pipeline import draw
+from core.raster.schedule import make_raster
 from core.scene import AnyScene, Scene
+from core.trace import scene_triangle_count
 from widgets.ink import ink_color
 from widgets.orbit import Orbit
 from widgets.theme import Theme
+
+
+@dataclass(frozen=True, eq=False)
+class SceneShot:
+    """All that one picture is drawn from; it can be drawn in any thread."""
+
+    space: ViewSpace
+    scene: AnyScene
+    """The scene of ``space``, or some of its triangles."""
+    numbers: Integers | None
+    """(T',) int64, which triangle of the document each triangle of ``scene`` is; None: the same."""
+    settings: Settings
+    """Of the document."""
+    orbit: Orbit
+    size: tuple[int, int]
+    """Width and height of the picture in pixels."""
+    lines: tuple[SpaceLine, ...]
+    theme: Theme
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,81 +48,65 @@ class DrawnScene:
 
     pixels: Bytes
     """(H, W, 4) uint8 sRGB, row 0 at the bottom, with lines."""
-    primitive: NDArray[np.integer[Any]]
-    """(h, w) int32, the triangle of the document that is seen, -1: none; may be coarser than the picture."""
-    seconds: float
-    """What drawing took."""
-    part: int = 1
-    """One in so many triangles was drawn."""
-
-    def triangle_at(self, column: int, row: int) -> int:
-        """Return the triangle at a pixel of the picture, -1: none."""
-        rows, columns = self.primitive.shape
-        height, width = self.pixels.shape[:2]
-        return int(self.primitive[row * rows // height, column * columns // width])
+    shot: SceneShot
+    figures: FrameFigures
 
 
 def view_settings(scene: AnyScene, settings: Settings) -> Settings:
-    """Return the settings of the view: the document's look, every face, and depth as 1/w."""
+    """Return the settings of the view: the document's look, every face, and what draws fastest."""
     return Settings(
-        fill="blocks",
+        fill="spans",
         shading=settings.shading if isinstance(scene, Scene) else "unlit",
         texture_filter=settings.texture_filter,
         wrap=settings.wrap,
-        depth="inverse-w",
+        depth="fixed-38",
     )
 
 
-def draw_scene(
-    space: ViewSpace,
-    scene: AnyScene,
-    numbers: Integers | None,
-    settings: Settings,
-    orbit: Orbit,
-    size: tuple[int, int],
-    scale: int,
-    lines: tuple[SpaceLine, ...],
-    theme: Theme,
-) -> DrawnScene:
-    """Draw a space.
-
-    Parameters
-    ----------
-    space : ViewSpace
-    scene : AnyScene
-        What is drawn: the scene of ``space``, or some of its triangles.
-    numbers : (T',) int64, optional
-        Which triangle of the document each triangle of ``scene`` is; None: the same.
-    settings : Settings
-        Of the document.
-    orbit : Orbit
-    size : (width, height)
-        Of the picture in pixels.
-    scale : int
-        Pixels of the picture that one drawn pixel is wide and high; lines are always fine.
-    lines : tuple of SpaceLine
-    theme : Theme
-    """
+def draw_scene(shot: SceneShot, workers: BandWorkers) -> DrawnScene:
+    """Draw a picture with its lines; the workers draw parts of it where that is faster."""
     begin = perf_counter()
-    width, height = size
-    coarse = (max(-(-width // scale), 1), max(-(-height // scale), 1))
-    camera = viewing_camera(space, orbit)
-    background = np.append(linear_light(_bytes_of(theme.canvas) / 255), 1.0)
-    viewed, pieces = viewed_scene(space, scene, camera, coarse, background)
-    frame = render(viewed, view_settings(scene, settings))
-    primitive: NDArray[np.integer[Any]] = frame.primitive
-    for of_drawn in (pieces, numbers):
-        if of_drawn is not None and len(of_drawn):
-            primitive = np.where(primitive < 0, -1, of_drawn[primitive])
-    part = 1 if numbers is None else -(-len(space.vertices.corners) // max(len(numbers), 1))
-    pixels = to_display(frame.color).pixels
-    if scale > 1:
-        pixels = pixels.repeat(scale, axis=0).repeat(scale, axis=1)[:height, :width]
-    pixels = np.array(pixels)
-    depth: Singles = frame.depth
-    colors = [ink_color(line.ink, theme) for line in lines]
-    draw_space_lines(pixels, depth, lines, viewing_matrix(camera, size), colors)
-    return DrawnScene(pixels, primitive, perf_counter() - begin, part)
+    viewed, _ = _viewed(shot)
+    width, height = shot.size
+    pixels = np.empty((height, width, 4), np.uint8)
+    picture = workers.draw(viewed, view_settings(shot.scene, shot.settings), with_depth=True, out=pixels)
+    sharing = workers.sharing
+    assert picture.depth is not None
+    colors = [ink_color(line.ink, shot.theme) for line in shot.lines]
+    camera = viewing_camera(shot.space, shot.orbit)
+    inverse_w = partial(_inverse_w, camera)
+    draw_space_lines(pixels, picture.depth, inverse_w, shot.lines, viewing_matrix(camera, shot.size), colors)
+    count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
+    figures = FrameFigures(shot.size, count, seconds, picture.statistics, picture.route, sharing)
+    return DrawnScene(pixels, shot, figures)
+
+
+def triangle_seen(shot: SceneShot, column: int, row: int) -> int:
+    """Return the triangle of the document that is seen at a pixel of a picture, -1: none.
+
+    Only this pixel is drawn, by the same rules as the picture, so a picture need not remember its triangles.
+    """
+    viewed, pieces = _viewed(shot)
+    settings = view_settings(shot.scene, shot.settings)
+    raster = make_raster(shot.size, settings.pixel_center, (column, row, 1, 1))
+    seen = int(draw(viewed, settings, raster).primitive[0, 0])
+    for of_drawn in (pieces, shot.numbers):
+        if seen >= 0 and of_drawn is not None:
+            seen = int(of_drawn[seen])
+    return seen
+
+
+def _viewed(shot: SceneShot) -> tuple[AnyScene, Integers | None]:
+    """Return the scene as the viewing camera sees it, see ``viewed_scene``; its meshes are the very same."""
+    background = np.append(linear_light(_bytes_of(shot.theme.canvas) / 255), 1.0)
+    camera = viewing_camera(shot.space, shot.orbit)
+    return viewed_scene(shot.space, shot.scene, camera, shot.size, background)
+
+
+def _inverse_w(camera: Camera, depth: Floats) -> Floats:
+    """Return 1/w at stored depths (F,), whole numbers of 2^-38: both are linear over the window."""
+    nearest, farthest = 1 / camera.near, 1 / camera.far
+    return nearest - (nearest - farthest) * (depth / SCALE)
 
 
 def fractions(space: ViewSpace, orbit: Orbit, size: tuple[int, int], points: Floats) -> Floats:

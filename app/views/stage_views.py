@@ -24,6 +24,8 @@ class StageViews(QObject):
     """A triangle of the scene was clicked in the 3D view."""
     refused = Signal(str)
     """Why a drag in a view did nothing."""
+    frame_measured = Signal(object)
+    """:class:`~app.views.scene_figures.FrameFigures` of a picture of the 3D view; None: it is not in sight."""
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -48,6 +50,7 @@ class StageViews(QObject):
         self._scene_presenter = ScenePresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
+        self._scene_presenter.frame_measured.connect(self.frame_measured)
         for widget in self._views.values():
             widget.installEventFilter(self)
         session.document_changed.connect(self._refresh_visible)
@@ -64,6 +67,11 @@ class StageViews(QObject):
     def scene_presenter(self) -> ScenePresenter:
         """What drives the 3D view."""
         return self._scene_presenter
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether a picture is still being drawn in the background."""
+        return self._scene_presenter.is_drawing
 
     def is_available(self, name: str) -> tuple[bool, str]:
         """Return whether a view has something to show for the present document, and else why not."""
@@ -90,7 +98,9 @@ class StageViews(QObject):
         self._scene_presenter.stop()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Bring a view up to date when it appears."""
+        """Bring a view up to date when it appears, and tell the 3D view whether it is in sight."""
+        if watched is self._scene and event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
+            self._scene_presenter.set_shown(event.type() == QEvent.Type.Show)
         if event.type() == QEvent.Type.Show:
             for name, widget in self._views.items():
                 if widget is watched and name in self._stale:

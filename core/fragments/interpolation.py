@@ -15,13 +15,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.fragments.mixing import BLOCK, LocalNumbers, Mixer
 from core.methods import method, table
+from core.primitives import CornerValues, own_corners
 
 DETERMINANT_ERROR = 2.0**-50
 """Rounding error of a determinant, as a part of the sum of the sizes of its terms."""
 
-BLOCK = 8192
-"""Fragments mixed at once, so that their numbers stay in the processor's cache."""
+FEW_PRIMITIVES = 1024
+"""So many primitives fit the processor's nearest cache without being picked out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +94,31 @@ def plane_value(plane: tuple[Floats, Floats, Floats], primitive: Integers, x: Fl
 
 def numerators(planes: Planes, primitive: Integers, x: Floats, y: Floats) -> tuple[Floats, Floats, Floats]:
     """Return det * alpha_k/w of the three corners at pixel centres, each (F,) float64."""
-    first, second, third = (
-        plane_value((planes.a[:, k], planes.b[:, k], planes.c[:, k]), primitive, x, y) for k in range(3)
-    )
+    first, second, third = _numerator_rows(planes, primitive, x, y)
     return first, second, third
+
+
+def _numerator_rows(planes: Planes, primitive: Integers, x: Floats, y: Floats) -> Floats:
+    """Return the three `numerators` as (3, F)."""
+    parts = np.empty((3, len(primitive)))
+    term = np.empty(len(primitive))
+    for corner, part in enumerate(parts):
+        planes.b[:, corner].take(primitive, out=part, mode="clip")
+        part *= y
+        part += planes.c[:, corner].take(primitive, out=term, mode="clip")
+        planes.a[:, corner].take(primitive, out=term, mode="clip")
+        term *= x
+        part += term
+    return parts
+
+
+@np.errstate(divide="ignore", invalid="ignore", over="ignore")
+def _over_their_sum(parts: Floats) -> Floats:
+    """Turn ``parts`` (3, F) into their shares in the sum of the three, a view (F, 3) of the same memory."""
+    total = parts[0] + parts[1]
+    total += parts[2]
+    parts /= total
+    return parts.T
 
 
 @method(
@@ -107,10 +130,7 @@ def numerators(planes: Planes, primitive: Integers, x: Floats, y: Floats) -> tup
 )
 def perspective(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
     """Return weights (F, 3): alpha/w, beta/w, gamma/w over their sum 1/w."""
-    n0, n1, n2 = numerators(planes, primitive, x, y)
-    total = n0 + n1 + n2
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return np.stack([n0 / total, n1 / total, n2 / total], axis=1)
+    return _over_their_sum(_numerator_rows(planes, primitive, x, y))
 
 
 @method(
@@ -124,12 +144,10 @@ def perspective(planes: Planes, primitive: Integers, x: Floats, y: Floats, provo
 )
 def affine(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
     """Return weights (F, 3) that are linear in the window: alpha_k/w times w_k."""
-    w = planes.w
-    n0, n1, n2 = numerators(planes, primitive, x, y)
-    n0, n1, n2 = n0 * w[primitive, 0], n1 * w[primitive, 1], n2 * w[primitive, 2]
-    total = n0 + n1 + n2
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return np.stack([n0 / total, n1 / total, n2 / total], axis=1)
+    parts = _numerator_rows(planes, primitive, x, y)
+    for corner, part in enumerate(parts):
+        part *= planes.w[:, corner].take(primitive)
+    return _over_their_sum(parts)
 
 
 @method(
@@ -141,9 +159,9 @@ def affine(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking:
 )
 def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
     """Return weights (F, 3): 1 for the provoking corner, 0 for the others."""
-    weights = np.zeros((len(primitive), 3))
-    weights[:, provoking] = 1
-    return weights
+    weights = np.zeros((3, len(primitive)))
+    weights[provoking] = 1
+    return weights.T
 
 
 @method("provoking", "last", "Last corner", source="OpenGL 4.6, 13.4", exact_for="OpenGL's default")
@@ -167,23 +185,96 @@ def interpolate(
     interpolation: str,
     provoking: str,
 ) -> tuple[Floats, Floats]:
-    """Return weights (F, 3) and values (F, K) of varyings (P, 3, K) at pixel centres."""
-    corner = table.get("provoking", provoking).function()
-    weights = table.get("interpolation", interpolation).function(planes, primitive, x, y, corner)
-    return weights, mix(weights, varyings, primitive)
+    """Return weights (F, 3) and values (F, K) of varyings (P, 3, K) at pixel centres, views of rows.
+
+    A picture, which needs only the values, has them sooner from an `Interpolator`.
+    """
+    weights, values = np.empty((3, len(primitive))), np.empty((varyings.shape[2], len(primitive)))
+    Interpolator(planes, varyings, interpolation, provoking).write_values(primitive, x, y, values, weights)
+    return weights.T, values.T
 
 
-def mix(weights: Floats, varyings: Floats, primitive: Integers) -> Floats:
-    """Return (F, K): the corners' values (P, 3, K) in the proportion of weights (F, 3); NaN where 1/w is 0."""
-    mixed = np.empty((len(primitive), varyings.shape[2]))
-    corners = [np.ascontiguousarray(varyings[:, k]) for k in range(3)]
-    for start in range(0, len(primitive), BLOCK):
-        part = slice(start, start + BLOCK)
-        w0, w1, w2 = (weights[part, k, None] for k in range(3))
-        v0, v1, v2 = (values.take(primitive[part], axis=0) for values in corners)
-        with np.errstate(invalid="ignore", over="ignore"):
-            mixed[part] = w0 * v0 + w1 * v1 + w2 * v2
-    return mixed
+class Interpolator:
+    """Interpolates the values at the corners of P primitives, a block of fragments at a time.
+
+    Parameters
+    ----------
+    planes : Planes
+        Of the P primitives.
+    varyings : CornerValues or (P, 3, K) float64 array
+        Values at their corners; with rows that corners share less is looked at.
+    interpolation, provoking : str
+        Names of methods of these families.
+
+    Notes
+    -----
+    To make one costs a look at all primitives: keep it for the fragments of a picture.
+    """
+
+    def __init__(
+        self, planes: Planes, varyings: CornerValues | Floats, interpolation: str, provoking: str
+    ) -> None:
+        values = varyings if isinstance(varyings, CornerValues) else _each_its_own(varyings)
+        self.value_count = values.rows.shape[1]
+        self._plane_rows = [np.ascontiguousarray(part.T) for part in (planes.a, planes.b, planes.c, planes.w)]
+        self._determinant = planes.determinant
+        self._mixer = Mixer(values)
+        count = values.index.shape[1]
+        self._numbers = LocalNumbers(count)
+        self._all = self._tables_of(np.arange(count)) if count <= FEW_PRIMITIVES else None
+        self._rule = table.get("interpolation", interpolation).function
+        self._provoking = table.get("provoking", provoking).function()
+
+    def values(self, primitive: Integers, x: Floats, y: Floats, out: Floats | None = None) -> Floats:
+        """Return the values of fragments, bit for bit those of `interpolate`.
+
+        Parameters
+        ----------
+        primitive : (F,) int64 array
+        x, y : (F,) float64 arrays
+            Pixel centres in the window.
+        out : (K, F) float64 array, optional
+            Memory for the values, a row each.
+
+        Returns
+        -------
+        (F, K) float64 array
+            A view of (K, F) rows; NaN where 1/w is 0.
+        """
+        rows = np.empty((self.value_count, len(primitive))) if out is None else out
+        self.write_values(primitive, x, y, rows)
+        return rows.T
+
+    def write_values(
+        self, primitive: Integers, x: Floats, y: Floats, values: Floats, weights: Floats | None = None
+    ) -> None:
+        """Write the ``values`` (K, F) of fragments (F,), see `values`, and the ``weights`` (3, F) if wanted."""
+        for start in range(0, len(primitive), BLOCK):
+            part = slice(start, start + BLOCK)
+            planes, tables, local = self._close_at_hand(primitive[part])
+            shares = self._rule(planes, local, x[part], y[part], self._provoking).T
+            self._mixer.write_mixed(tables, shares, local, values[:, part])
+            if weights is not None:
+                weights[:, part] = shares
+
+    def _close_at_hand(self, primitive: Integers) -> tuple[Planes, Floats, Integers]:
+        """Return the tables of the primitives of a block, and which of them each fragment (B,) belongs to."""
+        if self._all is not None:
+            return *self._all, primitive
+        shown, local = self._numbers.number(primitive)
+        return *self._tables_of(shown), local
+
+    def _tables_of(self, primitives: Integers) -> tuple[Planes, Floats]:
+        """Return the planes and values of primitives (U,), copied together."""
+        a, b, c, w = (rows.take(primitives, axis=1).T for rows in self._plane_rows)
+        planes = Planes(a, b, c, self._determinant.take(primitives), w)
+        return planes, self._mixer.tables(primitives)
+
+
+def _each_its_own(varyings: Floats) -> CornerValues:
+    """Return varyings (P, 3, K) as corners that share no row."""
+    count, _, width = varyings.shape
+    return CornerValues(varyings.reshape(3 * count, width), {}, own_corners(np.arange(count)))
 
 
 def interpolate_at(

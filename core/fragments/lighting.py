@@ -26,6 +26,9 @@ from core.scene import DirectionalLight, Light, Material
 _BLOCK = 16384
 """Points that are lit at once, so that their numbers stay in the processor's cache."""
 
+_MODERATE = 1e150
+"""The squared length of a vector between two places that are no farther out than this is finite."""
+
 Planes = tuple[Floats, Floats, Floats]
 """x, y and z of F vectors, each (F,), or (1,) where all are the same."""
 
@@ -111,19 +114,56 @@ def light_surface(
     Returns
     -------
     diffuse_light, specular_light : (F, 3) float64 arrays
-        Linear RGB; ``diffuse_light`` includes the ambient term and multiplies the albedo.
+        Linear RGB, views of three rows; ``diffuse_light`` includes the ambient term and multiplies the albedo.
     """
-    diffuse_light, specular_light = np.empty((2, len(position), 3))
+    diffuse_light, specular_light = np.empty((2, 3, len(position)))
     for start in range(0, len(position), _BLOCK):
         part = slice(start, start + _BLOCK)
         here = material.take(part) if isinstance(material, Reflectance) else material
         seen_from = eye if eye.ndim == 1 else eye[part]
-        points = _points(position[part], normal[part], seen_from, two_sided)
-        diffuse_sum, specular_sum = diffuse_light[part], specular_light[part]
-        _start_sums(diffuse_sum, specular_sum, here)
-        for light in lights:
-            _add_light(diffuse_sum, specular_sum, _terms(points, light, here), light, here)
-    return diffuse_light, specular_light
+        sums = diffuse_light[:, part].T, specular_light[:, part].T
+        _start_sums(*sums, here)
+        if two_sided or not _is_matte(here, position[part], seen_from):
+            points = _points(position[part], normal[part], seen_from, two_sided)
+            for light in lights:
+                _add_light(*sums, _terms(points, light, here), light, here)
+        else:
+            _add_matte_light(*sums, position[part], normal[part], lights, here)
+    return diffuse_light.T, specular_light.T
+
+
+def _is_matte(material: Surface, position: Floats, eye: Floats) -> bool:
+    """Return whether points (F, 3) have no highlight whatever the lights, so that the eye does not matter.
+
+    Nothing times a highlight is nothing, unless the highlight is undefined: that of a place without end.
+    """
+    return not np.any(material.specular) and _is_moderate(position) and _is_moderate(eye)
+
+
+def _is_moderate(places: Floats) -> bool:
+    """Return whether no coordinate of (F, 3) places is NaN, infinite or beyond ``_MODERATE``."""
+    return bool(places.min() >= -_MODERATE and places.max() <= _MODERATE)
+
+
+def _add_matte_light(
+    diffuse_sum: Floats,
+    specular_sum: Floats,
+    position: Floats,
+    normal: Floats,
+    lights: Sequence[Light],
+    material: Surface,
+) -> None:
+    """Add ``lights`` to the (F, 3) sums of points without highlight, as `_add_light` does.
+
+    Normals or lights without end make the cosine NaN, and then the highlight is NaN too.
+    """
+    where, unit_normal = planes(position), _unit(planes(normal))
+    for light in lights:
+        n_dot_l = dot(unit_normal, _unit(_towards(light, where)))
+        _add_diffuse(diffuse_sum, n_dot_l, light, material)
+        undefined = np.isnan(n_dot_l)
+        if undefined.any():
+            specular_sum[undefined] = np.nan
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -193,9 +233,11 @@ def _points(position: Floats, normal: Floats, eye: Floats, two_sided: bool) -> _
     seen_from = planes(eye.reshape(-1, 3))
     to_eye = _unit((seen_from[0] - where[0], seen_from[1] - where[1], seen_from[2] - where[2]))
     unit_normal = _unit(planes(normal))
-    turned = (dot(unit_normal, to_eye) < 0) & two_sided
-    for component in unit_normal:
-        np.negative(component, out=component, where=turned)
+    turned = np.zeros(len(position), np.bool_)
+    if two_sided:
+        turned = dot(unit_normal, to_eye) < 0
+        for component in unit_normal:
+            np.negative(component, out=component, where=turned)
     return _Points(where, unit_normal, to_eye, turned)
 
 
@@ -205,8 +247,11 @@ def _terms(points: _Points, light: Light, material: Surface) -> _Terms:
     (lx, ly, lz), (vx, vy, vz) = to_light, points.to_eye
     half = _unit((lx + vx, ly + vy, lz + vz))
     n_dot_l, n_dot_h = dot(points.normal, to_light), dot(points.normal, half)
+    base = np.maximum(n_dot_h, 0.0)
+    base *= n_dot_l > 0
     # float_power rounds alike for one value and for many; power has short cuts for some exponents.
-    power = np.float_power(np.maximum(n_dot_h, 0.0) * (n_dot_l > 0), material.shininess)
+    power = np.zeros(base.shape)
+    np.float_power(base, material.shininess, out=power, where=base != 0)
     return _Terms(to_light, half, n_dot_l, n_dot_h, power)
 
 
@@ -220,11 +265,18 @@ def _add_light(
     diffuse_sum: Floats, specular_sum: Floats, terms: _Terms, light: Light, material: Surface
 ) -> None:
     """Add one light to the (F, 3) sums."""
-    diffuse = material.diffuse * np.maximum(terms.n_dot_l, 0.0)
+    _add_diffuse(diffuse_sum, terms.n_dot_l, light, material)
     specular = material.specular * terms.power
     for channel in range(3):
-        diffuse_sum[:, channel] += diffuse * light.color[channel]
         specular_sum[:, channel] += specular * light.color[channel]
+
+
+def _add_diffuse(diffuse_sum: Floats, n_dot_l: Floats, light: Light, material: Surface) -> None:
+    """Add the diffuse term of one light, (F,) cosines, to the (F, 3) sum."""
+    diffuse = np.maximum(n_dot_l, 0.0)
+    diffuse *= material.diffuse
+    for channel in range(3):
+        diffuse_sum[:, channel] += diffuse * light.color[channel]
 
 
 def _towards(light: Light, position: Planes) -> Planes:
@@ -237,8 +289,8 @@ def _towards(light: Light, position: Planes) -> Planes:
 
 
 def planes(vectors: Floats) -> Planes:
-    """Return the components of ``vectors`` (F, 3), each contiguous."""
-    x, y, z = np.array(vectors.T, dtype=np.float64, order="C")
+    """Return the components of ``vectors`` (F, 3), each contiguous; not to be written to."""
+    x, y, z = np.ascontiguousarray(vectors.T, dtype=np.float64)
     return x, y, z
 
 
@@ -249,13 +301,18 @@ def _store(vectors: Floats, components: Planes) -> None:
 
 def dot(a: Planes, b: Planes) -> Floats:
     """Return (F,) dot products, summed in the order x, y, z."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    total = a[0] * b[0]
+    total += a[1] * b[1]
+    total += a[2] * b[2]
+    return total
 
 
 def _unit(vectors: Planes) -> Planes:
     """Return vectors of length 1; a zero vector stays zero."""
-    length = np.sqrt(dot(vectors, vectors))
-    length[length == 0] = 1.0
+    length = dot(vectors, vectors)
+    np.sqrt(length, out=length)
+    if not length.min(initial=1.0) > 0:
+        length[length == 0] = 1.0
     x, y, z = vectors
     return x / length, y / length, z / length
 

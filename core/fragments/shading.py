@@ -137,12 +137,16 @@ def unlit(
 
 
 def shade(albedo: Floats, diffuse_light: Floats, specular_light: Floats) -> Floats:
-    """Return (F, 4) colours: ``albedo`` (F, 4) lit by (F, 3) diffuse and specular light; alpha is kept."""
-    color = np.empty(albedo.shape)
+    """Return (F, 4) colours: ``albedo`` (F, 4) lit by (F, 3) diffuse and specular light; alpha is kept.
+
+    The colours are a view of four rows; where the arguments are such views too, it is soonest done.
+    """
+    rows = np.empty((4, len(albedo)))
     for channel in range(3):
-        color[:, channel] = albedo[:, channel] * diffuse_light[:, channel] + specular_light[:, channel]
-    color[:, 3] = albedo[:, 3]
-    return color
+        np.multiply(albedo[:, channel], diffuse_light[:, channel], out=rows[channel])
+        rows[channel] += specular_light[:, channel]
+    rows[3] = albedo[:, 3]
+    return rows.T
 
 
 def shaded_color(

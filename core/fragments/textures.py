@@ -11,18 +11,20 @@ M. Segal, K. Akeley, The OpenGL Graphics System 4.6, 2022, section 8.14 (wrap mo
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import floor
 
 import numpy as np
+from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Integers, read_only
+from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.methods import method, table
 from core.scene import Texture
 
 COORDINATE_LIMIT = 2.0**32
 """Coordinates beyond this are moved here: a whole number of repetitions, and indices fit int64."""
 
-_BLOCK = 16384
+_BLOCK = 8192
 """Fragments of a picture that are looked up at once, so that their numbers stay in the processor's cache."""
 
 Wrap = Callable[[Integers, int], Integers]
@@ -33,6 +35,9 @@ Wrap = Callable[[Integers, int], Integers]
 )
 def repeat(index: Integers, size: int) -> Integers:
     """Start again at the other side: ``index`` modulo ``size``, never negative."""
+    if size & (size - 1) == 0:
+        # Of a power of two the low bits are the remainder, and no division is needed.
+        return index & (size - 1)
     return index % size
 
 
@@ -58,7 +63,7 @@ def clamp(index: Integers, size: int) -> Integers:
 )
 def mirror(index: Integers, size: int) -> Integers:
     """Run to and fro: every second repetition is reflected."""
-    there = index % (2 * size)
+    there = repeat(index, 2 * size)
     back = 2 * size - 1 - there
     return np.minimum(there, back)
 
@@ -188,9 +193,10 @@ def sample_texture(
     mixes the last with the first texel at the seam, and nearest at u = 1 reads the first texel. NaN reads
     as 0, a coordinate beyond ``COORDINATE_LIMIT`` as the limit.
     """
-    position, undefined = _position(_checked_uv(uv), texture)
+    uv = _checked_uv(uv)
+    position = _position(uv, texture)
     footprint = _footprint(position, texture, texture_filter, wrap)
-    color = np.empty((len(uv), 4))
+    color = np.empty((4, len(uv)))
     _mix(texture, footprint, color)
     channels = texture.pixels.shape[2]
     texels = np.stack([np.stack(pair, axis=1) for pair in _pairs(footprint)], axis=1)
@@ -198,9 +204,9 @@ def sample_texture(
     texel_colors[..., :channels] = texture.pixels[texels[..., 1], texels[..., 0]]
     _fill_missing_channels(texel_colors, channels)
     return TextureSamples(
-        read_only(color),
+        read_only(color.T),
         read_only(position.T),
-        read_only(undefined.T),
+        read_only(np.isnan(uv)),
         read_only(texels),
         read_only(texel_colors),
         read_only(footprint.weights.T),
@@ -210,14 +216,14 @@ def sample_texture(
 def texture_colors(
     texture: Texture, uv: Floats, texture_filter: str = "bilinear", wrap: str = "repeat"
 ) -> Floats:
-    """Return the (F, 4) float64 colours of `sample_texture`, bit for bit, without the record."""
+    """Return the (F, 4) float64 colours of `sample_texture`, bit for bit, without the record: a view of four rows."""
     uv = _checked_uv(uv)
-    color = np.empty((len(uv), 4))
+    color = np.empty((4, len(uv)))
     for start in range(0, len(uv), _BLOCK):
         part = slice(start, start + _BLOCK)
-        position, _ = _position(uv[part], texture)
-        _mix(texture, _footprint(position, texture, texture_filter, wrap), color[part])
-    return color
+        position = _position(uv[part], texture)
+        _mix(texture, _footprint(position, texture, texture_filter, wrap), color[:, part])
+    return color.T
 
 
 def _checked_uv(uv: Floats) -> Floats:
@@ -227,15 +233,16 @@ def _checked_uv(uv: Floats) -> Floats:
     return uv
 
 
-def _position(uv: Floats, texture: Texture) -> tuple[Floats, Flags]:
-    """Return the (2, F) finite texel units of ``uv``, and where it was NaN."""
+def _position(uv: Floats, texture: Texture) -> Floats:
+    """Return the (2, F) finite texel units of ``uv``."""
     height, width, _ = texture.pixels.shape
-    coordinates = uv.T.copy()
-    undefined = np.isnan(coordinates)
-    coordinates[undefined] = 0.0
-    np.clip(coordinates, -COORDINATE_LIMIT, COORDINATE_LIMIT, out=coordinates)
+    coordinates = np.array(uv.T, order="C")
+    smallest, largest = coordinates.min(initial=0), coordinates.max(initial=0)
+    if not (smallest >= -COORDINATE_LIMIT and largest <= COORDINATE_LIMIT):
+        coordinates[np.isnan(coordinates)] = 0.0
+        np.clip(coordinates, -COORDINATE_LIMIT, COORDINATE_LIMIT, out=coordinates)
     coordinates *= np.array([[width], [height]])
-    return coordinates, undefined
+    return coordinates
 
 
 def _footprint(position: Floats, texture: Texture, texture_filter: str, wrap: str) -> Footprint:
@@ -247,21 +254,45 @@ def _footprint(position: Floats, texture: Texture, texture_filter: str, wrap: st
 
 
 def _mix(texture: Texture, footprint: Footprint, color: Floats) -> None:
-    """Write the weighted mean of the texels of ``footprint`` to ``color`` (F, 4)."""
-    height, width, channels = texture.pixels.shape
-    texels = texture.pixels.reshape(height * width, channels)
-    read = [texels.take(row * width + column, axis=0) for column, row in _pairs(footprint)]
+    """Write the weighted mean of the texels of ``footprint`` to ``color`` (4, F)."""
+    width, channels = texture.pixels.shape[1:]
+    read = [_read(texture, row * width, column) for row in footprint.rows for column in footprint.columns]
     right, top = footprint.weights
     left, bottom = 1 - right, 1 - top
-    for channel in range(channels):
-        values = [texel[:, channel].astype(np.float64) for texel in read]
+    for channel, mixed in enumerate(color[:channels]):
+        values = [texels[:, channel].astype(np.float64) for texels in read]
         if len(values) == 1:
-            color[:, channel] = values[0]
+            mixed[:] = values[0]
         else:
-            bottom_color = values[0] * left + values[1] * right
-            top_color = values[2] * left + values[3] * right
-            color[:, channel] = bottom_color * bottom + top_color * top
-    _fill_missing_channels(color, channels)
+            _mix_pair(values[0], values[1], left, right, values[0])
+            _mix_pair(values[2], values[3], left, right, values[2])
+            _mix_pair(values[0], values[2], bottom, top, mixed)
+    _fill_missing_channels(color.T, channels)
+
+
+def _read(texture: Texture, row_start: Integers, column: Integers) -> Singles:
+    """Return the texels (F, C) or (F, 4) at ``column`` (F,) of rows that begin at ``row_start``."""
+    records = _texel_records(texture)
+    read = records.take(row_start + column, mode="clip").view(np.float32)
+    return read.reshape(len(column), records.itemsize // 4)
+
+
+def _mix_pair(first: Floats, second: Floats, share: Floats, rest: Floats, mixed: Floats) -> None:
+    """Write ``first * share + second * rest`` to ``mixed`` (F,); ``first`` and ``second`` are used up."""
+    first *= share
+    second *= rest
+    np.add(first, second, out=mixed)
+
+
+@lru_cache(maxsize=16)
+def _texel_records(texture: Texture) -> NDArray[np.generic]:
+    """Return the texels (h * w,), each one number of 4 or 16 bytes: these are looked up soonest."""
+    height, width, channels = texture.pixels.shape
+    if channels == 1:
+        return texture.pixels.reshape(-1)
+    padded = np.zeros((height * width, 4), np.float32)
+    padded[:, :channels] = texture.pixels.reshape(-1, channels)
+    return padded.view(np.complex128).reshape(-1)
 
 
 def _pairs(footprint: Footprint) -> list[tuple[Integers, Integers]]:

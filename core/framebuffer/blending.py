@@ -15,11 +15,12 @@ T. Porter, T. Duff, Compositing digital images, 1984.
 F. Pellacini, Computer Graphics, lecture "Graphics pipeline", "framebuffer processing".
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.arrays import Floats, Singles
+from core.arrays import Flags, Floats, Integers, Singles
+from core.framebuffer.stacks import PixelStacks
 from core.methods import method
 
 
@@ -65,13 +66,50 @@ def over(source: Floats, destination: Singles) -> Singles:
     -----
     Alpha 1 gives the source and alpha 0 leaves the destination as it is, exactly, for finite colours.
     """
-    result = np.empty(destination.shape, np.float32)
+    result = np.empty_like(destination)
     alpha = source[:, 3]
     rest = 1 - alpha
     for channel in range(3):
         result[:, channel] = source[:, channel] * alpha + destination[:, channel] * rest
     result[:, 3] = alpha + destination[:, 3] * rest
     return result
+
+
+def blend_stacks(
+    color: Singles,
+    source: Floats,
+    number: Integers,
+    stacks: PixelStacks,
+    passes: Flags | None,
+    rule: Callable[..., Singles],
+) -> None:
+    """Blend fragments into a picture, one layer after another.
+
+    Parameters
+    ----------
+    color : (H*W, 4) float32
+        The picture.
+    source : (V, 4) float64
+        Colours; fastest as a view of (4, V) rows.
+    number : (F,) int64
+        Which of them a fragment has.
+    stacks : PixelStacks
+        Of all F fragments.
+    passes : (F,) bool, optional
+        The depth test; ``None``: all pass.
+    rule : callable
+        A method of the family ``blend``.
+    """
+    there = np.ascontiguousarray(color.take(stacks.pixel, axis=0).T)
+    for count, fragment in stacks.layers():
+        if passes is None:
+            blended = there[:, :count]
+            blended.T[:] = rule(source.T.take(number.take(fragment), axis=1).T, blended.T)
+        else:
+            hit = np.flatnonzero(passes.take(fragment))
+            of_hit = source.T.take(number.take(fragment.take(hit)), axis=1)
+            there[:, hit] = rule(of_hit.T, there.take(hit, axis=1).T).T
+    color[stacks.pixel] = there.T
 
 
 def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:

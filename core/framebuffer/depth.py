@@ -9,39 +9,52 @@ E. Catmull, *A subdivision algorithm for computer display of curved surfaces*, 1
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.arrays import Flags, Floats, Integers, Singles
+from core.framebuffer.stacks import PixelStacks
 from core.methods import method
 
 FLOAT_INFINITY = 0x7F800000
 """Bits of the float32 infinity; the bits of positive floats are in the order of their values."""
 
 
+Stored = NDArray[Any]
+"""Depths as a method stores them: float32, or whole numbers in float64."""
+
+
 @dataclass(frozen=True)
 class DepthFormat:
-    """How a depth is kept."""
+    """How a depth is kept: as a float32 that is 0 or more."""
 
     quantity: str
     """``z`` (window depth) or ``inverse-w``."""
     cleared: float
     """Value of the empty buffer: nothing is farther."""
     larger_is_nearer: bool
-    store: Callable[[Floats], Singles]
-    """Depth of a fragment (F,) float64 to the stored value (F,) float32."""
+    store: Callable[[Floats], Stored]
+    """Depth of a fragment (F,) float64 to the stored value (F,) of ``stored_type``."""
 
-    def nearness_key(self, stored: Singles) -> Integers:
-        """Return (F,) int64 keys below 2^31: smaller is nearer, equal where the stored values (0 or more) are equal."""
+    stored_type: ClassVar[type[np.floating[Any]]] = np.float32
+    nearness_bits: ClassVar[int] = 31
+    """Bits of a nearness key."""
+    is_planar: ClassVar[bool] = False
+    """Whether the stored value of most triangles is an integer plane (``fixed_depth``), not rounded pixel by pixel."""
+
+    def nearness_key(self, stored: Stored) -> Integers:
+        """Return (F,) int64 keys: smaller is nearer, equal where the stored values (0 or more) are equal."""
         bits = stored.view(np.int32).astype(np.int64)
         return FLOAT_INFINITY - bits if self.larger_is_nearer else bits
 
-    def stored_of_key(self, key: Integers) -> Singles:
-        """Return the stored values (F,) float32 of keys."""
+    def stored_of_key(self, key: Integers) -> Stored:
+        """Return the stored values (F,) of keys."""
         bits = FLOAT_INFINITY - key if self.larger_is_nearer else key
         return bits.astype(np.int32).view(np.float32)
 
-    def is_nearer(self, new: Singles, old: Singles) -> Flags:
+    def is_nearer(self, new: Stored, old: Stored) -> Flags:
         """Decide the depth test of stored values (F,); a tie keeps what is there."""
         return np.asarray(new > old if self.larger_is_nearer else new < old)
 
@@ -106,58 +119,46 @@ def clamp_depth(depth: Floats, is_in_range: Flags) -> tuple[Floats, Flags]:
     return np.where(is_in_range, np.minimum(np.maximum(depth, 0.0), 1.0), depth), keeps
 
 
-def layers(pixel: Integers) -> list[Integers]:
-    """Split fragments in drawing order into layers: the first of every pixel, the second, and so on.
-
-    A layer names each pixel at most once, so it can be tested and blended as one array.
-    """
-    order = np.argsort(pixel, kind="stable")
-    ordered = pixel[order]
-    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
-    count = np.diff(starts, append=len(pixel))
-    found = []
-    for layer in range(int(count.max(initial=0))):
-        found.append(np.sort(order[starts[count > layer] + layer]))
-    return found
-
-
 @dataclass(frozen=True, eq=False)
 class DepthTests:
     """F fragments at the depth test, in drawing order."""
 
-    before: Singles
-    """(F,) float32, what the buffer held."""
+    before: Stored
+    """(F,) what the buffer held."""
     passes: Flags
     """(F,) bool."""
 
 
 def run_depth_tests(
-    stored: Singles, pixel: Integers, initial: Singles, depth_format: DepthFormat, is_tested: bool
+    stored: Stored, stacks: PixelStacks, initial: Stored, depth_format: DepthFormat, is_tested: bool
 ) -> DepthTests:
     """Test fragments one layer after another: the result is that of drawing them one by one.
 
     Parameters
     ----------
-    stored : (F,) float32
-    pixel : (F,) int64, index into ``initial``
-    initial : (H*W,) float32, the buffer before
+    stored : (F,) of the format's ``stored_type``
+    stacks : PixelStacks
+        Of the F fragments.
+    initial : (H*W,) like ``stored``, the buffer before
     depth_format : DepthFormat
     is_tested : bool
         False: every fragment passes and is stored.
     """
-    buffer = initial.copy()
-    before = np.empty(len(stored), np.float32)
-    passes = np.ones(len(stored), bool)
-    for layer in layers(pixel):
-        before[layer] = buffer[pixel[layer]]
+    before, passes = np.empty_like(stored), np.ones(len(stored), bool)
+    there = initial.take(stacks.pixel)
+    for count, fragment in stacks.layers():
+        new, old = stored.take(fragment), there[:count]
+        before[fragment] = old
         if is_tested:
-            passes[layer] = depth_format.is_nearer(stored[layer], before[layer])
-        passed = layer[passes[layer]]
-        buffer[pixel[passed]] = stored[passed]
+            nearer = depth_format.is_nearer(new, old)
+            passes[fragment] = nearer
+            np.copyto(old, new, where=nearer)
+        else:
+            old[:] = new
     return DepthTests(before, passes)
 
 
-def depth_test(new: np.float32, old: np.float32, larger_is_nearer: bool) -> tuple[np.float32, bool]:
+def depth_test(new: float, old: float, larger_is_nearer: bool) -> tuple[float, bool]:
     """Listing of the depth test at one pixel."""
     nearer = new > old if larger_is_nearer else new < old  #: compare
     if not nearer:  #: decide

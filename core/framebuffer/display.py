@@ -2,13 +2,15 @@
 
 A byte is ``floor(255 s + 1/2)`` of the sRGB value s (half rounds up), values outside 0 to 1 are cut off. The
 formula has a power in it, and there are only 256 results: the smallest float32 value of every byte is
-searched once, and a picture is compared with these. So the bytes are those of the formula, bit for bit.
+searched once, and a table made of these, the thresholds, gives the bytes of the formula, bit for bit, by one
+look-up and one addition (see `byte_table`).
 
 References
 ----------
 IEC 61966-2-1, Default RGB colour space: sRGB, 1999.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import floor, isnan
@@ -19,9 +21,13 @@ from numpy.typing import NDArray
 from core.arrays import Flags, Floats, Singles, read_only
 
 Bytes = NDArray[np.uint8]
+Words = NDArray[np.uint32]
 
-_BLOCK = 65536
+_BLOCK = 16384
 """Values that are encoded at once, so that their numbers stay in the processor's cache."""
+
+_INFINITY = 0x7F80
+"""Upper 16 bits of float32 infinity, and of the first NaNs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,29 +67,59 @@ def srgb_byte(linear: float) -> int:
 @lru_cache(maxsize=1)
 def srgb_thresholds() -> Singles:
     """Return (255,) float32: element k is the smallest linear value whose byte is k + 1."""
+    return _thresholds(srgb)
+
+
+def _thresholds(encode: Callable[[Floats], Floats]) -> Singles:
+    """Return the smallest float32 value of every byte but 0, for a rising ``encode`` of 0 to 1."""
     wanted = np.arange(1, 256)
     below, reached = np.zeros(255, np.int64), np.full(255, int(np.float32(1).view(np.int32)))
     # Positive floats are ordered like their bits: bisect those.
     while (reached - below > 1).any():
         middle = (below + reached) // 2
         values = middle.astype(np.int32).view(np.float32).astype(np.float64)
-        high = np.floor(255 * srgb(values) + 0.5) >= wanted
+        high = np.floor(255 * encode(values) + 0.5) >= wanted
         reached, below = np.where(high, middle, reached), np.where(high, below, middle)
     return read_only(reached.astype(np.int32).view(np.float32))
 
 
-@lru_cache(maxsize=1)
-def _tables() -> tuple[Bytes, Singles]:
-    """Return the byte of the smallest float32 of each upper 16 bits, and the threshold above every byte.
+def byte_table(thresholds: Singles) -> Words:
+    """Return what is added to the bits of a float32 to carry its byte into bits 16 to 23.
 
-    Values with the same upper 16 bits have never more than one threshold among them: one comparison decides.
+    Parameters
+    ----------
+    thresholds : (255,) float32 array
+        Rising; never two of them with the same upper 16 bits, and none among infinity and NaN.
+
+    Returns
+    -------
+    (65536,) uint32 array
+        One summand for every upper half of a float32.
+
+    Notes
+    -----
+    Let the upper half of the bits be u and the lower half l. Without a threshold among the values of u, the
+    entry is ``byte * 2**16 - u * 2**16``, so that the sum is ``byte * 2**16 + l``. A threshold with lower half
+    t adds ``2**16 - t``: the sum carries into the byte just where l >= t. Infinity is 255, and NaN (the same
+    u, l > 0) is one more, which is 0 in eight bits. Negative values and all other NaN are 0.
     """
-    thresholds = srgb_thresholds()
-    upper_bits = np.arange(65536, dtype=np.uint32) << 16
-    smallest = upper_bits.view(np.float32)
-    lowest_byte = np.searchsorted(thresholds, smallest, side="right").astype(np.uint8)
-    lowest_byte[~(smallest > 0)] = 0  # negative or NaN
-    return lowest_byte, np.append(thresholds, np.float32(np.nan))
+    bits = thresholds.view(np.uint32).astype(np.int64)
+    first = np.arange(65536, dtype=np.int64) << 16
+    byte = np.searchsorted(bits, first, side="right")
+    has_threshold = np.searchsorted(bits, first + 0xFFFF, side="right") > byte
+    summand = byte << 16
+    lower_half = bits[byte[has_threshold]] - first[has_threshold]
+    summand[has_threshold] += 0x10000 - lower_half
+    summand[_INFINITY] = (255 << 16) + 0xFFFF
+    summand[_INFINITY + 1 :] = 0
+    return read_only((summand - first).astype(np.uint32))
+
+
+@lru_cache(maxsize=1)
+def _display_table() -> Words:
+    """Return the table of gamma coded values, and behind it that of plain ones, (2 * 65536,) uint32."""
+    plain = _thresholds(lambda values: values)
+    return read_only(np.concatenate([byte_table(srgb_thresholds()), byte_table(plain)]))
 
 
 def encode_srgb(linear: Singles) -> Bytes:
@@ -98,24 +134,47 @@ def encode_srgb(linear: Singles) -> Bytes:
     -------
     uint8 array of the same shape
     """
-    values = _as_float32(linear)
-    lowest_byte, next_threshold = _tables()
-    flat, encoded = values.ravel(), np.empty(values.size, np.uint8)
-    for start in range(0, flat.size, _BLOCK):
-        part = flat[start : start + _BLOCK]
-        byte = lowest_byte.take(part.view(np.uint32) >> 16)
-        byte += part >= next_threshold.take(byte)
-        encoded[start : start + _BLOCK] = byte
-    undefined = np.isnan(flat)
-    if undefined.any():
-        encoded[undefined] = 0
-    return encoded.reshape(values.shape)
+    return _encode(linear, plain=slice(0))
 
 
 def encode_linear(values: Singles) -> Bytes:
     """Return the bytes of values (any shape) that are not gamma coded, such as alpha; else as `encode_srgb`."""
-    clipped = np.clip(np.nan_to_num(_as_float32(values).astype(np.float64), nan=0.0), 0.0, 1.0)
-    return np.floor(255 * clipped + 0.5).astype(np.uint8)
+    return _encode(values, plain=slice(None))
+
+
+def _encode(values: Singles, plain: slice) -> Bytes:
+    values = _as_float32(values)
+    encoded = np.empty(values.shape, np.uint8)
+    _write_bytes(values.reshape(-1), encoded.reshape(-1), plain)
+    return encoded
+
+
+def _write_bytes(values: Singles, encoded: Bytes, plain: slice) -> None:
+    """Write the bytes of ``values`` (F,), contiguous, to ``encoded`` (F,); ``plain`` ones are not gamma coded.
+
+    Values are written a block at a time; ``plain`` must choose the same ones in every block.
+    """
+    table, bits = _display_table(), values.view(np.uint32)
+    memory, index_memory = np.empty(_BLOCK, np.uint32), np.empty(_BLOCK, np.int64)
+    for start in range(0, len(bits), _BLOCK):
+        part = bits[start : start + _BLOCK]
+        word, index = memory[: len(part)], index_memory[: len(part)]
+        np.right_shift(part, 16, out=word)
+        np.copyto(index, word)
+        index[plain] += 65536
+        table.take(index, out=word, mode="clip")
+        word += part
+        word >>= 16
+        np.copyto(encoded[start : start + _BLOCK], word, casting="unsafe")
+
+
+def write_pixels(color: Singles, pixels: Bytes) -> None:
+    """Write the display bytes of ``color`` (F, 3 or 4) float32, contiguous, to ``pixels``, uint8 of its shape.
+
+    The bytes are those of `to_display`.
+    """
+    alpha = slice(3, None, 4) if color.shape[1] == 4 else slice(0)
+    _write_bytes(color.reshape(-1), pixels.reshape(-1), alpha)
 
 
 def to_display(color: Singles) -> DisplayImage:
@@ -134,13 +193,19 @@ def to_display(color: Singles) -> DisplayImage:
     color = _as_float32(color)
     if color.ndim != 3 or color.shape[2] not in (3, 4):
         raise ValueError(f"color must be (H, W, 3 or 4), got {color.shape}")
-    pixels = encode_srgb(color)
-    if color.shape[2] == 4:
-        pixels[..., 3] = encode_linear(color[..., 3])
+    pixels = np.empty(color.shape, np.uint8)
+    channels = color.shape[2]
+    write_pixels(color.reshape(-1, channels), pixels.reshape(-1, channels))
+    return DisplayImage(read_only(pixels), read_only(_undefined(color)))
+
+
+def _undefined(color: Singles) -> Flags:
+    """Return where ``color`` (H, W, C) has a NaN, (H, W) bool."""
     undefined = np.zeros(color.shape[:2], np.bool_)
-    for channel in range(color.shape[2]):
-        undefined |= np.isnan(color[..., channel])
-    return DisplayImage(read_only(pixels), read_only(undefined))
+    # The maximum of an array with a NaN is NaN; hardly any picture has one.
+    if color.size and np.isnan(color.max()):
+        np.isnan(color).any(axis=2, out=undefined)
+    return undefined
 
 
 @lru_cache(maxsize=1)

@@ -2,44 +2,97 @@
 
 Notes
 -----
-The key is (nearness << 32) | (primitive + 1), so that the least key of a pixel is its nearest fragment, and of equally
-near ones the one drawn first: exactly what testing them one by one keeps. With the depth test off it is
-(later primitives first << 32) | bits of the stored depth. ``numpy.minimum.at`` takes about 2 ns a fragment.
+The key is (nearness << bits) | (primitive + 1), so that the least key of a pixel is its nearest fragment, and of
+equally near ones the one drawn first: exactly what testing them one by one keeps. With the depth test off it is
+(later primitives first << bits) | nearness. ``numpy.minimum.at`` takes about 2 ns a fragment.
 """
 
 import numpy as np
 
-from core.arrays import Integers, Singles
-from core.framebuffer.depth import DepthFormat
+from core.arrays import Integers
+from core.framebuffer.depth import DepthFormat, Stored
+
+BLOCK = 1 << 15
+"""Pixels that are read at once: their numbers stay in the processor's cache."""
 
 
 class NearestFragments:
-    """Least key per pixel over all fragments added so far; primitives are numbered in drawing order."""
+    """Least key per pixel over all fragments added so far; primitives are numbered in drawing order.
+
+    Raises
+    ------
+    ValueError
+        If the key has too few bits for the number of primitives.
+    """
 
     def __init__(
-        self, pixel_count: int, primitive_count: int, depth_format: DepthFormat, uses_depth_test: bool
+        self,
+        pixel_count: int,
+        primitive_count: int,
+        depth_format: DepthFormat,
+        uses_depth_test: bool,
+        memory: Integers | None = None,
     ) -> None:
         self._format = depth_format
         self._uses_depth_test = uses_depth_test
         self._last = primitive_count - 1
-        cleared = int(depth_format.nearness_key(np.array([depth_format.cleared], np.float32))[0])
-        self._cleared = cleared << 32 if uses_depth_test else (primitive_count << 32) | cleared
-        self._keys = np.full(pixel_count, self._cleared, np.int64)
+        self.primitive_bits = 63 - depth_format.nearness_bits
+        if primitive_count >= 1 << self.primitive_bits:
+            raise ValueError(
+                f"this depth method tells {(1 << self.primitive_bits) - 1} triangles apart, got {primitive_count}"
+            )
+        cleared = int(
+            depth_format.nearness_key(np.array([depth_format.cleared], depth_format.stored_type))[0]
+        )
+        if uses_depth_test:
+            self._cleared = cleared << self.primitive_bits
+        else:
+            self._cleared = (primitive_count << depth_format.nearness_bits) | cleared
+        self.keys = np.empty(pixel_count, np.int64) if memory is None else memory
+        self.keys.fill(self._cleared)
 
-    def add(self, pixel: Integers, primitive: Integers, stored: Singles) -> None:
-        """Take fragments in: pixel index (F,), primitive (F,), stored depth (F,) float32."""
+    def add(self, pixel: Integers, primitive: Integers, stored: Stored) -> None:
+        """Take fragments in: pixel index (F,), primitive (F,), stored depth (F,)."""
         nearness = self._format.nearness_key(stored)
         if self._uses_depth_test:
-            key = (nearness << 32) | (primitive + 1)
+            key = (nearness << self.primitive_bits) | (primitive + 1)
         else:
-            key = ((self._last - primitive) << 32) | nearness
-        np.minimum.at(self._keys, pixel, key)
+            key = ((self._last - primitive) << self._format.nearness_bits) | nearness
+        np.minimum.at(self.keys, pixel, key)
 
-    def resolve(self) -> tuple[Integers, Integers, Singles]:
+    def seen_in(self, part: slice) -> tuple[Integers, Integers]:
+        """Return the places in ``part`` of the buffer that something is seen at (V,), and the primitive there (V,)."""
+        keys = self.keys[part]
+        place = np.flatnonzero(keys != self._cleared)
+        seen = keys.take(place)
+        if self._uses_depth_test:
+            seen &= (1 << self.primitive_bits) - 1
+            seen -= 1
+        else:
+            seen >>= self._format.nearness_bits
+            np.subtract(self._last, seen, out=seen)
+        return place, seen
+
+    def number_in(self, part: slice, number: Integers) -> Integers:
+        """Write the primitive plus one that is seen in ``part`` of the buffer (F,), 0 for none, and return it."""
+        keys = self.keys[part]
+        if self._uses_depth_test:
+            return np.bitwise_and(keys, (1 << self.primitive_bits) - 1, out=number)
+        np.right_shift(keys, self._format.nearness_bits, out=number)
+        return np.subtract(self._last + 1, number, out=number)
+
+    def resolve(self) -> tuple[Integers, Integers, Stored]:
         """Return the pixels that something is seen at (V,), the primitive there (V,), and the depth buffer (H*W,)."""
-        pixel = np.flatnonzero(self._keys != self._cleared)
-        high, low = self._keys[pixel] >> 32, self._keys[pixel] & 0xFFFFFFFF
-        primitive, nearness = (low - 1, high) if self._uses_depth_test else (self._last - high, low)
-        depth = np.full(len(self._keys), self._format.cleared, np.float32)
-        depth[pixel] = self._format.stored_of_key(nearness)
-        return pixel, primitive, depth
+        return *self.seen_in(slice(None)), self.depth()
+
+    def depth(self) -> Stored:
+        """Return the depth buffer (H*W,)."""
+        depth = np.empty(len(self.keys), self._format.stored_type)
+        for first in range(0, len(depth), BLOCK):
+            part = slice(first, first + BLOCK)
+            if self._uses_depth_test:
+                nearness = self.keys[part] >> self.primitive_bits
+            else:
+                nearness = self.keys[part] & ((1 << self._format.nearness_bits) - 1)
+            depth[part] = self._format.stored_of_key(nearness)
+        return depth

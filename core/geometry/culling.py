@@ -6,11 +6,14 @@ LMU, *Computer Graphics 1*, tutorial 5, "Culling"; Jubair, "Backface culling"; F
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.geometry.outcodes import BEHIND_BIT, PLANE_BITS, Outcodes, has_bits, shared_bits
 from core.methods import method, table
+from core.primitives import IndexedPrimitives
 
 KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE = range(6)
 REASONS = ("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane")
@@ -23,23 +26,48 @@ PLANE_COEFFICIENTS = np.array(
 """(6, 4): the signed distance of a clip position from plane k is the dot product with row k; inside is 0 or more."""
 
 
+FIRST_PLANE = np.array([-1, *((code & -code).bit_length() - 1 for code in range(1, PLANE_BITS + 1))])
+"""(64,) int64: the first plane whose bit is set in the planes' part of an outcode; -1: none."""
+
+
 @dataclass(frozen=True, eq=False)
 class CullVerdicts:
     """Why each of T triangles is drawn or not."""
 
+    assembled: IndexedPrimitives
     facing: Floats
     """(T,) float64, twice the snapped area or the determinant: positive front, negative back, 0 neither."""
-    distances: Floats
-    """(T, 3, 6) float64, distance of every corner from every plane of the view volume."""
-    verdict: Integers
-    """(T,) int64, an index of ``REASONS``; the first that applies in the order behind, outside, degenerate, facing."""
-    plane: Integers
-    """(T,) int64, the plane that all corners are outside of, else -1."""
+    drops: Flags
+    """(T,) bool, the method of the family ``cull`` drops what faces this way."""
+    shared_outcode: Outcodes
+    """(T,) uint8, the bits that all corners have, see ``core.geometry.outcodes``."""
 
-    @property
+    @cached_property
     def kept(self) -> Flags:
         """(T,) bool."""
-        return np.asarray(self.verdict == KEPT)
+        is_outside = has_bits(self.shared_outcode, PLANE_BITS | BEHIND_BIT)
+        culled: Flags = self.drops | (self.facing == 0) | is_outside
+        return ~culled
+
+    @cached_property
+    def verdict(self) -> Integers:
+        """(T,) int64, an index of ``REASONS``; the first that applies of behind, outside, degenerate, facing."""
+        verdict = np.where(self.drops, np.where(self.facing > 0, FRONT_FACING, BACK_FACING), KEPT)
+        verdict[self.facing == 0] = DEGENERATE
+        verdict[has_bits(self.shared_outcode, PLANE_BITS)] = OUTSIDE_PLANE
+        verdict[has_bits(self.shared_outcode, BEHIND_BIT)] = BEHIND_EYE
+        return verdict
+
+    @cached_property
+    def plane(self) -> Integers:
+        """(T,) int64, the plane that all corners are outside of, else -1."""
+        first = FIRST_PLANE[self.shared_outcode & PLANE_BITS]
+        return np.where(self.verdict == OUTSIDE_PLANE, first, -1)
+
+    @cached_property
+    def distances(self) -> Floats:
+        """(T, 3, 6) float64, distance of every corner from every plane of the view volume."""
+        return plane_distances(self.assembled.clip)
 
 
 def plane_distances(clip: Floats) -> Floats:
@@ -48,25 +76,19 @@ def plane_distances(clip: Floats) -> Floats:
     return np.stack([w + z, w - z, w + x, w - x, w + y, w - y], axis=-1)
 
 
-def cull(clip: Floats, facing: Floats, cull_faces: str) -> CullVerdicts:
+def cull(assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, cull_faces: str) -> CullVerdicts:
     """Give every triangle its verdict.
 
     Parameters
     ----------
-    clip : (T, 3, 4) float64
+    assembled : IndexedPrimitives
+    outcode : (M,) uint8, of its vertices
     facing : (T,) float64, see ``core.raster.edge_functions.orient``
     cull_faces : str
         A method of the family ``cull``.
     """
-    distances = plane_distances(clip)
-    outside = np.all(distances < 0, axis=1)
-    verdict = np.where(table.get("cull", cull_faces).function(facing), BACK_FACING, KEPT)
-    verdict[(verdict == BACK_FACING) & (facing > 0)] = FRONT_FACING
-    verdict[facing == 0] = DEGENERATE
-    verdict[outside.any(axis=1)] = OUTSIDE_PLANE
-    verdict[(clip[..., 3] <= 0).all(axis=1)] = BEHIND_EYE
-    plane = np.where(verdict == OUTSIDE_PLANE, outside.argmax(axis=1), -1)
-    return CullVerdicts(facing, distances, verdict, plane)
+    drops = table.get("cull", cull_faces).function(facing)
+    return CullVerdicts(assembled, facing, drops, shared_bits(outcode, assembled.corner))
 
 
 @method("cull", "none", "Both faces", source="OpenGL 4.6, 14.6.1", exact_for="every scene")

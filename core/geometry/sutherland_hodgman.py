@@ -134,6 +134,7 @@ def clip_polygons(polygon: Floats, count: Integers, plane: int) -> tuple[Floats,
     Returns
     -------
     polygon : (Q, M + 1, 4 + K) float64
+        Wider where distances that were rounded (coordinates of very different sizes) cross the plane more than twice.
     count : (Q,) int64
     rows : ClipRows
     """
@@ -159,7 +160,8 @@ def clip_polygons(polygon: Floats, count: Integers, plane: int) -> tuple[Floats,
     keeps_end = (case == OUT_IN) | (case == IN_IN)
     emitted = crosses.astype(np.int64) + keeps_end
     position = np.cumsum(emitted, axis=1) - emitted
-    result = np.zeros((total, corners + 1, polygon.shape[2]))
+    kept_count = emitted.sum(axis=1)
+    result = np.zeros((total, max(corners + 1, kept_count.max(initial=0)), polygon.shape[2]))
     which, edge = np.nonzero(crosses)
     result[which, position[which, edge]] = corner[which, edge]
     which, edge = np.nonzero(keeps_end)
@@ -178,7 +180,7 @@ def clip_polygons(polygon: Floats, count: Integers, plane: int) -> tuple[Floats,
         t[at],
         corner[at],
     )
-    return result, emitted.sum(axis=1), rows
+    return result, kept_count, rows
 
 
 def distance_from(position: Floats, plane: int) -> Floats:

@@ -1,5 +1,7 @@
 """Vertex stage: every vertex through every space, and triangles assembled for the stages behind.
 
+Components are kept as contiguous rows: the record's ``(N, 4)`` is the transposed view of four rows of N numbers.
+
 References
 ----------
 M. Zwicker, *Computergrafik*, lecture "The complete vertex transform", Bern 2016.
@@ -7,13 +9,41 @@ F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline", "vertex processi
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers, read_only
+from core.arrays import Floats, Integers, Scalar, read_only
 from core.geometry.matrices import projection, transform, viewport, world_to_camera
+from core.primitives import own_corners
 from core.scene import ClipScene, Mesh, Scene
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """N vertices and T triangles of meshes in world space: what does not change when only the camera moves."""
+
+    object: Floats
+    """(N, 4) float64, w = 1."""
+    world: Floats
+    """(N, 4) float64."""
+    normals: Floats
+    """(N, 3) float64, world space, unit (or zero where a mesh gives none)."""
+    model: Floats
+    """(M, 4, 4) float64, M of every mesh."""
+    corners: Integers
+    """(T, 3) int64, the vertices of every triangle."""
+    mesh: Integers
+    """(T,) int64, the mesh of every triangle."""
+    mesh_of_vertex: Integers
+    """(N,) int64."""
+
+    @property
+    def corner_rows(self) -> Integers:
+        """(3, T) int64, contiguous: the first, second and third corner of every triangle."""
+        return self.corners.T
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +73,16 @@ class VertexStage:
     """(4, 4) float64, P."""
 
     @property
+    def clip_rows(self) -> Floats:
+        """(4, N) float64, contiguous: x, y, z and w of ``clip``."""
+        return self.clip.T
+
+    @property
+    def corner_rows(self) -> Integers:
+        """(3, T) int64, contiguous: the first, second and third corner of every triangle."""
+        return self.corners.T
+
+    @property
     def ndc(self) -> Floats:
         """(N, 3) float64; infinite or NaN where w = 0."""
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -61,6 +101,46 @@ class VertexStage:
         return viewport(*self.size)
 
 
+@dataclass(frozen=True, eq=False)
+class CornerPositionsOnDemand:
+    """The clip positions (T, 3, 4) of all corners, for a rule that looks at them only sometimes; indexed like them."""
+
+    vertices: VertexStage
+
+    def __len__(self) -> int:
+        return len(self.vertices.corners)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._gathered[key]
+
+    @cached_property
+    def _gathered(self) -> Floats:
+        return self.vertices.clip_rows.take(self.vertices.corner_rows, axis=1).T
+
+
+@lru_cache(maxsize=2)
+def place_meshes(meshes: tuple[Mesh, ...]) -> World:
+    """Take the vertices of meshes into world space, every mesh with its own M, and number them on.
+
+    Meshes never change, so the result is kept for the next camera.
+    """
+    vertex_counts = [len(mesh.positions) for mesh in meshes]
+    first = np.cumsum([0, *vertex_counts[:-1]])
+    positions = [np.vstack([mesh.positions.T, np.ones(len(mesh.positions))]) for mesh in meshes]
+    world = [transform(mesh.transform, rows.T).T for mesh, rows in zip(meshes, positions, strict=True)]
+    corners = [mesh.triangles.T + start for mesh, start in zip(meshes, first, strict=True)]
+    number = np.arange(len(meshes))
+    return World(
+        object=_record(np.hstack(positions)),
+        world=_record(np.hstack(world)),
+        normals=_record(np.hstack([world_normals(mesh).T for mesh in meshes])),
+        model=np.stack([mesh.transform for mesh in meshes]),
+        corners=_record(np.hstack(corners)),
+        mesh=np.repeat(number, [len(mesh.triangles) for mesh in meshes]),
+        mesh_of_vertex=np.repeat(number, vertex_counts),
+    )
+
+
 @lru_cache(maxsize=2)
 def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
     """Take every vertex of ``scene`` from object space to clip space.
@@ -70,34 +150,34 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
     if isinstance(scene, ClipScene):
         count = len(scene.clip)
         return VertexStage(
-            clip=read_only(scene.clip.reshape(-1, 4)),
-            corners=np.arange(3 * count).reshape(count, 3),
+            clip=_record(scene.clip.reshape(-1, 4).T),
+            corners=_record(own_corners(np.arange(count))),
             mesh=np.zeros(count, np.int64),
             size=scene.size,
         )
     width, height = scene.size
     view = world_to_camera(scene.camera)
     project = projection(scene.camera, width / height)
-    first = np.cumsum([0] + [len(mesh.positions) for mesh in scene.meshes])
-
-    # Every mesh into world space with its own M, then all vertices together.
-    positions = [np.column_stack([mesh.positions, np.ones(len(mesh.positions))]) for mesh in scene.meshes]
-    world = np.concatenate([transform(m.transform, p) for m, p in zip(scene.meshes, positions, strict=True)])
-    camera = transform(view, world)
-    clip = transform(project, camera)
+    of_meshes = place_meshes(scene.meshes)
+    camera = transform(view, of_meshes.world)
     return VertexStage(
-        clip=read_only(clip),
-        corners=np.concatenate([m.triangles + start for m, start in zip(scene.meshes, first, strict=False)]),
-        mesh=np.repeat(np.arange(len(scene.meshes)), [len(m.triangles) for m in scene.meshes]),
+        clip=read_only(transform(project, camera)),
+        corners=of_meshes.corners,
+        mesh=of_meshes.mesh,
         size=scene.size,
-        object=read_only(np.concatenate(positions)),
-        world=read_only(world),
+        object=of_meshes.object,
+        world=of_meshes.world,
         camera=read_only(camera),
-        normals=read_only(np.concatenate([world_normals(mesh) for mesh in scene.meshes])),
-        model=np.stack([mesh.transform for mesh in scene.meshes]),
+        normals=of_meshes.normals,
+        model=of_meshes.model,
         view=view,
         projection=project,
     )
+
+
+def _record(rows: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Return the read-only transposed view (N, k) of rows (k, N), which it makes contiguous."""
+    return read_only(np.ascontiguousarray(rows).T)
 
 
 def world_normals(mesh: Mesh) -> Floats:

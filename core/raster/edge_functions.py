@@ -31,14 +31,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.methods import table
 from core.raster.snapping import CornerPositions
 
 DIRECTION_BITS = 26
 """Bits of the direction of an edge that is anchored in one snapped corner."""
+BLOCK = 16384
+"""Triangles whose corners are gathered at once, so that their numbers stay in the processor's cache."""
+FIRST = np.array([0, 1, 2])
 NEXT = np.array([1, 2, 0])
 LAST = np.array([2, 0, 1])
+"""Corner k itself, and the two that follow it counter-clockwise: the ends of edge k."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +66,10 @@ class EdgeFunctions:
 
     def part(self, first: int, end: int) -> "EdgeFunctions":
         """Return the edge functions of triangles ``first`` to ``end``."""
-        at = slice(first, end)
+        return self.take(slice(first, end))
+
+    def take(self, at: Integers | slice) -> "EdgeFunctions":
+        """Return the edge functions of the triangles ``at`` (C,)."""
         corners = CornerPositions(*(values[at] for values in vars(self.corners).values()))
         return EdgeFunctions(
             self.a[at], self.b[at], self.c[at], self.owns_tie[at], corners, self.doubled_area[at]
@@ -77,22 +84,50 @@ def orient(corners: CornerPositions) -> Floats:
     Where a corner is not projected it is the determinant of the (x, y, w) matrix, whose sign is that of the
     area times the product of the signs of w. Zero: nothing is drawn.
     """
-    x, y = corners.decided[..., 0], corners.decided[..., 1]
-    area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
+    x, y = _rows(corners.decided)
+    area: Floats = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     if corners.is_projected.all():
-        return np.asarray(area)
+        return area
     a, b, c = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
-    x0, y0, w0 = (_homogeneous_ends(corners, np.array([0, 1, 2]))[k][:, 0] for k in range(3))
-    determinant = x0 * a[:, 0] + y0 * b[:, 0] + w0 * c[:, 0]
+    x0, y0, w0 = (ends[0] for ends in _homogeneous_ends(corners, FIRST))
+    determinant: Floats = x0 * a[0] + y0 * b[0] + w0 * c[0]
     return np.where(corners.is_projected.all(axis=1), area, determinant)
+
+
+def gather_area(x: Floats, y: Floats, corner: Integers) -> Floats:
+    """Return twice the signed area (P,) of triangles with the corners (3, P) among vertices at x, y (M,).
+
+    The same numbers as ``orient`` where all corners are projected, else NaN.
+    """
+    count = corner.shape[1]
+    area = np.empty(count)
+    scratch = np.empty((5, min(count, BLOCK)))
+    for start in range(0, count, BLOCK):
+        first, second, third = corner[:, start : start + BLOCK]
+        x0, y0, dx, dy, other = scratch[:, : len(first)]
+        result = area[start : start + BLOCK]
+        x.take(first, out=x0, mode="clip")
+        y.take(first, out=y0, mode="clip")
+        x.take(second, out=dx, mode="clip")
+        y.take(third, out=dy, mode="clip")
+        dx -= x0
+        dy -= y0
+        np.multiply(dx, dy, out=result)
+        x.take(third, out=dx, mode="clip")
+        y.take(second, out=dy, mode="clip")
+        dx -= x0
+        dy -= y0
+        np.multiply(dx, dy, out=other)
+        result -= other
+    return area
 
 
 def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
     """Return the edge functions of P triangles, turned so that inside is positive."""
-    x, y = corners.decided[..., 0], corners.decided[..., 1]
-    a, b, c = cross(x[:, NEXT], y[:, NEXT], 1.0, x[:, LAST], y[:, LAST], 1.0)
-    first, second = corners.is_projected[:, NEXT], corners.is_projected[:, LAST]
+    x, y = _rows(corners.decided)
+    a, b, c = cross(x[NEXT], y[NEXT], 1.0, x[LAST], y[LAST], 1.0)
     if not corners.is_projected.all():
+        first, second = corners.is_projected.T[NEXT], corners.is_projected.T[LAST]
         homogeneous = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
         forward = _from_corner(corners, NEXT, LAST)
         backward = _from_corner(corners, LAST, NEXT)
@@ -103,30 +138,35 @@ def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
 
     # Turn clockwise triangles over, so that one inside test serves both facings.
     doubled_area = orient(corners)
-    sign = np.sign(doubled_area)[:, None]
-    a, b, c = sign * a, sign * b, sign * c
+    sign = np.sign(doubled_area)
+    a, b, c = (sign * a).T, (sign * b).T, (sign * c).T
     owns_tie = table.get("fill_rule", fill_rule).function(a, b)
     return EdgeFunctions(a, b, c, owns_tie, corners, doubled_area)
 
 
+def _rows(positions: Floats) -> Floats:
+    """Return (k, 3, P): the components of positions (P, 3, k), a row for each corner."""
+    return positions.transpose(2, 1, 0)
+
+
 def _homogeneous_ends(corners: CornerPositions, order: np.ndarray) -> tuple[Floats, Floats, Floats]:
-    """Return x, y, w (P, 3) of the corners in ``order``; a projected corner is (snapped w, w)."""
-    x, y, w = (corners.homogeneous[:, order, k] for k in range(3))
-    projected = corners.is_projected[:, order]
-    snapped = corners.decided[:, order]
-    return np.where(projected, snapped[..., 0] * w, x), np.where(projected, snapped[..., 1] * w, y), w
+    """Return x, y, w (3, P) of the corners in ``order``; a projected corner is (snapped w, w)."""
+    x, y, w = _rows(corners.homogeneous)[:, order]
+    projected = corners.is_projected.T[order]
+    snapped_x, snapped_y = _rows(corners.decided)[:, order]
+    return np.where(projected, snapped_x * w, x), np.where(projected, snapped_y * w, y), w
 
 
 def _from_corner(corners: CornerPositions, at: np.ndarray, to: np.ndarray) -> tuple[Floats, Floats, Floats]:
-    """Return a, b, c (P, 3) of the edges from the projected corners ``at`` to the corners ``to``."""
-    x, y = (corners.decided[:, at, k] for k in range(2))
-    return anchored_edge(x, y, *(corners.homogeneous[:, to, k] for k in range(3)))
+    """Return a, b, c (3, P) of the edges from the projected corners ``at`` to the corners ``to``."""
+    x, y = _rows(corners.decided)[:, at]
+    return anchored_edge(x, y, *_rows(corners.homogeneous)[:, to])
 
 
 def anchored_edge(
     x: Floats, y: Floats, end_x: Floats, end_y: Floats, end_w: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Return a, b, c (P, 3) of lines through snapped corners and homogeneous points, directions in whole numbers."""
+    """Return a, b, c (3, P) of lines through snapped corners and homogeneous points, directions in whole numbers."""
     a, b = y * end_w - end_y, end_x - x * end_w
     _, exponent = np.frexp(np.maximum(np.abs(a), np.abs(b)))
     unit = np.ldexp(1.0, exponent - DIRECTION_BITS)
@@ -137,7 +177,7 @@ def anchored_edge(
 def cross(
     x1: Floats, y1: Floats, w1: Floats | float, x2: Floats, y2: Floats, w2: Floats | float
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the cross products (P, 3) of (x1, y1, w1) and (x2, y2, w2): lines through two homogeneous points."""
+    """Return the cross products (3, P) of (x1, y1, w1) and (x2, y2, w2): lines through two homogeneous points."""
     return y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
 
 

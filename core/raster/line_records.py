@@ -5,13 +5,14 @@ chooses a pixel on the other, the *minor* axis. ``u`` is the major and ``v`` the
 whose major axis is y is *steep*.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, checked, checked_size
+from core.arrays import Flags, Floats, Integers, checked, checked_size, read_only
 from core.scene import SIZE_LIMIT
 
 COORDINATE_LIMIT = 2.0**20
@@ -44,6 +45,10 @@ class LineSteps:
     exit_end: Floats
     """(P,) float64, the same of the second end. Drawn if ``exit_start`` < 1/2 <= ``exit_end``."""
 
+    def select(self, index: Integers) -> "LineSteps":
+        """Return the numbers of the pixels ``index``, (Q,) int64."""
+        return LineSteps(*(read_only(getattr(self, field.name).take(index)) for field in fields(self)))
+
 
 @dataclass(frozen=True, eq=False)
 class LinePixels:
@@ -55,7 +60,13 @@ class LinePixels:
     """(P,) float64 share of the line's colour, 1 for methods without antialiasing."""
     owner: Integers
     """(P,) int64 segment that the pixel belongs to, ascending."""
-    steps: LineSteps
+    find_steps: Callable[[], LineSteps]
+    """Finds ``steps``; a picture never asks for them."""
+
+    @cached_property
+    def steps(self) -> LineSteps:
+        """The numbers that chose the pixels."""
+        return self.find_steps()
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.pixels, self.intensities, self.owner))
@@ -101,6 +112,12 @@ class LineRun:
     is_tie: Flags
     exit_start: Floats | None = None
     exit_end: Floats | None = None
+
+    def seen(self, segments: Segments) -> Integers:
+        """Return which of the pixels are on the raster, (Q,) int64."""
+        is_seen = (self.column >= 0) & (self.column < segments.width)
+        is_seen &= (self.row >= 0) & (self.row < segments.height)
+        return np.flatnonzero(is_seen)
 
 
 def check_segments(segments: Any, width: int, height: int, pixel_center: str) -> Segments:

@@ -6,6 +6,7 @@ project the centre onto the segment at a right angle, which gives other values o
 """
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,8 @@ from core.methods import table
 from core.raster.bresenham import bresenham_float_listing, bresenham_lecture_listing, bresenham_listing
 from core.raster.dda import dda_listing, midpoint_listing
 from core.raster.diamond_exit import diamond_exit_listing
-from core.raster.line_records import LinePixels, LineSteps, check_segments
+from core.raster.line_records import LinePixels, LineRun, LineSteps, Segments, check_segments
+from core.raster.spans.lines import find_line_pixels
 
 LISTINGS: dict[str, Callable[..., Any]] = {
     "bresenham": bresenham_listing,
@@ -57,8 +59,8 @@ def draw_lines(
     -------
     LinePixels
         Unpacks as ``pixels`` (P, 2) int64 columns and rows, ``intensities`` (P,) float64, ``owner`` (P,)
-        int64; its ``steps`` keep the numbers that decided. The same pixels as on an unlimited raster,
-        restricted to this one.
+        int64; its ``steps`` are the numbers that decided, found when asked for. The same pixels as on an
+        unlimited raster, restricted to this one.
 
     Raises
     ------
@@ -82,36 +84,74 @@ def draw_lines(
     |##....|
     """
     checked_segments = check_segments(segments, width, height, pixel_center)
-    run = table.get("line", line).function(checked_segments, last_pixel)
-    on_raster = (run.column >= 0) & (run.column < width) & (run.row >= 0) & (run.row < height)
-    pixels, owner = np.stack([run.column, run.row], axis=-1)[on_raster], run.owner[on_raster]
-    centers = pixels + checked_segments.center
-    none = np.full(len(owner), np.nan)
-    steps = LineSteps(
-        index=read_only(run.index[on_raster]),
-        t=read_only(segment_parameter(centers, checked_segments.ends[owner])),
-        decision=read_only(run.decision[on_raster]),
-        has_stepped=read_only(run.has_stepped[on_raster]),
-        is_tie=read_only(run.is_tie[on_raster]),
-        exit_start=read_only(none if run.exit_start is None else run.exit_start[on_raster]),
-        exit_end=read_only(none if run.exit_end is None else run.exit_end[on_raster]),
+    rule = table.get("line", line).function
+    if line == "bresenham":
+        # The same pixels in closed form, without the numbers: those are found when they are asked for.
+        ends, bounds = checked_segments.pixel_indices.reshape(-1, 4), (0, 0, width, height)
+        column, row, owner = find_line_pixels(ends, bounds, last_pixel)
+        find_steps = partial(_run_steps, rule, checked_segments, last_pixel)
+    else:
+        run = rule(checked_segments, last_pixel)
+        seen = run.seen(checked_segments)
+        column, row, owner = run.column.take(seen), run.row.take(seen), run.owner.take(seen)
+        find_steps = partial(_steps_of, checked_segments, run, seen)
+    ones = np.broadcast_to(np.float64(1.0), owner.shape)
+    return LinePixels(read_only(np.stack([column, row]).T), ones, read_only(owner), find_steps)
+
+
+def _run_steps(rule: Callable[..., LineRun], segments: Segments, last_pixel: bool) -> LineSteps:
+    """Return the numbers that chose the pixels on the raster, running ``rule`` to find them."""
+    run = rule(segments, last_pixel)
+    return _steps_of(segments, run, run.seen(segments))
+
+
+def _steps_of(segments: Segments, run: LineRun, seen: Integers) -> LineSteps:
+    """Return the numbers that chose the pixels ``seen`` (Q,) of a run."""
+    none = np.broadcast_to(np.nan, run.owner.shape)
+    every = LineSteps(
+        index=run.index,
+        t=segment_parameter(run.column, run.row, run.owner, segments.ends, segments.center),
+        decision=run.decision,
+        has_stepped=run.has_stepped,
+        is_tie=run.is_tie,
+        exit_start=none if run.exit_start is None else run.exit_start,
+        exit_end=none if run.exit_end is None else run.exit_end,
     )
-    return LinePixels(read_only(pixels), read_only(np.ones(len(owner))), read_only(owner), steps)
+    return every.select(seen)
 
 
-def segment_parameter(centers: Floats, ends: Floats) -> Floats:
-    """Place of pixel centres (P, 2) on their segments (P, 2, 2), along the longer axis: (P,) float64.
+def segment_parameter(
+    column: Integers, row: Integers, owner: Integers, ends: Floats, center: float
+) -> Floats:
+    """Place of pixel centres on their segments, along the longer axis: (P,) float64.
 
     0 at the first end, 1 at the second, 0 everywhere if they coincide (or are too close to divide by). A little
     below 0 or above 1 where a pixel is drawn whose centre lies beyond the end; OpenGL extrapolates there, and so
     do we.
+
+    Parameters
+    ----------
+    column, row, owner : (P,) int64
+        Pixels and the segment of each.
+    ends : (L, 2, 2) float64
+        First and second end of each segment, window x and y in pixels.
+    center : float
+        Coordinate of the centre of pixel 0.
     """
-    start, length = ends[:, 0], ends[:, 1] - ends[:, 0]
+    length = ends[:, 1] - ends[:, 0]
     is_steep = np.abs(length[:, 1]) > np.abs(length[:, 0])
-    along = np.where(is_steep, centers[:, 1] - start[:, 1], centers[:, 0] - start[:, 0])
+    start = np.where(is_steep, ends[:, 0, 1], ends[:, 0, 0])
     whole = np.where(is_steep, length[:, 1], length[:, 0])
     is_point = np.abs(whole) < np.finfo(np.float64).tiny
-    return np.asarray(np.where(is_point, 0.0, along / np.where(is_point, 1.0, whole)))
+    whole[is_point] = 1.0
+
+    t = column + np.float64(center)
+    np.add(row, center, out=t, where=is_steep.take(owner))
+    t -= start.take(owner)
+    t /= whole.take(owner)
+    if is_point.any():
+        t[is_point.take(owner)] = 0.0
+    return t
 
 
 def interpolate_line(owner: Integers, t: Floats, values: ArrayLike, w: ArrayLike | None = None) -> Floats:
@@ -145,6 +185,11 @@ def interpolate_line(owner: Integers, t: Floats, values: ArrayLike, w: ArrayLike
             raise ValueError(f"w must be ({len(at_ends)}, 2), got {w_ends.shape}")
         if (w_ends <= 0).any():
             raise ValueError(f"w must be positive, got {w_ends[(w_ends <= 0).any(axis=1)][0].tolist()}")
-        first, second = (1 - t) / w_ends[owner, 0], t / w_ends[owner, 1]
+        first, second = (1 - t) / w_ends[:, 0].take(owner), t / w_ends[:, 1].take(owner)
         t = second / (first + second)
-    return np.asarray((1 - t)[:, None] * at_ends[owner, 0] + t[:, None] * at_ends[owner, 1])
+    rest = 1 - t
+    mixed = np.empty((at_ends.shape[2], len(t)))
+    for value, (first, second) in zip(mixed, at_ends.transpose(2, 1, 0), strict=True):
+        np.multiply(rest, first.take(owner), out=value)
+        value += t * second.take(owner)
+    return mixed.T

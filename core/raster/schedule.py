@@ -152,7 +152,9 @@ class Runs:
     """(R,) int64, not decreasing: runs of one group are one block or one row of a triangle."""
     blocks: Blocks | None = None
     crossings: Floats | None = None
-    """(R, 3) float64, columns where the row crosses each edge (scanline fills)."""
+    """(R, 3) float64, x where the row crosses each edge; ``None``: the fill has no spans.
+
+    NaN in lanes of the fill ``spans``, which has them as fractions."""
 
     def __len__(self) -> int:
         return len(self.triangle)

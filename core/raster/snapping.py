@@ -33,6 +33,18 @@ class CornerPositions:
     """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
 
 
+@dataclass(frozen=True, eq=False)
+class WindowVertices:
+    """M vertices in the window, placed once for all triangles that share them."""
+
+    x: Floats
+    """(M,) float64 pixels that coverage is decided on (snapped); NaN where the vertex cannot be projected."""
+    y: Floats
+    """(M,) float64, likewise."""
+    is_projected: Flags
+    """(M,) bool, where ``x`` and ``y`` hold."""
+
+
 def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
     """Put corners on the lattice of a coverage method.
 
@@ -44,14 +56,40 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
         A method of the family ``coverage``.
     """
     x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
-    half_width, half_height = size[0] / 2, size[1] / 2
-    homogeneous = np.stack([(x + w) * half_width, (y + w) * half_height, w], axis=-1)
-    in_front = w > 0
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        window = np.stack([(x / w + 1) * half_width, (y / w + 1) * half_height], axis=-1)
-    window[~in_front] = np.nan
+    homogeneous = _component_rows(w.shape, 3)
+    homogeneous[..., 0] = (x + w) * (size[0] / 2)
+    homogeneous[..., 1] = (y + w) * (size[1] / 2)
+    homogeneous[..., 2] = w
+    window = window_position(clip, size)
     decided, is_projected = table.get("coverage", coverage).function(window)
     return CornerPositions(homogeneous, window, decided, is_projected)
+
+
+def place_vertices(clip: Floats, size: tuple[int, int], coverage: str) -> WindowVertices:
+    """Put vertices (M, 4) on the lattice of a coverage method, as ``place_corners`` does with corners."""
+    decided, is_projected = table.get("coverage", coverage).function(window_position(clip, size))
+    return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
+
+
+def window_position(clip: Floats, size: tuple[int, int]) -> Floats:
+    """Return where clip positions (..., 4) lie in the window, (..., 2) float64 pixels; NaN where w <= 0."""
+    w = clip[..., 3]
+    position = _component_rows(w.shape, 2)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for axis in range(2):
+            along = position[..., axis]
+            np.divide(clip[..., axis], w, out=along)
+            along += 1
+            along *= size[axis] / 2
+    in_front = w > 0
+    if not in_front.all():
+        position[~in_front] = np.nan
+    return position
+
+
+def _component_rows(shape: tuple[int, ...], count: int) -> Floats:
+    """Return an empty array (*shape, count) where every component of every corner is a contiguous row."""
+    return np.empty((count, *reversed(shape))).T
 
 
 @method(
@@ -63,9 +101,14 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
 )
 def snap(window: Floats) -> tuple[Floats, Flags]:
     """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool."""
-    is_projected = np.all(np.abs(window) <= SNAP_LIMIT, axis=-1)
-    near = np.where(is_projected[..., None], window, np.nan)
-    return np.rint(near * SUBPIXELS) / SUBPIXELS, is_projected
+    is_projected = (np.abs(window[..., 0]) <= SNAP_LIMIT) & (np.abs(window[..., 1]) <= SNAP_LIMIT)
+    snapped = window.copy(order="K")
+    if not is_projected.all():
+        snapped[~is_projected] = np.nan
+    snapped *= SUBPIXELS
+    np.rint(snapped, out=snapped)
+    snapped /= SUBPIXELS
+    return snapped, is_projected
 
 
 @method(

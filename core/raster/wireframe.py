@@ -9,8 +9,9 @@ anywhere in front of the eye. Depth is linear along the segment; a pixel whose c
 the end's depth and values.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from core.arrays import Flags, Floats, Integers
 from core.methods import method
 from core.primitives import Primitives
 from core.raster.coverage import Fragments
-from core.raster.line_records import PIXEL_CENTERS, LineSteps
+from core.raster.line_records import PIXEL_CENTERS, LinePixels, LineSteps
 from core.raster.lines import draw_lines, interpolate_line, segment_parameter
 from core.raster.schedule import Raster
 from core.raster.snapping import CornerPositions
@@ -213,8 +214,10 @@ def cut_to_window(homogeneous: Floats, size: tuple[int, int]) -> Floats:
     return np.stack([np.where(is_outside, 1.0, enters), np.where(is_outside, 0.0, leaves)], axis=1)
 
 
-def draw_outlines(outlines: Outlines, raster: Raster, line: str) -> Iterator[tuple[LineFragments, LineSteps]]:
-    """Yield the pixels of segments in batches (at least one), in drawing order, with the numbers that chose them.
+def draw_outlines(
+    outlines: Outlines, raster: Raster, line: str
+) -> Iterator[tuple[LineFragments, Callable[[], LineSteps]]]:
+    """Yield the pixels of segments in batches (at least one), in drawing order, and what finds how they were chosen.
 
     Parameters
     ----------
@@ -234,25 +237,34 @@ def draw_outlines(outlines: Outlines, raster: Raster, line: str) -> Iterator[tup
             outlines.window[first:end], raster.width, raster.height, line, pixel_center=pixel_center
         )
         (column, row), segment = drawn.pixels.T, drawn.owner + first
-        fragments = LineFragments(outlines.primitive[segment], column, row, segment)
-        keep = (column >= left) & (column < right) & (row >= bottom) & (row < top)
-        yield fragments.select(keep), LineSteps(*(values[keep] for values in vars(drawn.steps).values()))
+        inside = np.flatnonzero((column >= left) & (column < right) & (row >= bottom) & (row < top))
+        if len(inside) < len(segment):
+            column, row, segment = column.take(inside), row.take(inside), segment.take(inside)
+        fragments = LineFragments(outlines.primitive.take(segment), column, row, segment)
+        yield fragments, partial(_steps_inside, drawn, inside)
 
 
-def join_batches(batches: list[tuple[LineFragments, LineSteps]]) -> tuple[LineFragments, LineSteps]:
-    """Return the batches of ``draw_outlines`` as one."""
-    fragments, steps = zip(*batches, strict=True)
+def _steps_inside(drawn: LinePixels, inside: Integers) -> LineSteps:
+    """Return the numbers that chose the pixels ``inside`` (F,) of lines."""
+    return drawn.steps.select(inside)
+
+
+def join_batches(
+    batches: list[tuple[LineFragments, Callable[[], LineSteps]]],
+) -> tuple[LineFragments, LineSteps]:
+    """Return the batches of ``draw_outlines`` as one, with the numbers that chose the pixels."""
+    fragments, finders = zip(*batches, strict=True)
 
     def join(records: tuple[LineFragments, ...] | tuple[LineSteps, ...]) -> list[Any]:
         return [np.concatenate([getattr(r, name) for r in records]) for name in vars(records[0])]
 
-    return LineFragments(*join(fragments)), LineSteps(*join(steps))
+    return LineFragments(*join(fragments)), LineSteps(*join(tuple(find() for find in finders)))
 
 
 def line_parameter(outlines: Outlines, fragments: LineFragments, center: float) -> Floats:
     """Return t (F,): where pixel centres lie on their segments, along the longer axis, from 0 to 1."""
-    centers = np.stack([fragments.column + center, fragments.row + center], axis=1)
-    return np.clip(segment_parameter(centers, outlines.window.take(fragments.segment, axis=0)), 0.0, 1.0)
+    column, row, segment = fragments.column, fragments.row, fragments.segment
+    return np.clip(segment_parameter(column, row, segment, outlines.window, center), 0.0, 1.0)
 
 
 def line_depth(outlines: Outlines, fragments: LineFragments, center: float) -> Floats:
@@ -264,8 +276,8 @@ def line_depth(outlines: Outlines, fragments: LineFragments, center: float) -> F
 def inverse_w_parts(outlines: Outlines, fragments: LineFragments, center: float) -> tuple[Floats, Floats]:
     """Return (1 - t)/w0 and t/w1 (F,), whose sum is 1/w."""
     t = line_parameter(outlines, fragments, center)
-    w = outlines.w.take(fragments.segment, axis=0)
-    return (1 - t) / w[:, 0], t / w[:, 1]
+    first, second = outlines.w.T
+    return (1 - t) / first.take(fragments.segment), t / second.take(fragments.segment)
 
 
 def values_at_ends(outlines: Outlines, varyings: Floats, interpolation: str) -> Floats:

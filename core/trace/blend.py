@@ -3,8 +3,8 @@
 import numpy as np
 
 from core.framebuffer.blending import over_pixel
-from core.framebuffer.depth import layers
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
+from core.framebuffer.stacks import stack_fragments
 from core.listing import listing
 from core.methods import table
 from core.steps import Operation, Steps, ends_of
@@ -22,11 +22,12 @@ def trace_blend(source: TraceSource) -> StageTrace:
     rule = table.get("blend", mode).function
 
     # The colours before and after, one layer after another.
-    buffer = source.start.color.reshape(-1, 4).copy()
     before, after = np.empty((2, len(colors), 4), np.float32)
-    for layer in layers(place):
-        before[layer] = buffer[place[layer]]
-        after[layer] = buffer[place[layer]] = rule(colors[layer], before[layer])
+    stacks = stack_fragments(place)
+    there = source.start.color.reshape(-1, 4).take(stacks.pixel, axis=0)
+    for count, fragment in stacks.layers():
+        before[fragment] = there[:count]
+        after[fragment] = there[:count] = rule(colors.take(fragment, axis=0), there[:count])
     kind = np.zeros(len(fragments), np.int64)
     operations = {
         "opaque": (Operation("write", "store", ("source", "before", "after")),),

@@ -2,13 +2,28 @@
 
 import numpy as np
 
+from core.arrays import Flags, Integers
 from core.framebuffer.depth import depth_test
-from core.listing import listing
+from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
+from core.listing import Listing, listing
 from core.steps import Operation, Steps, ends_of
+from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
-KINDS = ("test", "out-of-range", "store")
+OPERATIONS: dict[str, tuple[Operation, ...]] = {
+    "test": (
+        Operation("depth", "compare", ("depth", "stored")),
+        Operation("compare", "compare", ("before", "passes")),
+        Operation("write", "store", ("after",)),
+    ),
+    "out-of-range": (Operation("range", "compare", ("depth", "passes")),),
+    "store": (
+        Operation("depth", "compare", ("depth", "stored")),
+        Operation("write", "store", ("before", "after", "passes")),
+    ),
+}
+"""Kind of row to what it does."""
 
 
 def trace_depth(source: TraceSource) -> StageTrace:
@@ -29,22 +44,17 @@ def trace_depth(source: TraceSource) -> StageTrace:
         "larger_is_nearer": np.full(len(fragments), source.depth_format.larger_is_nearer),
         "primitive": fragments.primitive,
     }
+    operations, listings = OPERATIONS, dict.fromkeys(OPERATIONS, listing(depth_test))
+    if source.depth_format.is_planar:
+        columns |= plane_columns(source)
+        operations, listings = OPERATIONS | PLANAR_OPERATIONS, listings | _planar_listings()
+        if tested:
+            columns |= key_columns(source)
     triangle = source.triangle_of_fragment
     steps = Steps(
-        kinds=KINDS,
-        kind=np.where(keeps, 0 if tested else 2, 1),
-        operations={
-            "test": (
-                Operation("depth", "compare", ("depth", "stored")),
-                Operation("compare", "compare", ("before", "passes")),
-                Operation("write", "store", ("after",)),
-            ),
-            "out-of-range": (Operation("range", "compare", ("depth", "passes")),),
-            "store": (
-                Operation("depth", "compare", ("depth", "stored")),
-                Operation("write", "store", ("before", "after", "passes")),
-            ),
-        },
+        kinds=tuple(operations),
+        kind=_kinds(tuple(operations), tested, keeps, columns),
+        operations=operations,
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(fragments.primitive, fragments.row),
     )
@@ -60,7 +70,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings=dict.fromkeys(KINDS, listing(depth_test)),
+        listings=listings,
         constants={"quantity": source.depth_format.quantity},
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
@@ -71,3 +81,19 @@ def trace_depth(source: TraceSource) -> StageTrace:
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )
+
+
+def _kinds(names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray]) -> Integers:
+    """Return (R,) int64, which of ``names`` each row is."""
+    usual = names.index("test" if tested else "store")
+    kind = np.where(keeps, usual, names.index("out-of-range"))
+    if "is_linear" in columns:
+        # A depth that is rounded pixel by pixel, or one that is a plane, needs words of its own.
+        is_other = columns["is_linear"] != tested
+        kind[keeps & is_other] = names.index("rounded" if tested else "plane")
+    return kind
+
+
+def _planar_listings() -> dict[str, Listing]:
+    packed = listing(packed_depth_test)
+    return {"test": packed, "plane": packed, "rounded": listing(rounded_depth_test)}

@@ -1,61 +1,103 @@
-"""Trace of coverage: every pixel that the fill looks at, and the spans of the scanline fills."""
+"""Trace of coverage: every pixel that the fill looks at, and the spans of the fills that have them."""
 
 import numpy as np
 
-from core.arrays import Integers
+from core.arrays import Flags, Integers
 from core.fragments.interpolation import numerators
 from core.listing import Listing, listing
 from core.raster.edge_functions import covers
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle
+from core.raster.spans.lanes import tie_owners
+from core.raster.spans.order import SpanOrder, order_of_spans
 from core.steps import Steps, ends_of
 from core.trace.lines import trace_lines
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
+from core.trace.row_table import RowTable, rows_of_runs
 from core.trace.source import TraceSource
+from core.trace.spans import pass_track, rows_of_spans, span_columns, span_constants, span_listings
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 
 def trace_raster(source: TraceSource) -> StageTrace:
-    """Return one row for every pixel looked at; scanline fills have a row before the pixels of every span.
+    """Return one row for every pixel looked at; fills by spans have a row before the pixels of every span.
 
-    Of a wireframe, one row for every pixel of its lines.
+    The fill ``spans`` has one before every triangle too, for its lane. Of a wireframe, one row for every pixel of its
+    lines.
     """
     if source.geometry.outlines is not None:
         return trace_lines(source)
-    geometry, runs, tests, raster = source.geometry, source.runs, source.tests, source.raster
-    edges = geometry.edges
+    geometry, raster, fill = source.geometry, source.raster, source.settings.fill
+    order = _order(source) if fill == "spans" else None
+    table = rows_of_runs(source) if order is None else rows_of_spans(source, order)
+    columns = _columns(source, table)
+    constants: dict[str, float | int | str] = {
+        "center": raster.center,
+        "fill_rule": source.settings.fill_rule,
+    }
+    pixel_rows = np.flatnonzero(table.test >= 0)
+    buffers = _buffers(source, pixel_rows, columns)
+    if order is not None:
+        columns |= span_columns(source, table, order)
+        constants |= span_constants(source, order)
+        buffers = (buffers[0], pass_track(source, columns), *buffers[1:])
+    triangle = geometry.primitives.triangle[table.primitive]
+    steps = Steps(
+        kinds=tuple(FILL_OPERATIONS),
+        kind=table.kind,
+        operations=FILL_OPERATIONS,
+        triangle_ends=ends_of(triangle),
+        group_ends=ends_of(table.primitive, table.group),
+    )
+    return StageTrace(
+        stage="raster",
+        method=f"fill={fill}",
+        steps=steps,
+        columns=columns,
+        triangle=triangle,
+        pixel=np.stack([columns["column"], np.where(table.test >= 0, table.row, -1)], axis=1),
+        listings=_listings(),
+        marks=_marks(columns, table.test >= 0),
+        buffers=buffers,
+        extra={
+            "runs": source.runs,
+            "boxes": source.boxes,
+            "blocks": source.runs.blocks,
+            "edges": geometry.edges,
+            "span_order": order,
+        },
+        constants=constants,
+    )
 
-    # Spans stand before their pixels.
-    has_spans = runs.crossings is not None
-    headers = np.arange(len(runs)) if has_spans else np.empty(0, np.int64)
-    run = np.concatenate([headers, tests.run])
-    test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
-    order = np.argsort(run, kind="stable")
-    run, test = run[order], test[order]
-    is_pixel = test >= 0
+
+def _order(source: TraceSource) -> SpanOrder:
+    owners = tie_owners(source.settings.fill_rule)
+    return order_of_spans(source.geometry.edges, source.raster, owners)
+
+
+def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
+    """Return the numbers that all fills have; -1, NaN or False where a row is about no pixel."""
+    geometry, raster, tests = source.geometry, source.raster, source.tests
+    edges, primitive, is_pixel = geometry.edges, table.primitive, table.test >= 0
 
     def of_pixel(values: np.ndarray, missing: float | bool) -> np.ndarray:
-        found = np.full((len(run), *values.shape[1:]), missing, values.dtype)
-        found[is_pixel] = values[test[is_pixel]]
+        found = np.full((len(primitive), *values.shape[1:]), missing, values.dtype)
+        found[is_pixel] = values[table.test[is_pixel]]
         return found
 
-    primitive = runs.triangle[run]
-    column, row = of_pixel(tests.column, -1), runs.row[run]
-    x, y = raster.centers(column, row)
+    column = of_pixel(tests.column, -1)
+    x, y = raster.centers(column, table.row)
     values = of_pixel(tests.values, np.nan)
-    covered, tie = of_pixel(tests.covered, False), of_pixel(tests.tie, False)
-    accepted = of_pixel(tests.accepted, False)
     with np.errstate(divide="ignore", invalid="ignore"):
         weights = np.stack(numerators(geometry.planes, primitive, x, y), axis=1)
         weights = weights / (weights[:, :1] + weights[:, 1:2] + weights[:, 2:])
         distance = values / np.hypot(edges.a[primitive], edges.b[primitive])
     weights[~is_pixel] = np.nan
-    crossings = runs.crossings[run] if runs.crossings is not None else np.full((len(run), 3), np.nan)
     columns = {
         "column": column,
-        "row": row,
+        "row": table.row,
         "x": np.where(is_pixel, x, np.nan),
-        "y": y,
+        "y": np.where(table.row >= 0, y, np.nan),
         "a": edges.a[primitive],
         "b": edges.b[primitive],
         "c": edges.c[primitive],
@@ -63,48 +105,31 @@ def trace_raster(source: TraceSource) -> StageTrace:
         "values": values,
         "distance": distance,
         "weights": weights,
-        "covered": covered,
-        "tie": tie,
-        "start": runs.start[run],
-        "stop": runs.stop[run],
+        "covered": of_pixel(tests.covered, False),
+        "tie": of_pixel(tests.tie, False),
+        "start": table.start,
+        "stop": table.stop,
         "primitive": primitive,
     }
     for k in range(3):
-        columns[f"value_{k}"], columns[f"crossing_{k}"] = values[:, k], crossings[:, k]
-    is_lecture = source.settings.fill == "scanline-lecture"
-    kind = np.where(is_pixel, np.where(accepted, 1, 0), 3 if is_lecture else 2)
-    triangle = geometry.primitives.triangle[primitive]
-    steps = Steps(
-        kinds=tuple(FILL_OPERATIONS),
-        kind=kind,
-        operations=FILL_OPERATIONS,
-        triangle_ends=ends_of(triangle),
-        group_ends=ends_of(primitive, runs.group[run] if not has_spans else run),
-    )
-    is_tie = tie.any(axis=1) & ~(values < 0).any(axis=1)
-    return StageTrace(
-        stage="raster",
-        method=f"fill={source.settings.fill}",
-        steps=steps,
-        columns=columns,
-        triangle=triangle,
-        pixel=np.stack([column, np.where(is_pixel, row, -1)], axis=1),
-        listings=_listings(),
-        marks={
-            "covered": covered,
-            "rejected": is_pixel & ~covered,
-            "tie": is_pixel & is_tie,
-            "nan": is_pixel & np.isnan(values).any(axis=1),
-        },
-        buffers=_buffers(source, np.flatnonzero(is_pixel), columns),
-        extra={"runs": runs, "boxes": source.boxes, "blocks": runs.blocks, "edges": edges},
-        constants={"center": raster.center, "fill_rule": source.settings.fill_rule},
-    )
+        columns[f"value_{k}"], columns[f"crossing_{k}"] = values[:, k], table.crossings[:, k]
+    return columns
+
+
+def _marks(columns: dict[str, np.ndarray], is_pixel: Flags) -> dict[str, Flags]:
+    values, covered = columns["values"], columns["covered"]
+    return {
+        "covered": covered,
+        "rejected": is_pixel & ~covered,
+        "tie": is_pixel & columns["tie"].any(axis=1) & ~(values < 0).any(axis=1),
+        "nan": is_pixel & np.isnan(values).any(axis=1),
+    }
 
 
 def _listings() -> dict[str, Listing]:
     inside = listing(covers)
-    return {"test": inside, "accept": inside, "span": listing(span), "line": listing(draw_triangle)}
+    fills = {"test": inside, "accept": inside, "span": listing(span), "line": listing(draw_triangle)}
+    return fills | span_listings()
 
 
 def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]) -> tuple[BufferTrack, ...]:

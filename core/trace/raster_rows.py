@@ -25,6 +25,22 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("ends", "draw", ("crossing_0", "crossing_1")),
         Operation("round", "draw", ("start", "stop")),
     ),
+    "lane": (
+        Operation("rows", "count", ("first_row", "row_count")),
+        Operation("lane", "place", ("lane",)),
+    ),
+    "lane-row": (
+        Operation("edge-0", "crossing", ("numerator_0", "quotient_0")),
+        Operation("edge-1", "crossing", ("numerator_1", "quotient_1")),
+        Operation("edge-2", "crossing", ("numerator_2", "quotient_2")),
+        Operation("start", "start", ("left", "start")),
+        Operation("stop", "stop", ("right", "stop")),
+        Operation("place", "place", ("length", "place")),
+    ),
+    "pass": (
+        Operation("pass", "pass", ("pass_number", "pass_size")),
+        Operation("draw", "draw", ("rank", "covered")),
+    ),
 }
 """Kind of row of a fill to what it does."""
 

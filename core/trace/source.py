@@ -8,6 +8,7 @@ import numpy as np
 from core.arrays import Flags, Floats, Integers, Singles
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, DepthTests, run_depth_tests
+from core.framebuffer.stacks import stack_fragments
 from core.geometry.vertex_stage import transform_vertices
 from core.geometry_stages import Geometry, drawing_order, process_geometry
 from core.methods import table
@@ -142,12 +143,12 @@ class TraceSource:
         index = np.flatnonzero(keeps)
         tests = run_depth_tests(
             stored[index],
-            self.place[index],
+            stack_fragments(self.place[index]),
             self.start.depth.ravel(),
             self.depth_format,
             self.geometry.uses_depth_test,
         )
-        before = np.full(len(stored), np.nan, np.float32)
+        before = np.full(len(stored), np.nan, stored.dtype)
         passes = np.zeros(len(stored), bool)
         before[index], passes[index] = tests.before, tests.passes
         return DepthTests(before, passes)

@@ -6,6 +6,7 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.framebuffer.depth import DepthFormat, run_depth_tests
+from core.framebuffer.stacks import stack_fragments
 from core.methods import table
 from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.surface import shade_fragments
@@ -51,10 +52,10 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     # Only what is in range gets to the depth test.
     depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
     index = np.flatnonzero(keeps)
-    cleared = np.full(1, depth_format.cleared, np.float32)
-    here = np.zeros(len(index), np.int64)
+    cleared = np.full(1, depth_format.cleared, depth_format.stored_type)
+    here = stack_fragments(np.zeros(len(index), np.int64))
     tests = run_depth_tests(stored[index], here, cleared, depth_format, geometry.uses_depth_test)
-    before, passes = np.full(count, np.nan, np.float32), np.zeros(count, bool)
+    before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
     return PixelFragments(
         primitive,
@@ -73,7 +74,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
 def cleared_state(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelState:
     """Return what clearing leaves."""
     color = read_only(candidates.scene.background.astype(np.float32))
-    return PixelState(color, float(np.float32(depth_format.cleared)), -1)
+    return PixelState(color, float(depth_format.cleared), -1)
 
 
 @dataclass(frozen=True, eq=False)

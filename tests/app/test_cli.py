@@ -15,6 +15,7 @@ from PIL import Image
 from app import __version__
 from app.__main__ import main
 from app.cli_render import picture_bytes
+from app.document import STEPPED
 from app.open_any import open_any
 from app.state_files import State, save_state
 from core import STAGES, Settings, render, trace
@@ -111,7 +112,9 @@ def test_the_json_of_a_stage_has_every_number_and_a_sentence_for_every_operation
     assert main(["trace", "textured-floor", "--triangle", "1", "--stage", stage, "--size", "12x8"]) == 0
     found = json.loads(capsys.readouterr().out)
     scene = make_scene("textured-floor")
-    expected = trace(type(scene)(scene.meshes, scene.camera, scene.lights, (12, 8)), triangle=1).stage(stage)
+    expected = trace(
+        type(scene)(scene.meshes, scene.camera, scene.lights, (12, 8)), STEPPED, triangle=1
+    ).stage(stage)
     assert (found["stage"], found["method"], found["triangle"]) == (stage, expected.method, 1)
     assert found["size"] == [12, 8]
     assert len(found["rows"]) == found["row_count"] == expected.steps.row_count > 0
@@ -139,7 +142,7 @@ def test_infinities_and_missing_numbers_are_json(capsys):
 def test_the_csv_has_a_line_for_every_row():
     text = succeeded("trace", "shared-edge", "--triangle", "1", "--stage", "raster", "--format", "csv")
     rows = list(csv.DictReader(StringIO(text)))
-    expected = trace(make_scene("shared-edge"), triangle=1).stage("raster")
+    expected = trace(make_scene("shared-edge"), STEPPED, triangle=1).stage("raster")
     assert len(rows) == expected.steps.row_count
     for k, name in enumerate(("values[0]", "values[1]", "values[2]")):
         assert [float(row[name]) for row in rows] == expected.columns["values"][:, k].tolist()
@@ -154,7 +157,9 @@ def test_the_npz_has_the_columns_bit_for_bit(tmp_path):
         *("--region", "10,8,20,12", "--before", "cleared"),
         cwd=tmp_path,
     )
-    expected = trace(make_scene("single-triangle"), region=(10, 8, 20, 12), before="cleared").stage("depth")
+    expected = trace(make_scene("single-triangle"), STEPPED, region=(10, 8, 20, 12), before="cleared").stage(
+        "depth"
+    )
     with np.load(tmp_path / "depth.npz") as found:
         for name, column in expected.columns.items():
             assert found[name].dtype == column.dtype

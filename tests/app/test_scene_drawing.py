@@ -1,4 +1,6 @@
 import threading
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -6,12 +8,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from app.document import open_document
+from app.views.scene_figures import FrameFigures, figures_text
 from app.views.scene_lines import SpaceLine, draw_space_lines, visible_part
-from app.views.scene_picture import DrawnScene
+from app.views.scene_picture import SceneShot, draw_scene, space_lines, triangle_seen
+from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
+from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
+from core import STAGES, render
 from core.geometry.culling import plane_distances
-
-PLAIN = DrawnScene(np.zeros((1, 1, 4), np.uint8), np.full((1, 1), -1), 0.0)
+from core.geometry.vertex_stage import transform_vertices
+from lessons.scenes import make_scene
+from widgets.orbit import fitted
+from widgets.theme import LIGHT
 
 
 @given(arrays(np.float64, (3, 2, 4), elements=st.integers(-256, 256).map(lambda number: number / 64)))
@@ -32,10 +41,10 @@ def test_cut_segments_are_inside_and_on_their_segments(clip):
 
 def test_hidden_parts_are_faint():
     pixels = np.zeros((5, 9, 4), np.uint8)
-    inverse_w = np.zeros((5, 9), np.float32)
-    inverse_w[:, 4:] = 2.0  # something at w = 0.5, nearer than the line at w = 1
+    depth = np.full((5, 9), 10.0)
+    depth[:, 4:] = 0.5  # something at w = 0.5, nearer than the line at w = 1
     line = SpaceLine(np.array([[-1.0, 0, 0], [1, 0, 0]]), "text", hidden=0.25)
-    draw_space_lines(pixels, inverse_w, (line,), np.eye(4), ["#ffffff"])
+    draw_space_lines(pixels, depth, np.reciprocal, (line,), np.eye(4), ["#ffffff"])
     assert pixels[2, 0:4, 0].tolist() == [255] * 4
     assert set(pixels[2, 5:, 0].tolist()) == {64}
     assert pixels[[0, 1, 3, 4]].max() == 0
@@ -44,11 +53,10 @@ def test_hidden_parts_are_faint():
 def test_thick_lines_and_points_that_are_not_finite():
     pixels = np.zeros((6, 6, 4), np.uint8)
     points = np.array([[-0.9, -0.5, 0], [0.9, -0.5, 0], [np.nan, 0, 0], [1e300, 0, 0]])
-    draw_space_lines(
-        pixels, np.zeros((6, 6), np.float32), (SpaceLine(points, "text", 2),), np.eye(4), ["#0000ff"]
-    )
+    far = np.full((6, 6), 100.0)
+    draw_space_lines(pixels, far, np.reciprocal, (SpaceLine(points, "text", 2),), np.eye(4), ["#0000ff"])
     assert (pixels[..., 2] > 0).any(axis=1).tolist() == [False, True, True, False, False, False]
-    draw_space_lines(pixels, np.zeros((6, 6), np.float32), (), np.eye(4), [])
+    draw_space_lines(pixels, far, np.reciprocal, (), np.eye(4), [])
 
 
 def test_only_the_last_waiting_picture_is_drawn(qtbot):
@@ -56,47 +64,125 @@ def test_only_the_last_waiting_picture_is_drawn(qtbot):
     begun, go = threading.Event(), threading.Event()
     ran: list[str] = []
 
-    def slow() -> DrawnScene:
+    def slow() -> str:
         begun.set()
         go.wait(5)
         ran.append("first")
-        return PLAIN
+        return "first"
 
-    def named(name: str):
-        def draw() -> DrawnScene:
-            ran.append(name)
-            return PLAIN
+    def named(name: str) -> str:
+        ran.append(name)
+        return name
 
-        return draw
-
-    told: list[int] = []
-    worker.drawn.connect(lambda number, _: told.append(number))
+    told: list[object] = []
+    worker.done.connect(told.append)
     worker.start(slow)
     begun.wait(5)
-    worker.start(named("second"))
-    last = worker.start(named("third"))
+    worker.start(partial(named, "second"))
+    worker.start(partial(named, "third"))
+    assert worker.is_busy
     go.set()
-    qtbot.waitUntil(lambda: last in told)
+    # The first one is shown too: while the user goes on turning, there is always something newer.
+    qtbot.waitUntil(lambda: told == ["first", "third"])
     assert ran == ["first", "third"]
-    assert worker.latest == last
+    assert not worker.is_busy
+    worker.stop()
+
+
+def test_what_is_forgotten_is_not_told(qtbot):
+    worker = SceneWorker()
+    begun, go = threading.Event(), threading.Event()
+
+    def slow() -> str:
+        begun.set()
+        go.wait(5)
+        return "old"
+
+    told: list[object] = []
+    worker.done.connect(told.append)
+    worker.start(slow)
+    begun.wait(5)
+    worker.start(lambda: "old too")
+    worker.forget()
+    assert not worker.is_busy
+    worker.start(lambda: "new")
+    go.set()
+    qtbot.waitUntil(lambda: told == ["new"])
     worker.stop()
 
 
 def test_a_failure_is_told_and_the_next_picture_is_drawn(qtbot):
     worker = SceneWorker()
 
-    def fail() -> DrawnScene:
+    def fail() -> object:
         raise MemoryError("no room")
 
     with qtbot.waitSignal(worker.failed) as told:
         worker.start(fail)
-    assert "no room" in told.args[1]
-    with qtbot.waitSignal(worker.drawn):
-        worker.start(lambda: PLAIN)
+    assert "no room" in told.args[0]
+    with qtbot.waitSignal(worker.done):
+        worker.start(lambda: "a picture")
     worker.stop()
+    worker.start(fail)
+    assert not worker.is_busy
 
 
-@pytest.mark.parametrize("column", [0, 5, 9])
-def test_a_coarse_picture_is_read_at_fine_pixels(column):
-    drawn = DrawnScene(np.zeros((4, 10, 4), np.uint8), np.arange(10).reshape(2, 5), 0.0)
-    assert drawn.triangle_at(column, 3) == 5 + column // 2
+def shot_of(scene_name: str, size: tuple[int, int]) -> SceneShot:
+    document = open_document(make_scene(scene_name), scene_name)
+    space = make_space(document.traced_scene, transform_vertices(document.traced_scene))
+    orbit = fitted(space.home, space.center, space.radius, size[0] / size[1])
+    lines = space_lines(space, None)
+    return SceneShot(space, space.scene, None, document.settings, orbit, size, lines, LIGHT)
+
+
+def test_the_stages_of_a_frame_add_up_to_less_than_its_time():
+    drawn = draw_scene(shot_of("torus", (320, 200)))
+    assert drawn.pixels.shape == (200, 320, 4)
+    assert drawn.figures.size == (320, 200)
+    assert tuple(drawn.figures.stages) == STAGES
+    stages = sum(count.seconds for count in drawn.figures.stages.values())
+    assert 0 < stages < drawn.figures.seconds
+    assert drawn.figures.stages["transform"].incoming == drawn.figures.triangle_count
+
+
+def test_a_frame_shares_the_meshes_of_its_scene():
+    shot = shot_of("torus", (16, 12))
+    camera = viewing_camera(shot.space, shot.orbit)
+    viewed, _ = viewed_scene(shot.space, shot.scene, camera, shot.size, np.zeros(4))
+    assert viewed.meshes is shot.scene.meshes
+
+
+def test_a_thinned_scene_tells_the_triangles_of_the_document():
+    whole = shot_of("torus", (64, 48))
+    few, numbers = thinned(whole.scene, 500)
+    shot = replace(whole, scene=few, numbers=numbers)
+    viewed, _ = viewed_scene(shot.space, few, viewing_camera(shot.space, shot.orbit), shot.size, np.zeros(4))
+    primitive = render(viewed).primitive
+    row, column = np.argwhere(primitive >= 0)[7].tolist()
+    assert triangle_seen(shot, column, row) == numbers[primitive[row, column]]
+    row, column = np.argwhere(primitive < 0)[0].tolist()
+    assert triangle_seen(shot, column, row) == -1
+
+
+@pytest.mark.parametrize(
+    ("seconds", "rate", "text"),
+    [
+        (0.0261, 38.2, "38 frames/s · 26.1 ms · 1024 × 768 · 81,920 triangles"),
+        (0.4, 2.5, "2.5 frames/s · 400 ms · 1024 × 768 · 81,920 triangles"),
+        (1.4031, None, "1,403 ms · 1024 × 768 · 81,920 triangles"),
+    ],
+)
+def test_figures_as_text(seconds, rate, text):
+    assert figures_text(FrameFigures((1024, 768), 81920, seconds, {}), rate) == text
+    assert figures_text(FrameFigures((1, 1), 1, 0.001, {}), None) == "1.0 ms · 1 × 1 · 1 triangle"
+
+
+def test_sizes_that_can_be_chosen():
+    choices = size_choices((24, 16))
+    assert choices[1].title == "Size of the scene: 24 × 16"
+    found = [fixed_size(choice.name, (24, 16)) for choice in choices]
+    assert found[:2] == [None, (24, 16)]
+    assert (1024, 1024) in found
+    assert (1920, 1080) in found
+    with pytest.raises(ValueError, match="size must be one of view"):
+        fixed_size("huge", (24, 16))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from app.document import focus_on, open_document
 from app.session import Session
@@ -13,6 +14,7 @@ from app.views.view_space import thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.geometry.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
+from widgets.theme import DARK, LIGHT, apply_theme
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 
@@ -34,22 +36,18 @@ def show(qtbot):
         widget.resize(420, 320)
         widget.show()
         qtbot.waitExposed(widget)
+        rested(qtbot, views)
         return session, views, widget
 
     yield make
     for views in made:
         views.stop()
+        views.deleteLater()
 
 
 def rested(qtbot, views: StageViews) -> None:
-    """Wait for the whole picture."""
-    presenter = views.scene_presenter
-
-    def is_full() -> bool:
-        drawn = presenter.drawn
-        return drawn is not None and drawn.primitive.shape == drawn.pixels.shape[:2]
-
-    qtbot.waitUntil(is_full, timeout=10000)
+    """Wait until the 3D view shows the newest picture."""
+    qtbot.waitUntil(lambda: not views.is_drawing, timeout=10000)
 
 
 def drag(widget, start: QPoint, end: QPoint) -> None:
@@ -76,17 +74,16 @@ def test_there_are_four_views_in_order(show):
 
 def test_turning_with_the_mouse_changes_the_picture(show, qtbot):
     _, views, widget = show("scene", "cube")
-    rested(qtbot, views)
     before = widget.picture().pixels.copy()
     drag(widget, QPoint(40, 40), QPoint(120, 60))
-    assert not np.array_equal(widget.picture().pixels, before)
     rested(qtbot, views)
+    assert not np.array_equal(widget.picture().pixels, before)
+    assert views.scene_presenter.drawn.shot.orbit == widget.orbit()
 
 
 @pytest.mark.parametrize("scene", ["cube", "shared-edge", "torus"])
 def test_a_click_picks_what_the_core_sees_there(show, qtbot, scene):
     _session, views, widget = show("scene", scene)
-    rested(qtbot, views)
     presenter = views.scene_presenter
     size, space = widget.picture_size(), presenter.space
     assert space is not None
@@ -102,11 +99,9 @@ def test_a_click_picks_what_the_core_sees_there(show, qtbot, scene):
         column, row = int(columns[k]), int(rows[k])
         if any(abs(x - column) + abs(y - row) < 30 for x, y in handles):
             continue
-        told: list[int] = []
-        views.triangle_picked.connect(told.append)
-        QTest.mouseClick(widget, LEFT, NONE, QPoint(column, size[1] - 1 - row))
-        views.triangle_picked.disconnect(told.append)
-        assert told == [primitive[row, column]]
+        with qtbot.waitSignal(views.triangle_picked) as told:
+            QTest.mouseClick(widget, LEFT, NONE, QPoint(column, size[1] - 1 - row))
+        assert told.args == [primitive[row, column]]
         tried += 1
     assert tried > 3
 
@@ -253,19 +248,89 @@ def test_thinned_scenes_keep_the_numbers_of_their_triangles(name):
     assert np.array_equal(fewer.clip[fewer.corners], vertices.clip[vertices.corners[numbers]])
 
 
-def test_a_large_mesh_is_thinned_while_it_is_turned_and_whole_at_rest(show, qtbot):
+def test_every_picture_is_whole_and_as_large_as_the_view(show, qtbot):
     _, views, widget = show("scene", "knot")
     presenter = views.scene_presenter
-    rested(qtbot, views)
-    assert len(np.unique(presenter.drawn.primitive)) > 2500
+    for _ in range(3):
+        drag(widget, QPoint(30, 30), QPoint(60, 40))
+        rested(qtbot, views)
+        figures = presenter.drawn.figures
+        assert figures.triangle_count == presenter._session.document.triangle_count
+        assert figures.size == widget.picture_size()
+        assert widget.picture().pixels.shape[1::-1] == figures.size
+
+
+def test_the_corner_and_the_signal_tell_what_a_frame_took(show, qtbot):
+    _, views, widget = show("scene", "torus")
+    told: list[object] = []
+    views.frame_measured.connect(told.append)
+    for k in range(4):
+        drag(widget, QPoint(30, 30), QPoint(60 + k, 40))
+        rested(qtbot, views)
+        widget.repaint()
+    figures = views.scene_presenter.drawn.figures
+    qtbot.waitUntil(lambda: bool(told) and told[-1] is figures)
+    text = widget.corner().text()
+    assert "frames/s" in text
+    assert f"{figures.size[0]} × {figures.size[1]} · {figures.triangle_count:,} triangles" in text
+    assert widget.corner().isVisible()
+    widget.hide()
+    assert told[-1] is None
+    widget.show()
+    assert told[-1] is figures
+
+
+def test_a_chosen_size_is_drawn_whatever_the_size_of_the_view(show, qtbot):
+    session, views, widget = show("scene", "torus")
+    own = widget.picture_size()
+    for name, size in (("1920x1080", (1920, 1080)), ("scene", session.document.scene.size), ("view", own)):
+        action = next(action for action in widget.corner().menu().actions() if action.data() == name)
+        action.trigger()
+        assert action.isChecked()
+        rested(qtbot, views)
+        assert views.scene_presenter.drawn.figures.size == size
+
+
+def test_all_of_the_space_stays_in_sight_at_another_size_until_it_is_turned(show, qtbot):
+    _, views, widget = show("scene", "cube")
+    home = widget.orbit()
+    views.scene_presenter.choose_size("1920x1080")
+    assert widget.orbit() == home, "both are wider than high"
+    widget.resize(300, 500)
+    views.scene_presenter.choose_size("view")
+    assert widget.orbit().extent > home.extent
     drag(widget, QPoint(30, 30), QPoint(60, 40))
-    assert presenter.drawn.primitive.shape != presenter.drawn.pixels.shape[:2]
+    turned = widget.orbit()
+    views.scene_presenter.choose_size("1024x1024")
+    assert widget.orbit() == turned
     rested(qtbot, views)
 
 
-def test_looking_at_the_focus_fills_the_view_with_it(show):
+def test_a_view_that_has_grown_unseen_is_drawn_again(show, qtbot):
+    _, views, widget = show("scene", "cube")
+    widget.hide()
+    widget.resize(500, 400)
+    widget.show()
+    qtbot.waitUntil(lambda: views.scene_presenter.drawn.figures.size == widget.picture_size())
+
+
+def test_another_theme_keeps_the_orbit(show, qtbot):
+    _, views, widget = show("scene", "cube")
+    drag(widget, QPoint(30, 30), QPoint(60, 40))
+    orbit = widget.orbit()
+    widget.hide()
+    apply_theme(QApplication.instance(), DARK)
+    apply_theme(QApplication.instance(), LIGHT)
+    widget.show()
+    rested(qtbot, views)
+    assert widget.orbit() == orbit
+    assert views.scene_presenter.drawn.shot.theme == LIGHT
+
+
+def test_looking_at_the_focus_fills_the_view_with_it(show, qtbot):
     _, views, widget = show("scene", "torus", 700)
     views.look_at_focus()
+    rested(qtbot, views)
     places = np.array([(handle.x, handle.y) for handle in widget.picture().handles])
     assert ((places > 0) & (places < 1)).all()
     assert np.ptp(places, axis=0).max() > 0.2

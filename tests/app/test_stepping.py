@@ -145,3 +145,21 @@ def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
         shown = grid.step()
         assert shown is not None
         assert np.array_equal(shown, pixel[None])
+
+
+def test_the_rail_shows_the_frames_of_the_3d_view_while_it_is_seen(window: MainWindow, qtbot: QtBot) -> None:
+    def raster_tip() -> str:
+        return window.page.rail.buttons()[STAGES.index("raster")].toolTip()
+
+    traced = raster_tip()
+    assert "of the traced picture" in traced
+    window.page.show_view("scene")
+    qtbot.waitUntil(lambda: "of the last frame of the 3D view" in raster_tip())
+    drawn = window.page.views.scene_presenter.drawn
+    assert drawn is not None
+    count = drawn.figures.stages["raster"]
+    assert f"{count.incoming:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
+    shares = [button.entry().share for button in window.page.rail.buttons()]
+    assert 0 < sum(share or 0.0 for share in shares) <= 1
+    window.page.show_view("pixels")
+    assert raster_tip() == traced

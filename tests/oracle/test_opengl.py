@@ -46,8 +46,10 @@ def run_python(code, **environment):
 def test_family_is_the_same(renderer, family):
     for number in range(COUNT):
         case = make_case(family, SEED, number)
-        result = compare(case, renderer.draw(case))
-        assert result.agrees, f"case {number} of {family}: {describe(result)}"
+        picture = renderer.draw(case)
+        for fill in ("hierarchy", "spans"):
+            result = compare(case, picture, fill)
+            assert result.agrees, f"case {number} of {family}, {fill}: {describe(result)}"
 
 
 def test_left_and_bottom_edges_are_inclusive(renderer):

@@ -40,7 +40,7 @@ def test_every_recorded_picture_shows_something_and_leaves_something():
 
 
 def test_fills_that_are_not_wrong_by_design():
-    assert set(EXACT_FILLS) >= {"hierarchy", "blocks", "bounding-box", "brute-force", "scanline"}
+    assert set(EXACT_FILLS) >= {"hierarchy", "blocks", "bounding-box", "brute-force", "scanline", "spans"}
     assert "scanline-lecture" not in EXACT_FILLS
 
 

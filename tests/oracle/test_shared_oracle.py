@@ -80,6 +80,14 @@ def test_every_fill_draws_every_case_alike(shared_folder: Path, name: str, fill:
 
 
 @pytest.mark.parametrize("name", CASES)
+def test_fixed_depth_shows_the_same_triangles_as_opengl(shared_folder: Path, name: str) -> None:
+    case, meta = load(shared_folder, name)
+    frame = draw(case, meta, fill="spans", depth="fixed-38")
+    differing = (frame.primitive != case["prim"]).sum()
+    assert differing <= PIXELS_ALLOWED.get(name.split("_")[0], 0)
+
+
+@pytest.mark.parametrize("name", CASES)
 def test_clipping_draws_every_case_within_the_tolerance_of_new_corners(
     shared_folder: Path, name: str
 ) -> None:

@@ -16,7 +16,15 @@ import bootstrap
 ROOT = bootstrap.ROOT
 PACKAGES = ("app", "core", "lessons", "widgets")
 # Where the name that is imported is not the name of the distribution.
-DISTRIBUTIONS = {"PIL": "pillow", "PySide6": "pyside6-essentials"}
+DISTRIBUTIONS = {
+    "PIL": "pillow",
+    "PySide6": "pyside6-essentials",
+    "cv2": "opencv-python-headless",
+    "mpl_toolkits": "matplotlib",
+    "skimage": "scikit-image",
+    "vtkmodules": "vtk",
+}
+EXTRAS = {"gpu": ("requirements-gpu.txt",), "bench": ("requirements-gpu.txt", "requirements-bench.txt")}
 
 
 def read_pins(name: str) -> dict[str, str]:
@@ -26,10 +34,12 @@ def read_pins(name: str) -> dict[str, str]:
     return {canonicalize_name(name): version for name, version in (line.split("==") for line in pins)}
 
 
-def read_declared() -> tuple[list[Requirement], list[Requirement]]:
+def read_declared() -> tuple[list[Requirement], dict[str, list[Requirement]]]:
+    """Return what is needed, and what each extra needs."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
     declared = [Requirement(text) for text in project["dependencies"]]
-    return declared, [Requirement(text) for text in project["optional-dependencies"]["gpu"]]
+    return declared, {name: [Requirement(text) for text in extras[name]] for name in extras}
 
 
 def imported_distributions(package: str) -> dict[str, set[Path]]:
@@ -52,10 +62,22 @@ def test_pins_are_exact_and_installed(name: str) -> None:
 
 
 def test_pins_lie_in_the_declared_ranges() -> None:
-    declared, extra = read_declared()
-    run, gpu = read_pins("requirements.txt"), read_pins("requirements-gpu.txt")
-    for requirement, pins in [(each, run) for each in declared] + [(each, gpu) for each in extra]:
-        assert pins[canonicalize_name(requirement.name)] in requirement.specifier
+    declared, extras = read_declared()
+    assert set(extras) == set(EXTRAS)
+    wanted = [(declared, ("requirements.txt",)), *((extras[name], EXTRAS[name]) for name in EXTRAS)]
+    for requirements, files in wanted:
+        pins = {name: version for file in files for name, version in read_pins(file).items()}
+        for requirement in requirements:
+            assert pins[canonicalize_name(requirement.name)] in requirement.specifier
+
+
+def test_pins_of_the_same_distribution_agree() -> None:
+    """The benchmark is installed into the environment that the check uses too."""
+    found: dict[str, set[str]] = {}
+    for file in {*bootstrap.TEST_PINS, *bootstrap.BENCH_PINS}:
+        for name, version in read_pins(file).items():
+            found.setdefault(name, set()).add(version)
+    assert {name: versions for name, versions in found.items() if len(versions) > 1} == {}
 
 
 @pytest.mark.parametrize("names", [("requirements.txt",), ("requirements-gpu.txt",), bootstrap.TEST_PINS])
@@ -73,7 +95,8 @@ def test_pins_are_complete(names: tuple[str, ...]) -> None:
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_imports_are_declared(package: str) -> None:
-    declared, extra = read_declared()
+    declared, extras = read_declared()
+    extra = [requirement for requirements in extras.values() for requirement in requirements]
     allowed = {canonicalize_name(each.name) for each in (*declared, *extra)}
     imported = imported_distributions(package)
     assert {name: places for name, places in imported.items() if name not in allowed} == {}

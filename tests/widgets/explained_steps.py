@@ -98,6 +98,8 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
         *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
         Settings(polygon_mode="wireframe", interpolation="affine"),
+        Settings(fill="spans", depth="fixed-38"),
+        Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]
     return tuple(
         step for name in RARE_CLIP for choice in choices for step in steps_of(rare_trace(name, choice))

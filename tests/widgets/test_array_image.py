@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QImage
 
 from widgets.colormaps import colormap_table
 from widgets.grid_buffer import GridBuffer
-from widgets.image import buffer_image, fitted_range, mask_image, srgb_table, value_range
+from widgets.image import buffer_image, display_image, fitted_range, mask_image, srgb_table, value_range
 from widgets.theme import LIGHT
 
 
@@ -25,6 +25,19 @@ def test_row_0_is_at_the_bottom() -> None:
     assert image.pixelColor(0, 2).name() == LIGHT.covered
     assert image.pixelColor(0, 0).name() == LIGHT.empty
     assert image.pixelColor(1, 2).name() == LIGHT.empty
+
+
+def test_a_drawn_picture_is_shown_byte_for_byte_without_its_alpha() -> None:
+    pixels = np.random.default_rng(4).integers(0, 256, (3, 5, 4), np.uint8)
+    image = display_image(pixels)
+    assert (image.width(), image.height()) == (5, 3)
+    for row in range(3):
+        for column in range(5):
+            found = image.pixelColor(column, 2 - row)
+            assert found.getRgb() == (*pixels[row, column, :3].tolist(), 255)
+    kept = image.pixelColor(0, 0).name()
+    pixels[:] = 0
+    assert image.pixelColor(0, 0).name() == kept, "the image owns its memory"
 
 
 def test_scalars_take_the_ends_of_the_map() -> None:

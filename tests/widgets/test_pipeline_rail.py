@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
@@ -105,3 +107,36 @@ def test_other_stages_take_the_place_of_the_first(rail) -> None:
     assert [button.entry().name for button in rail.buttons()] == NAMES[:4]
     rail.show_stages([])
     assert rail.buttons() == ()
+
+
+def test_a_bar_is_as_long_as_the_share_of_the_time(rail) -> None:
+    shares = (0.0, 0.25, 1.0, None)
+    shown = [StageEntry("Raster", "", "12 → 8", "0.4 ms", share=share) for share in shares]
+    rail.show_stages(shown)
+
+    def bar_length(place: int) -> float:
+        button = rail.buttons()[place]
+        picture = button.grab().toImage()
+        row = [picture.pixelColor(column, button.height() - 8) for column in range(button.width())]
+        return sum(color == QColor(LIGHT.muted_text) for color in row) / (button.width() - 14)
+
+    assert [bar_length(place) for place in range(4)] == pytest.approx([0, 0.25, 1, 0], abs=0.02)
+
+
+def test_the_share_is_told_with_what_was_measured(rail) -> None:
+    entry = StageEntry("Raster", "6", "12 → 8", "0.4 ms", share=0.237, measured="the last frame")
+    rail.show_stages([entry])
+    assert "12 → 8 in 0.4 ms, 24 % of the last frame" in rail.buttons()[0].toolTip()
+    assert "24 % of the last frame" in rail.buttons()[0].accessibleDescription()
+
+
+def test_numbers_that_change_move_nothing(rail) -> None:
+    def places() -> list[int]:
+        QApplication.processEvents()
+        return [button.x() for button in rail.buttons()]
+
+    wide = [replace(entry, counts="1,234,567 → 1,234,567") for entry in entries()[:4]]
+    rail.show_stages(wide + entries()[4:])
+    before = places()
+    rail.show_stages(entries())
+    assert places() == before

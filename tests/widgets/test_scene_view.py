@@ -1,10 +1,14 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QContextMenuEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
+from widgets.frame_corner import SizeChoice
+from widgets.orbit import turned
 from widgets.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
+from widgets.theme import current_theme
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 
@@ -74,6 +78,94 @@ def test_marks_of_any_coordinates_can_be_drawn(view):
     marks = (SceneMark(wild, label="ray"), SceneMark(wild[::-1], shape="cross"), SceneMark(wild[:2]))
     view.show_picture(picture_of(4, 3, marks=marks, handles=(SceneHandle(0, 1e30, np.nan),)))
     assert not view.grab().isNull()
+
+
+def test_a_picture_of_fixed_size_keeps_its_shape(view, qtbot):
+    with qtbot.waitSignal(view.size_changed):
+        view.fix_picture_size((4, 2))
+    assert view.picture_size() == (4, 2)
+    view.show_picture(picture_of(4, 2))
+    image = view.grab().toImage()
+    # 400 x 300: magnified a hundred times, with a border of 50 above and below.
+    assert QColor(image.pixel(5, 245)).getRgb()[:3] == (255, 0, 0)
+    assert QColor(image.pixel(95, 155)).getRgb()[:3] == (255, 0, 0)
+    assert QColor(image.pixel(105, 245)).getRgb()[:3] == (255, 255, 255)
+    assert QColor(image.pixel(5, 255)).name() == current_theme().panel
+    with qtbot.waitSignal(view.picked) as told:
+        QTest.mouseClick(view, LEFT, NONE, QPoint(395, 55))
+    assert told.args == [3, 1]
+    with qtbot.assertNotEmitted(view.picked):
+        QTest.mouseClick(view, LEFT, NONE, QPoint(200, 20))
+    with qtbot.assertNotEmitted(view.size_changed):
+        view.resize(420, 310)
+
+
+def test_a_picture_larger_than_the_view_is_averaged(view):
+    view.fix_picture_size((800, 600))
+    assert view.pixels_per_point() == 2
+    pixels = np.zeros((600, 800, 4), np.uint8)
+    pixels[::2] = 200
+    view.show_picture(ScenePicture(pixels))
+    image = view.grab().toImage()
+    assert {QColor(image.pixel(x, y)).red() for x in (5, 100, 390) for y in (5, 6, 7, 290)} == {100}
+
+
+def test_only_new_pixels_are_told_as_painted(view, qtbot):
+    told: list[float] = []
+    view.picture_painted.connect(told.append)
+    picture = picture_of(4, 3)
+    view.show_picture(picture)
+    view.repaint()
+    view.show_picture(ScenePicture(picture.pixels, caption="other words over the same pixels"))
+    view.repaint()
+    assert len(told) == 1
+    view.show_picture(picture_of(4, 3))
+    view.repaint()
+    assert len(told) == 2
+    assert told[1] > told[0]
+
+
+def test_turning_paints_nothing_before_the_next_picture(qtbot):
+    painted = []
+
+    class CountingView(SceneView):
+        def paintEvent(self, event):
+            painted.append(self.orbit())
+            super().paintEvent(event)
+
+    view = CountingView()
+    qtbot.addWidget(view)
+    view.resize(400, 300)
+    view.show()
+    qtbot.waitExposed(view)
+    view.show_picture(picture_of(4, 3))
+    QApplication.processEvents()
+    before = len(painted)
+    view.set_orbit(turned(view.orbit(), 10, 5))
+    QApplication.processEvents()
+    assert len(painted) == before
+    view.show_picture(picture_of(4, 3))
+    QApplication.processEvents()
+    assert len(painted) == before + 1
+
+
+def test_figures_stand_in_the_corner(view):
+    assert not view.corner().isVisible()
+    view.show_figures("38 frames/s")
+    assert view.corner().isVisible()
+    assert view.corner().geometry().left() < 10
+    assert view.corner().geometry().top() < 10
+    view.resize(120, 90)
+    assert view.corner().geometry().right() < 120
+
+
+def test_a_right_click_offers_the_sizes(view):
+    view.show_sizes((SizeChoice("view", "Size of the view"),), "view")
+    place = QPoint(100, 100)
+    event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, view.mapToGlobal(place))
+    QApplication.sendEvent(view, event)
+    assert view.corner().menu().isVisible()
+    view.corner().menu().close()
 
 
 def test_an_empty_view_says_why(view):

@@ -128,6 +128,75 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "Row 2 of triangle 0 is covered in columns 1 to 4: 4 pixels.",
         ),
         (
+            "raster",
+            "raster.lane.rows",
+            Settings(fill="spans"),
+            "Triangle 0 reaches from y = 1 to 7, and of the raster the centres of rows 1 to 6 lie between: 6 "
+            "rows.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.edge-0",
+            Settings(fill="spans"),
+            "Row 2 (level 1) crosses edge 0, on the right, at column 5: the fraction 30 / 6, of which only the "
+            "division is rounded.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.start",
+            Settings(fill="spans"),
+            "Row 2 starts at column 1: the left bound is 0.5, and a guard of −2⁻³⁵ counts a centre exactly on "
+            "it in.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.stop",
+            Settings(fill="spans"),
+            "Row 2 stops before column 5: the right bound is 5, and a guard of −2⁻³⁵ leaves a centre exactly "
+            "on it out.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.place",
+            Settings(fill="spans"),
+            "Row 2 of triangle 0 is covered in columns 1 to 4: 4 pixels, which makes it span 1 of 5, sorted "
+            "longest first.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.stop",
+            Settings(fill="spans"),
+            "Row 6 stops where it starts: no centre lies between the bounds 0.5 and 1.",
+        ),
+        (
+            "raster",
+            "raster.pass.pass",
+            Settings(fill="spans"),
+            "Pixel (2, 2) is 1 pixel from its span's start, so pass 1 draws it, in one go with a pixel of each "
+            "of 3 others.",
+        ),
+        (
+            "raster",
+            "raster.pass.draw",
+            Settings(fill="spans"),
+            "Pixel (2, 2) is covered without a test of its own, and its rank is 6: 5 pixels of earlier passes "
+            "and 1 pixel of this one are drawn before it.",
+        ),
+        (
+            "depth",
+            "depth.test.key",
+            Settings(depth="fixed-38"),
+            "Pixel (1, 2): its key is 0x2000100000 | 0x000001, the depth above the lower 24 bits, which hold "
+            "the number of triangle 0 plus one.",
+        ),
+        (
+            "depth",
+            "depth.test.minimum",
+            Settings(depth="fixed-38"),
+            "Pixel (1, 2) passes: its key is less than the buffer's 0x4000100000 | 0x000000, of the empty "
+            "buffer.",
+        ),
+        (
             "edges",
             "edges.edge.c",
             Settings(),
@@ -269,4 +338,15 @@ def test_the_depth_test_says_what_was_compared() -> None:
     assert (
         depth_step("store.write")
         == "Pixel (5, 6): without a depth test 0.25 simply replaces 1 in the depth buffer."
+    )
+
+
+def test_a_tie_of_keys_names_the_triangle_that_came_first() -> None:
+    corners = [[[-1, -1, 0, 1], [1, -1, 0, 1], [0, 1, 0, 1]]]
+    depth = trace(ClipScene(corners * 2, size=(4, 4)), Settings(depth="fixed-38")).stage("depth")
+    row = int(np.flatnonzero(depth.triangle == 1)[0])
+    explanation = depth.explain(int(depth.steps.starts[row]) + 3)
+    assert explanation is not None
+    assert sentence(explanation, 1, (1, 0)) == (
+        "Pixel (1, 0) fails: the depths tie, and triangle 0 has the lower number, as it came first."
     )

@@ -145,6 +145,27 @@ def test_one_material_for_all_or_one_each_and_any_batch_give_the_same_bits(shini
         assert np.array_equal(whole[term][33333:33334], alone[term])
 
 
+def test_no_points():
+    nowhere = np.empty((0, 3))
+    assert light_surface(nowhere, nowhere, EYE, [LAMP, DOWN], MATERIAL)[0].shape == (0, 3)
+    assert trace_lighting(nowhere, nowhere, EYE, [LAMP, DOWN], MATERIAL).n_dot_l.shape == (2, 0)
+
+
+@pytest.mark.parametrize("specular", [0.0, 0.4])
+@pytest.mark.parametrize("two_sided", [False, True])
+def test_matte_and_shiny_points_are_lit_by_the_same_rule(specular, two_sided):
+    """Without highlights the eye is left out, but not where the place, the normal or the light has no end."""
+    random = np.random.default_rng(5)
+    position, normal = random.normal(size=(2, 9000, 3)) * 10.0 ** random.integers(-200, 200, (2, 9000, 1))
+    normal[:9], normal[9:12], position[12:15], position[20:23] = 0, np.nan, np.inf, np.nan
+    material, lights = Material(0.1, 0.6, specular, 7.0), [LAMP, DOWN]
+    for part in (slice(None), slice(30, None), slice(8000, None)):
+        lit = light_surface(position[part], normal[part], EYE, lights, material, two_sided)
+        traced = trace_lighting(position[part], normal[part], EYE, lights, material, two_sided)
+        assert np.array_equal(lit[0], traced.diffuse_light[-1], equal_nan=True)
+        assert np.array_equal(lit[1], traced.specular_light[-1], equal_nan=True)
+
+
 @given(position=vector, normal=vector, color=st.floats(0, 3))
 def test_light_is_never_negative_and_adds_up(position, normal, color):
     place, direction = np.array([position]), np.array([normal])

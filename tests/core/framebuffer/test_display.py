@@ -13,6 +13,7 @@ from core.framebuffer.display import (
     srgb_decode_table,
     srgb_thresholds,
     to_display,
+    write_pixels,
 )
 from core.listing import listing
 
@@ -97,6 +98,25 @@ def test_alpha_is_not_gamma_coded_and_half_rounds_up():
     image = to_display(np.full((1, 2, 4), 0.5, np.float32))
     assert image.pixels.tolist() == [[[188, 188, 188, 128]] * 2]
     assert not image.undefined.any()
+
+
+def test_plain_bytes_are_those_of_the_formula():
+    halves = ((np.arange(256) + 0.5) / 255).astype(np.float32)
+    bits = np.random.default_rng(6).integers(0, 0x3F900000, 100_000).astype(np.int32)
+    for values in (neighbours(halves, 3), bits.view(np.float32)):
+        expected = np.floor(255 * np.clip(values.astype(np.float64), 0, 1) + 0.5)
+        assert np.array_equal(encode_linear(values), expected)
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+def test_pixels_in_given_memory_are_those_of_the_image(channels):
+    color = np.random.default_rng(8).uniform(-0.2, 1.2, (1, 40_000, channels)).astype(np.float32)
+    color[0, 7] = np.nan
+    pixels = np.empty((40_000, channels), np.uint8)
+    write_pixels(color[0], pixels)
+    assert np.array_equal(pixels, to_display(color).pixels[0])
+    assert np.array_equal(pixels[:, :3], encode_srgb(color[0, :, :3]))
+    assert np.array_equal(pixels[:, 3:], encode_linear(color[0, :, 3:]))
 
 
 @pytest.mark.parametrize("bits", [0x7FC00000, 0x7F800001, 0xFFC00000, 0x7FFFFFFF])

@@ -6,8 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.geometry.culling import PLANES, REASONS, cull, cull_verdict, plane_distances
+from core.geometry.culling import PLANES, REASONS, CullVerdicts, cull, cull_verdict, plane_distances
+from core.geometry.outcodes import outcodes
 from core.methods import table
+from core.primitives import Primitives, index_corners
 from core.raster.edge_functions import orient
 from core.raster.snapping import place_corners
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles
@@ -16,9 +18,16 @@ FRONT = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.5, 0, 1]]
 SIZE = (8, 8)
 
 
+def cull_corners(clip: np.ndarray, facing: np.ndarray, faces: str) -> CullVerdicts:
+    """Cull triangles (T, 3, 4) that share no vertices."""
+    number = np.arange(len(clip))
+    assembled = index_corners(Primitives(clip, np.zeros((len(clip), 3, 0)), number, number, {}))
+    return cull(assembled, outcodes(assembled.vertex_clip.T), facing, faces)
+
+
 def verdict_of(triangle, faces: str = "none") -> tuple[str, int]:
     clip = np.array([triangle], float)
-    verdicts = cull(clip, orient(place_corners(clip, SIZE, "snapped")), faces)
+    verdicts = cull_corners(clip, orient(place_corners(clip, SIZE, "snapped")), faces)
     return REASONS[verdicts.verdict[0]], int(verdicts.plane[0])
 
 
@@ -88,12 +97,13 @@ def test_facing_does_not_care_which_corners_are_behind_the_eye(flips) -> None:
 def test_listing_of_the_verdict(case, faces: str) -> None:
     clip, size = case
     facing = orient(place_corners(clip, size, "snapped"))
-    verdicts = cull(clip, facing, faces)
+    verdicts = cull_corners(clip, facing, faces)
     drops = table.get("cull", faces).function(facing)
     for t in range(len(clip)):
         assert cull_verdict(clip[t], facing[t], bool(drops[t])) == REASONS[verdicts.verdict[t]]
         assert (verdicts.plane[t] >= 0) == (REASONS[verdicts.verdict[t]] == "outside-plane")
     assert np.array_equal(verdicts.kept, verdicts.verdict == 0)
+    assert np.array_equal(verdicts.distances, plane_distances(clip))
 
 
 @given(homogeneous_triangles())

@@ -250,3 +250,16 @@ def test_clipping_and_none_draw_alike_up_to_the_new_corners(case) -> None:
     differing = (whole.primitive != cut.primitive).sum()
     # A side of up to 16 + 16 pixels that is turned by 1/256 pixel passes few centres.
     assert differing <= 8
+
+
+def test_polygons_that_rounding_makes_concave_are_clipped_too() -> None:
+    # With coordinates of very different sizes new corners are rounded to either side of a plane.
+    triangle = [
+        [3.39793714559767e23, 1.392140314142641e24, 3.1772024342736874e23, 5.450224817130815e23],
+        [9.902300965794345e43, 1.6332624160584218e44, 1.2270409292003973e44, 3.772149528268927e43],
+        [2.0781545397606397e17, -1.2236035778514135e18, 2.9206254410355155e17, -1.0371697599458227e18],
+    ]
+    found = clipped([triangle])
+    widths = [polygon.shape[1] for polygon in found.polygons]
+    assert widths[-1] > 3 + len(ALL_PLANES)
+    assert all(width >= count.max() for width, count in zip(widths, found.counts, strict=True))

@@ -245,8 +245,9 @@ def test_colour_and_depth_along_a_line():
 
 def test_the_parameter_is_measured_along_the_longer_axis_between_the_given_ends():
     ends = np.array([[[0.25, 0.0], [4.25, 3.0]], [[0.0, 4.0], [1.0, 0.0]], [[1.0, 1.0], [1.0, 1.0]]])
-    centers_of_pixels = np.array([[2.5, 1.5], [0.5, 3.5], [1.5, 1.5]])
-    np.testing.assert_array_equal(segment_parameter(centers_of_pixels, ends), [2.25 / 4, 0.5 / 4, 0])
+    column, row, owner = np.array([2, 0, 1]), np.array([1, 3, 1]), np.arange(3)
+    t = segment_parameter(column, row, owner, ends, 0.5)
+    np.testing.assert_array_equal(t, [2.25 / 4, 0.5 / 4, 0])
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from core.fragments.textures import bilinear_color, nearest_color
 from core.framebuffer.blending import over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
+from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
@@ -24,6 +25,8 @@ from core.raster.edge_functions import anchored_coefficients, covers, edge_coeff
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle, round_half_up
 from core.raster.snapping import snap_one
+from core.raster.spans.lanes import tie_owners
+from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.surface import viewpoint
 from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box
@@ -150,6 +153,49 @@ def check_raster(traced: Trace) -> None:
         if stop > start or c["stop"][row] > c["start"][row]:
             assert (start, stop) == (c["start"][row], c["stop"][row])
     check_printed_lines(found, edges, raster)
+    if found.extra.get("span_order") is not None:
+        check_spans(traced)
+
+
+def check_spans(traced: Trace) -> None:
+    """Execute the listings of the fill ``spans``: of lanes, of rows, and of the passes over all pixels."""
+    found = traced.stage("raster")
+    c, order = found.columns, found.extra["span_order"]
+    raster, corners = traced.source.raster, traced.source.geometry.edges.corners.decided
+    first_column, first_row, end_column, end_row = raster.bounds
+    owners = tie_owners(traced.source.settings.fill_rule)
+    for row in rows_of_kind(found, "lane"):
+        rows = rows_of_triangle(
+            c["corner_y"][row].tolist(), raster.center, (first_row, end_row), owners.bottom, owners.top
+        )
+        assert rows == (c["first_row"][row], c["row_count"][row])
+        assert c["lane"][row] == place_by_size(order.row_count.tolist(), c["primitive"][row])
+
+    # Rows of pixels, in the order in which the engine walks: level by level, lane by lane.
+    rows = np.flatnonzero(found.steps.kind == found.steps.kinds.index("lane-row"))
+    walked = rows[np.lexsort((c["lane"][rows], c["level"][rows]))]
+    lengths = c["length"][walked].tolist()
+    for number, row in list(enumerate(walked.tolist()))[:: max(len(walked) // ROW_LIMIT, 1)]:
+        ends = corners[c["primitive"][row]]
+        sides = []
+        for k in range(3):
+            start, end = ends[(k + 1) % 3], ends[(k + 2) % 3]
+            if traced.source.geometry.edges.doubled_area[c["primitive"][row]] < 0:
+                start, end = end, start
+            sides.append((*start.tolist(), *end.tolist(), bool(c["owns_tie"][row][k])))
+            dx, dy = c["dx"][row][k], c["dy"][row][k]
+            assert (dx, dy) == tuple(end - start)
+            assert c[f"numerator_{k}"][row] == (start[0] - raster.center) * dy + (c["y"][row] - start[1]) * dx
+        span = span_of_row(sides, c["y"][row], first_column, end_column, raster.center)
+        assert span == (c["start"][row], c["stop"][row])
+        assert c["place"][row] == (place_by_size(lengths, number) if lengths[number] else -1)
+
+    spans = rows[c["length"][rows] > 0]
+    spans = spans[np.argsort(c["place"][spans])]
+    drawn = order_of_pixels([(int(c["row"][r]), int(c["start"][r]), int(c["stop"][r])) for r in spans])
+    pixels = np.flatnonzero(found.steps.kind == found.steps.kinds.index("pass"))
+    pixels = pixels[np.argsort(c["rank"][pixels])]
+    assert drawn == [tuple(pixel) for pixel in found.pixel[pixels].tolist()]
 
 
 def check_printed_lines(found: StageTrace, edges, raster) -> None:
@@ -237,6 +283,9 @@ def check_light(traced: Trace, found: StageTrace) -> None:
 def check_depth(traced: Trace) -> None:
     found = traced.stage("depth")
     c = found.columns
+    # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
+    if "key" in c and traced.source.settings.fill != "scanline-lecture":
+        check_keys(found)
     for row in rows_of_kind(found, "test"):
         after, passes = depth_test(c["stored"][row], c["before"][row], bool(c["larger_is_nearer"][row]))
         assert passes == c["passes"][row]
@@ -248,6 +297,17 @@ def check_depth(traced: Trace) -> None:
     for row in rows_of_kind(found, "store"):
         assert c["after"][row] == c["stored"][row]
         assert c["passes"][row]
+
+
+def check_keys(found: StageTrace) -> None:
+    """Execute the depth test on packed keys."""
+    c = {name: column.tolist() for name, column in found.columns.items()}
+    for row in rows_of_kind(found, "test"):
+        plane = [c[name][row] for name in ("origin", "across", "up", "column", "row", "number")]
+        assert packed_depth_test(*plane, c["before_key"][row]) == (c["after_key"][row], c["passes"][row])
+    for row in rows_of_kind(found, "rounded"):
+        after, passes = rounded_depth_test(c["depth"][row], c["number"][row], c["before_key"][row])
+        assert (after, passes) == (c["after_key"][row], c["passes"][row])
 
 
 def check_blend(traced: Trace) -> None:
@@ -292,14 +352,15 @@ def test_listings_of_all_stages(name, choice):
 
 
 @pytest.mark.parametrize("name", [name for name in SCENES if name not in ("clip", "lit", "orthographic")])
-@pytest.mark.parametrize("fill", ["hierarchy", "scanline", "scanline-lecture"])
+@pytest.mark.parametrize("fill", ["hierarchy", "scanline", "scanline-lecture", "spans"])
 def test_listings_on_the_built_in_scenes(name, fill):
-    traced = trace(SCENES[name], Settings(fill=fill), region=small_region(SCENES[name]))
+    depth = "fixed-38" if fill == "spans" else "z-float32"
+    traced = trace(SCENES[name], Settings(fill=fill, depth=depth), region=small_region(SCENES[name]))
     for check in CHECKS:
         check(traced)
 
 
-FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture"])
+FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", "spans"])
 
 
 @effort(max_examples=60)
@@ -308,13 +369,15 @@ FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture"])
     FILLS,
     st.sampled_from(["homogeneous", "sutherland-hodgman"]),
     st.sampled_from(["snapped", "float64"]),
+    st.sampled_from(["z-float32", "fixed-38"]),
 )
-def test_listings_on_any_triangles(case, fill, clipping, coverage):
+def test_listings_on_any_triangles(case, fill, clipping, coverage, depth):
     clip, size = case
     values = np.linspace(0, 1, clip.size).reshape(clip.shape)
     scene = ClipScene(clip, values, size)
     traced = trace(
-        scene, Settings(fill=fill, clipping=clipping, coverage=coverage, block_size=2, blend="over")
+        scene,
+        Settings(fill=fill, clipping=clipping, coverage=coverage, depth=depth, block_size=2, blend="over"),
     )
     for check in CHECKS:
         check(traced)

@@ -107,6 +107,14 @@ MIXES = [
     {"polygon_mode": "wireframe", "line": "dda", "blend": "over", "clipping": "sutherland-hodgman"},
     {"fill": "blocks", "block_size": 3, "fill_rule": "inclusive", "blend": "over", "interpolation": "affine"},
     {
+        "fill": "spans",
+        "depth": "fixed-38",
+        "blend": "over",
+        "fill_rule": "exclusive",
+        "pixel_center": "integer",
+    },
+    {"fill": "spans", "depth": "fixed-38", "clipping": "sutherland-hodgman", "visibility": "last-drawn"},
+    {
         "fill": "hierarchy",
         "block_size": 1,
         "coverage": "float64",

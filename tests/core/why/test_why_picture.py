@@ -64,7 +64,7 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
         at = row, column
         check_story(history, int(frame.primitive[at]))
         assert history.final.color.tobytes() == frame.color[at].tobytes(), (column, row)
-        assert np.float32(history.final.depth) == frame.depth[at], (column, row)
+        assert frame.depth.dtype.type(history.final.depth) == frame.depth[at], (column, row)
         assert history.cover_count == frame.cover_count[at], (column, row)
         listed = {event.triangle for event in history.events} - {-1}
         count = len(source.geometry.assembled)

@@ -1,0 +1,63 @@
+"""The first picture of a fresh process: the interpreter's start, the imports, and what a library does only once.
+
+A process reads the triangles from a file, draws them with one library, and writes the pixels to another file:
+``python -m app.bench.cold_start LIBRARY_MODULE TRIANGLES.npz PIXELS.npy``.
+"""
+
+import importlib
+import os
+import subprocess
+import sys
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import ModuleType
+
+import numpy as np
+
+from app.bench.contender import Contender, Prepared, UnavailableError
+from app.bench.records import Bytes, ColdStart, WindowTriangles
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def contender(module: ModuleType, work: ColdStart) -> Contender | None:
+    """Return a library drawing in processes of their own, or ``None`` if it does not draw triangles."""
+    warm: Contender | None = module.contender(work.triangles)
+    if warm is None:
+        return None
+    return replace(warm, prepare=lambda stack: prepare(module.__name__, work.triangles, stack))
+
+
+def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
+    """Write the triangles where the processes will find them."""
+    folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
+    triangles, pixels = folder / "triangles.npz", folder / "pixels.npy"
+    np.savez(triangles, corners=work.corners, depth=work.depth, colors=work.colors, size=work.size)
+    command = [sys.executable, "-P", "-m", __name__, module, str(triangles), str(pixels)]
+    environment = dict(os.environ, PYTHONPATH=str(ROOT))
+
+    def run() -> Bytes:
+        done = subprocess.run(command, env=environment, capture_output=True, text=True)
+        if done.returncode != 0:
+            lines = done.stderr.strip().splitlines()
+            raise UnavailableError(lines[-1] if lines else f"exit code {done.returncode}")
+        drawn: Bytes = np.load(pixels)
+        return drawn
+
+    return Prepared(run)
+
+
+def draw_first(module: str, triangles: str, pixels: str) -> None:
+    """Draw what stands in one file with one library, and save the pixels to another."""
+    with np.load(triangles) as file:
+        width, height = file["size"].tolist()
+        work = WindowTriangles(file["corners"], file["depth"], file["colors"], (width, height))
+    warm: Contender = importlib.import_module(module).contender(work)
+    with ExitStack() as stack:
+        np.save(pixels, warm.prepare(stack).run())
+
+
+if __name__ == "__main__":
+    draw_first(*sys.argv[1:])

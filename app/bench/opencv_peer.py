@@ -1,0 +1,80 @@
+"""OpenCV: convex polygons and lines filled by C++ code without a depth buffer, and a perspective warp."""
+
+import numpy as np
+
+from app.bench.contender import Contender, Prepared
+from app.bench.painting import back_to_front, floor_homography
+from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+
+LIBRARY = "OpenCV"
+DISTRIBUTION = "opencv-python-headless"
+SHIFT = 8
+"""Bits behind the point of its coordinates: 1/256 pixel."""
+
+
+def contender(work: Work) -> Contender | None:
+    """Return OpenCV drawing ``work``, or ``None`` where it has no way to."""
+    if isinstance(work, WindowTriangles) and work.is_flat and not work.is_blended:
+        less = "" if len(work.corners) == 1 else "no depth, sorting not timed"
+        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), less, True)
+    if isinstance(work, Lines):
+        return Contender(LIBRARY, "painter", lambda _: prepare_lines(work), "", True)
+    if isinstance(work, ViewedMesh) and work.texture is not None and work.lighting is None:
+        return Contender(
+            LIBRARY, "painter", lambda _: prepare_floor(work), "warps one image, no geometry", True
+        )
+    return None
+
+
+def prepare_triangles(work: WindowTriangles) -> Prepared:
+    """Hold polygons in fixed point, from far to near."""
+    import cv2
+
+    cv2.setNumThreads(1)
+    order = back_to_front(work)
+    # Pixel centres are whole numbers, rows run downwards.
+    corners = np.array([-0.5, work.size[1] - 0.5]) + work.corners[order] * np.array([1, -1])
+    polygons = list(np.rint(corners * (1 << SHIFT)).astype(np.int32))
+    colors = work.colors[order, 0, :3].tolist()
+
+    def run() -> Bytes:
+        image = np.zeros((work.size[1], work.size[0], 3), np.uint8)
+        for polygon, color in zip(polygons, colors, strict=True):
+            cv2.fillConvexPoly(image, polygon, color, cv2.LINE_8, SHIFT)
+        return image
+
+    return Prepared(run)
+
+
+def prepare_lines(work: Lines) -> Prepared:
+    """Hold the ends as lists."""
+    import cv2
+
+    cv2.setNumThreads(1)
+    last_row = work.size[1] - 1
+    ends = (np.array([0, last_row, 0, last_row]) + work.ends * np.array([1, -1, 1, -1])).tolist()
+    colors = work.colors.tolist()
+
+    def run() -> Bytes:
+        image = np.zeros((work.size[1], work.size[0], 3), np.uint8)
+        for (x0, y0, x1, y1), color in zip(ends, colors, strict=True):
+            cv2.line(image, (x0, y0), (x1, y1), color)
+        return image
+
+    return Prepared(run)
+
+
+def prepare_floor(work: ViewedMesh) -> Prepared:
+    """Hold the warp from the picture to the texture."""
+    import cv2
+
+    cv2.setNumThreads(1)
+    texture = work.texture
+    assert texture is not None
+    homography = floor_homography(work, center=0.0)
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+
+    def run() -> Bytes:
+        return np.asarray(cv2.warpPerspective(texture, homography, work.size, flags=flags))
+
+    return Prepared(run)

@@ -1,0 +1,74 @@
+"""The core as a contender."""
+
+import numpy as np
+
+from app.bench.contender import Contender, Prepared
+from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+from app.bench.scenes import clip_scene, lights_of, mesh_of, method_names, view_of
+from core import Picture, Settings, draw_picture
+from core.raster.spans.lines import paint_lines
+
+LIBRARY = "Rasterscope"
+DISTRIBUTION = "numpy"
+FAST = {"cull": "back", "fill": "spans", "depth": "fixed-38"}
+ROW_FILLING = 16
+"""Pixels that fill up the rows of a picture of lines: rows of 4096 bytes would compete for places in the cache."""
+
+
+def contender(work: Work) -> Contender | None:
+    """Return the core drawing ``work``."""
+    if isinstance(work, Lines):
+        return Contender(LIBRARY, "ours", lambda _: prepare_lines(work))
+    if isinstance(work, WindowTriangles):
+        return Contender(LIBRARY, "ours", lambda _: prepare_triangles(work))
+    if isinstance(work, ViewedMesh):
+        return Contender(LIBRARY, "ours", lambda _: prepare_mesh(work))
+    return None
+
+
+def settings_of(work: WindowTriangles | ViewedMesh) -> Settings:
+    """Return the fast methods and those that the picture asks for."""
+    return Settings(**FAST, **method_names(work))  # type: ignore[arg-type]
+
+
+def prepare_triangles(work: WindowTriangles) -> Prepared:
+    """Hold the scene, as an OpenGL program holds its vertex buffer."""
+    scene, settings = clip_scene(work), settings_of(work)
+
+    def draw() -> Picture:
+        return draw_picture(scene, settings, encoding="linear")
+
+    return Prepared(lambda: draw().pixels, lambda: account(draw()))
+
+
+def prepare_mesh(work: ViewedMesh) -> Prepared:
+    """Hold mesh and lights; camera and scene are new in every picture, as in an orbit."""
+    mesh, lights, settings = mesh_of(work), lights_of(work), settings_of(work)
+
+    def draw() -> Picture:
+        return draw_picture(view_of(work, mesh, lights), settings, encoding="linear")
+
+    return Prepared(lambda: draw().pixels, lambda: account(draw()))
+
+
+def account(picture: Picture) -> str:
+    """Return which way a picture was drawn, and where the time went."""
+    route = picture.route
+    seconds = {name: count.seconds for name, count in picture.statistics.items() if count.seconds >= 5e-5}
+    stages = ", ".join(f"{name} {1000 * value:.1f}" for name, value in seconds.items())
+    return f"{route.visibility}, {route.color}, depth complexity {route.depth_complexity:.2f}; ms: {stages}"
+
+
+def prepare_lines(work: Lines) -> Prepared:
+    """Hold the colours packed as the picture has them."""
+    (width, height), columns = work.size, work.size[0] + ROW_FILLING
+    opaque = np.full((len(work.colors), 4), 255, np.uint8)
+    opaque[:, :3] = work.colors
+    colors = opaque.view(np.uint32)[:, 0]
+
+    def run() -> Bytes:
+        words = np.zeros((height, columns), np.uint32)
+        paint_lines(words, work.ends, colors, width, last_pixel=True)
+        return words.view(np.uint8).reshape(height, columns, 4)[:, :width]
+
+    return Prepared(run)

@@ -1,0 +1,79 @@
+"""Pillow: polygons and lines filled by C code without a depth buffer, and a perspective warp of an image."""
+
+import numpy as np
+
+from app.bench.contender import Contender, Prepared
+from app.bench.painting import back_to_front, floor_homography
+from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+
+LIBRARY = "Pillow"
+DISTRIBUTION = "pillow"
+
+
+def contender(work: Work) -> Contender | None:
+    """Return Pillow drawing ``work``, or ``None`` where it has no way to."""
+    if isinstance(work, WindowTriangles) and work.is_flat:
+        less = "" if work.is_blended or len(work.corners) == 1 else "no depth, sorting not timed"
+        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), less, True)
+    if isinstance(work, Lines):
+        return Contender(LIBRARY, "painter", lambda _: prepare_lines(work), "", True)
+    if isinstance(work, ViewedMesh) and work.texture is not None and work.lighting is None:
+        return Contender(
+            LIBRARY, "painter", lambda _: prepare_floor(work), "warps one image, no geometry", True
+        )
+    return None
+
+
+def prepare_triangles(work: WindowTriangles) -> Prepared:
+    """Hold polygons as flat lists, from far to near; blended ones in drawing order."""
+    from PIL import Image, ImageDraw
+
+    order = back_to_front(work)
+    # Pillow's pixel centres are whole numbers, its rows run downwards.
+    corners = np.array([-0.5, work.size[1] - 0.5]) + work.corners[order] * np.array([1, -1])
+    polygons = corners.reshape(-1, 6).tolist()
+    colors = [tuple(color) for color in work.colors[order, 0].tolist()]
+
+    def run() -> Bytes:
+        image = Image.new("RGB", work.size)
+        draw = ImageDraw.Draw(image, "RGBA" if work.is_blended else "RGB").polygon
+        for polygon, color in zip(polygons, colors, strict=True):
+            draw(polygon, fill=color)
+        return np.asarray(image)
+
+    return Prepared(run)
+
+
+def prepare_lines(work: Lines) -> Prepared:
+    """Hold the ends as lists."""
+    from PIL import Image, ImageDraw
+
+    last_row = work.size[1] - 1
+    ends = (np.array([0, last_row, 0, last_row]) + work.ends * np.array([1, -1, 1, -1])).tolist()
+    colors = [tuple(color) for color in work.colors.tolist()]
+
+    def run() -> Bytes:
+        image = Image.new("RGB", work.size)
+        draw = ImageDraw.Draw(image).line
+        for line, color in zip(ends, colors, strict=True):
+            draw(line, fill=color)
+        return np.asarray(image)
+
+    return Prepared(run)
+
+
+def prepare_floor(work: ViewedMesh) -> Prepared:
+    """Hold the texture as an image."""
+    from PIL import Image
+
+    assert work.texture is not None
+    homography = floor_homography(work)
+    coefficients = (homography / homography[2, 2]).ravel()[:8].tolist()
+    texture = Image.fromarray(work.texture)
+
+    def run() -> Bytes:
+        return np.asarray(
+            texture.transform(work.size, Image.Transform.PERSPECTIVE, coefficients, Image.Resampling.BILINEAR)
+        )
+
+    return Prepared(run)

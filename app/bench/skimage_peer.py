@@ -1,0 +1,80 @@
+"""scikit-image: polygons and lines as index arrays, without a depth buffer, and a perspective warp."""
+
+import numpy as np
+
+from app.bench.contender import Contender, Prepared
+from app.bench.painting import back_to_front, floor_homography
+from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+
+LIBRARY = "scikit-image"
+DISTRIBUTION = "scikit-image"
+
+
+def contender(work: Work) -> Contender | None:
+    """Return scikit-image drawing ``work``, or ``None`` where it has no way to."""
+    if isinstance(work, WindowTriangles) and work.is_flat:
+        less = "" if work.is_blended or len(work.corners) == 1 else "no depth, sorting not timed"
+        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), less)
+    if isinstance(work, Lines):
+        return Contender(LIBRARY, "painter", lambda _: prepare_lines(work))
+    if isinstance(work, ViewedMesh) and work.texture is not None and work.lighting is None:
+        return Contender(
+            LIBRARY, "painter", lambda _: prepare_floor(work), "warps one image, no geometry", True
+        )
+    return None
+
+
+def prepare_triangles(work: WindowTriangles) -> Prepared:
+    """Hold rows and columns of the corners, from far to near; pixel centres are whole numbers."""
+    from skimage.draw import polygon, set_color
+
+    order = back_to_front(work)
+    rows, columns = work.corners[order, :, 1] - 0.5, work.corners[order, :, 0] - 0.5
+    colors, alphas = work.colors[order, 0, :3], (work.colors[order, 0, 3] / 255).tolist()
+    shape = (work.size[1], work.size[0], 3)
+
+    def paint() -> Bytes:
+        image = np.zeros(shape, np.uint8)
+        for row, column, color in zip(rows, columns, colors, strict=True):
+            image[polygon(row, column, shape)] = color
+        return image
+
+    def blend() -> Bytes:
+        image = np.zeros(shape, np.float32)
+        for row, column, color, alpha in zip(rows, columns, colors, alphas, strict=True):
+            set_color(image, polygon(row, column, shape), color, alpha)
+        return (image + 0.5).astype(np.uint8)
+
+    return Prepared(blend if work.is_blended else paint)
+
+
+def prepare_lines(work: Lines) -> Prepared:
+    """Hold the ends as lists."""
+    from skimage.draw import line
+
+    ends = work.ends.tolist()
+    shape = (work.size[1], work.size[0], 3)
+
+    def run() -> Bytes:
+        image = np.zeros(shape, np.uint8)
+        for (x0, y0, x1, y1), color in zip(ends, work.colors, strict=True):
+            image[line(y0, x0, y1, x1)] = color
+        return image
+
+    return Prepared(run)
+
+
+def prepare_floor(work: ViewedMesh) -> Prepared:
+    """Hold the warp from the picture to the texture."""
+    from skimage.transform import ProjectiveTransform, warp
+
+    texture = work.texture
+    assert texture is not None
+    transform = ProjectiveTransform(floor_homography(work, center=0.0))
+    shape = (work.size[1], work.size[0])
+
+    def run() -> Bytes:
+        warped = warp(texture, transform, output_shape=shape, order=1, preserve_range=True)
+        return np.asarray((warped + 0.5).astype(np.uint8))
+
+    return Prepared(run)

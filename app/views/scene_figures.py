@@ -1,0 +1,74 @@
+"""What drawing one frame of the 3D view took, as numbers, as a line of text, and how it was drawn."""
+
+from dataclasses import dataclass
+
+from core.frame import StageCount
+from core.picture import Route
+from core.picture.workers import Sharing
+
+VISIBILITIES = {
+    "layer": "no depth, since no pixel belongs to two triangles",
+    "words": "depth and triangle number in one word, the least is seen",
+    "stacks": "every fragment in its turn, blended",
+    "frame": "through all buffers",
+}
+COLORS = {
+    "palette": "one for each triangle",
+    "bytes": "corner colours interpolated as bytes",
+    "normals": "light once per visible pixel, from packed normals",
+    "texture": "packed texels",
+    "deferred": "attributes and light once per visible pixel",
+}
+"""Ways of ``core.picture.Route``, in words."""
+
+
+@dataclass(frozen=True, eq=False)
+class FrameFigures:
+    """What drawing one frame took."""
+
+    size: tuple[int, int]
+    """Width and height in pixels."""
+    triangle_count: int
+    """T, what went into the pipeline."""
+    seconds: float
+    """From the camera to the last pixel; more than the stages together: there are lines, and calls in between."""
+    stages: dict[str, StageCount]
+    """Of every name of ``core.STAGES``; seconds are those of this process."""
+    route: Route
+    sharing: Sharing
+
+
+def figures_text(figures: FrameFigures, per_second: float | None) -> str:
+    """Return the figures as one line; a rate that is not known is left out."""
+    parts = [] if per_second is None else [f"{per_second:.{0 if per_second >= 9.95 else 1}f} frames/s"]
+    milliseconds = figures.seconds * 1000
+    parts.append(f"{milliseconds:,.{0 if milliseconds >= 99.95 else 1}f} ms")
+    parts.append(f"{figures.size[0]} × {figures.size[1]}")
+    parts.append(f"{figures.triangle_count:,} {'triangle' if figures.triangle_count == 1 else 'triangles'}")
+    return " · ".join(parts)
+
+
+def drawing_text(figures: FrameFigures) -> str:
+    """Return by how many processes and in what way a frame was drawn: a few lines."""
+    return "\n".join([*_sharing_lines(figures.sharing), *_route_lines(figures.route)])
+
+
+def _sharing_lines(sharing: Sharing) -> list[str]:
+    if not sharing.bands:
+        return [f"Drawn by one process: {sharing.reason.splitlines()[-1]}."]
+    bands = (
+        f"rows {band.first:,} to {band.end - 1:,} in {band.seconds * 1000:,.1f} ms" for band in sharing.bands
+    )
+    return [f"Drawn by {sharing.process_count} processes: {', '.join(bands)}."]
+
+
+def _route_lines(route: Route) -> list[str]:
+    lines = [f"Seen: {VISIBILITIES[route.visibility]}.", f"Colours: {COLORS[route.color]}."]
+    if route.split is not None:
+        split = route.split
+        lines += [
+            f"Triangles: {split.lanes:,} along spans, {split.big:,} in bands, {split.one_by_one:,} one by one.",
+            f"Fragments: {split.fragments:,} for {route.visible:,} pixels, "
+            f"depth complexity {route.depth_complexity:.2f}.",
+        ]
+    return lines

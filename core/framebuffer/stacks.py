@@ -1,0 +1,66 @@
+"""Fragments stacked on their pixels: what has to be done in drawing order is done one layer after another.
+
+A layer has at most one fragment of a pixel: the first of every pixel, the second, and so on. So it can be tested and
+blended as one array, and the result is that of drawing the fragments one by one.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Integers
+
+
+@dataclass(frozen=True, eq=False)
+class PixelStacks:
+    """F fragments on the U pixels that they fall on."""
+
+    fragment: Integers
+    """(F,) int64, index of the fragments, pixel by pixel, in drawing order on each."""
+    pixel: Integers
+    """(U,) int64, the pixels; those with most fragments first."""
+    bottom: Integers
+    """(U,) int64, place in ``fragment`` of the first fragment of each pixel."""
+    higher: list[int]
+    """Element k: how many pixels have more than k fragments."""
+
+    def layers(self) -> Iterator[tuple[int, Integers]]:
+        """Yield from the bottom up: n, and for the first n pixels their fragment (n,) in this layer."""
+        for layer, count in enumerate(self.higher):
+            yield count, self.fragment.take(self.bottom[:count] + layer)
+
+
+def stack_fragments(pixel: Integers) -> PixelStacks:
+    """Stack fragments on pixels (F,) int64, which are given in drawing order."""
+    order = radix_order(pixel)
+    return stacks_of(pixel.take(order), order)
+
+
+def radix_order(*keys: Integers) -> Integers:
+    """Return the order (F,) that sorts by the last of ``keys`` (F,) int64, 0 or more, then by the one before it.
+
+    Notes
+    -----
+    Digit by digit from the lowest, 16 bits each: NumPy sorts such short numbers by counting them, 5 ns each, ten times
+    faster than it finds the order of long ones. Equal keys stay as they are.
+    """
+    order = np.arange(len(keys[0]))
+    for key in keys:
+        for shift in range(0, int(key.max(initial=0)).bit_length(), 16):
+            digit = ((key >> shift) & 0xFFFF).astype(np.uint16)
+            order = order.take(digit.take(order).argsort(kind="stable"))
+    return order
+
+
+def stacks_of(pixel: Integers, fragment: Integers) -> PixelStacks:
+    """Return the stacks of fragments (F,) that are sorted by pixel (F,), then by drawing order."""
+    bottom = np.flatnonzero(np.diff(pixel, prepend=-1))
+    height = np.diff(bottom, append=len(pixel))
+    highest = int(height.max(initial=0))
+    kind = np.uint8 if highest < 256 else np.uint16 if highest < 65536 else np.int64
+    missing = (highest - height).astype(kind)
+    order = np.argsort(missing, kind="stable")
+    higher = np.searchsorted(missing.take(order), np.arange(highest, 0, -1, dtype=kind)).tolist()
+    bottom = bottom.take(order)
+    return PixelStacks(fragment, pixel.take(bottom), bottom, higher)

@@ -1,0 +1,162 @@
+"""The record of the stages before the raster; what only some pictures need is computed when it is first asked for."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers
+from core.fragments.interpolation import Planes, set_up_planes, value_plane
+from core.frame import StageCount
+from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
+from core.geometry.culling import CullVerdicts, plane_distances
+from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.sutherland_hodgman import Clipped, clip_primitives
+from core.geometry.vertex_stage import VertexStage
+from core.methods import table
+from core.primitives import IndexedPrimitives, Primitives
+from core.raster.edge_functions import EdgeFunctions, set_up_edges
+from core.raster.snapping import CornerPositions, WindowVertices, place_corners
+from core.raster.wireframe import Outlines, set_up_outlines
+from core.settings import Settings
+from core.timing import timed
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """Everything that is known of the triangles before the first pixel is looked at.
+
+    The corners of P primitives stand in rows: the first, second and third of all of them.
+    """
+
+    vertices: VertexStage
+    assembled: IndexedPrimitives
+    """All triangles of the scene."""
+    culled: CullVerdicts
+    kept: IndexedPrimitives
+    """Those that were not culled, in drawing order."""
+    clipped: Clipped | None
+    """``None``: nothing was clipped against."""
+    clipping_inserted: str
+    """Why clipping runs although the settings have none: the method that needs it, else empty."""
+    primitives: IndexedPrimitives
+    """What is drawn, in drawing order: kept triangles and pieces."""
+    window: WindowVertices
+    """The (M,) vertices of ``primitives`` in the window."""
+    outcode: Outcodes
+    """(M,) uint8, of the same vertices."""
+    doubled_area: Floats
+    """(P,) float64: twice the signed snapped area where all corners are projected, else the 3x3 determinant."""
+    uses_depth_test: bool
+    settings: Settings
+    count: StageCount
+    """The time of what is computed on demand is added here."""
+
+    @cached_property
+    def window_x(self) -> Floats:
+        """(3, P) float64 pixels, x of the corners as coverage sees them (snapped); NaN where not projected."""
+        with timed(self.count):
+            return self.window.x.take(self.primitives.corner)
+
+    @cached_property
+    def window_y(self) -> Floats:
+        """(3, P) float64 pixels, likewise y."""
+        with timed(self.count):
+            return self.window.y.take(self.primitives.corner)
+
+    @cached_property
+    def depth(self) -> Floats:
+        """(3, P) float64, window depth (z/w + 1)/2 of the corners; infinite or NaN where w = 0."""
+        with timed(self.count), np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            _, _, z, w = self.primitives.vertex_clip
+            depth: Floats = (z / w + 1) * 0.5
+            return depth.take(self.primitives.corner)
+
+    @cached_property
+    def is_projected(self) -> Flags:
+        """(P,) bool, all corners are projected, so that coverage is decided on ``window_x`` and ``window_y``."""
+        with timed(self.count):
+            return all_projected(self.window, self.primitives.corner)
+
+    @cached_property
+    def is_in_range(self) -> Flags:
+        """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
+        with timed(self.count):
+            return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
+
+    @cached_property
+    def corners(self) -> CornerPositions:
+        """The corners of the primitives in the homogeneous window and on the lattice."""
+        with timed(self.count):
+            return place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
+
+    @cached_property
+    def edges(self) -> EdgeFunctions:
+        """The edge functions of the primitives."""
+        with timed(self.count):
+            return set_up_edges(self.corners, self.settings.fill_rule)
+
+    @cached_property
+    def planes(self) -> Planes:
+        """The linear functions over the window that attributes are interpolated with."""
+        with timed(self.count):
+            return set_up_planes(self.corners.homogeneous)
+
+    @cached_property
+    def depth_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: window depth as a linear function of the pixel."""
+        with timed(self.count):
+            clip = self.primitives.clip
+            return value_plane(self.planes, (clip[..., 2] + clip[..., 3]) / 2)
+
+    @cached_property
+    def inverse_w_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: 1/w as a linear function of the pixel."""
+        with timed(self.count):
+            return value_plane(self.planes, np.ones((len(self.primitives), 3)))
+
+    @cached_property
+    def fixed_planes(self) -> FixedPlanes:
+        """Depth in whole numbers as integer planes."""
+        with timed(self.count):
+            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+            return set_up_fixed_planes(
+                self.window_x, self.window_y, self.depth, self.doubled_area, self.is_in_range, center
+            )
+
+    @cached_property
+    def outlines(self) -> Outlines | None:
+        """The edges that a wireframe draws; ``None``: triangles are filled."""
+        if not table.get("polygon_mode", self.settings.polygon_mode).function():
+            return None
+        with timed(self.count):
+            return set_up_outlines(
+                self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size
+            )
+
+    def _corner_shares(self) -> Floats | None:
+        """Return the shares (P, 3, 3) of a triangle's corners in those of its pieces; ``None``: nothing is cut."""
+        if self.clipped is None or not len(self.clipped.clipped):
+            return None
+        kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
+        whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
+        distances = clipping_distances(kept, self.clipping_inserted)
+        return clip_primitives(whole, distances, self.clipped.planes).primitives.varyings
+
+
+def all_projected(window: WindowVertices, corner: Integers) -> Flags:
+    """Return (P,) bool: the three corners (3, P) of a primitive are projected."""
+    if window.is_projected.all():
+        return np.ones(corner.shape[1], bool)
+    first, second, third = (window.is_projected.take(index) for index in corner)
+    is_projected: Flags = first & second & third
+    return is_projected
+
+
+def clipping_distances(kept: IndexedPrimitives, inserted: str) -> Floats:
+    """Return the distances (P, 3, 6) from the planes that decide what is clipped."""
+    distances = plane_distances(kept.clip)
+    if inserted:
+        # Only what needs it, whatever is drawn with it.
+        distances[(kept.clip[..., 3] > 0).all(axis=1)] = 0
+    return distances

@@ -1,0 +1,57 @@
+"""What drawing a picture returns."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.frame import StageCount
+
+
+@dataclass(frozen=True)
+class Split:
+    """How many triangles went which way, and how many pixels they have."""
+
+    lanes: int
+    """Triangles that walked along spans."""
+    big: int
+    """Triangles drawn in bands."""
+    one_by_one: int
+    """Triangles looked at fragment by fragment."""
+    fragments: int
+    """Covered pixels of all triangles."""
+
+
+@dataclass(frozen=True)
+class Route:
+    """How a picture was drawn, and the counts that decided it."""
+
+    visibility: str
+    """``layer``: no pixel belongs to two triangles, so none is hidden; ``words``: nearest of all fragments;
+    ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``."""
+    color: str
+    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
+    lit once per visible pixel; ``texture``: packed texels in bands; ``deferred``: attributes and light once per visible
+    pixel, as ``render`` has them."""
+    split: Split | None = None
+    visible: int = 0
+    """Pixels that something is seen at."""
+
+    @property
+    def depth_complexity(self) -> float:
+        """Fragments for each pixel that something is seen at."""
+        return self.split.fragments / max(self.visible, 1) if self.split else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A scene as a screen shows it."""
+
+    pixels: NDArray[np.uint8]
+    """(H, W, 4) uint8: red, green, blue, alpha; row 0 is the bottom row."""
+    depth: NDArray[Any] | None
+    """(H, W) as the depth method stores it, where it was asked for."""
+    statistics: dict[str, StageCount]
+    """Counts and seconds per stage."""
+    route: Route

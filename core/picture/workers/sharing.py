@@ -1,0 +1,63 @@
+"""How the work on a picture was shared, and what the bands say about the whole picture."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from core.frame import STAGES, StageCount
+from core.picture.record import Route
+
+WHOLE_STAGES = STAGES[: STAGES.index("bin")]
+"""Stages that every band does for all triangles."""
+
+
+@dataclass(frozen=True)
+class BandTime:
+    """Rows that one process drew."""
+
+    first: int
+    end: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Sharing:
+    """How the work on the last picture was shared."""
+
+    bands: tuple[BandTime, ...] = ()
+    """The first was drawn by this process, the others by workers; empty: this process drew all."""
+    reason: str = ""
+    """Why this process drew all."""
+    gain: float = 0.0
+    """Seconds that sharing was estimated to gain, from the picture before."""
+
+    @property
+    def process_count(self) -> int:
+        """Processes that drew."""
+        return max(len(self.bands), 1)
+
+
+def joined_counts(statistics: Sequence[dict[str, StageCount]]) -> dict[str, StageCount]:
+    """Return the statistics of a picture out of those of its bands, the first of which this process drew.
+
+    Notes
+    -----
+    Counts are those of the whole picture. Seconds are those of this process: the others ran at the same time.
+    """
+    counts = {stage: replace(count) for stage, count in statistics[0].items()}
+    for stage, count in counts.items():
+        if stage not in WHOLE_STAGES:
+            count.incoming = sum(part[stage].incoming for part in statistics)
+            count.outgoing = sum(part[stage].outgoing for part in statistics)
+    counts["bin"].incoming = statistics[0]["bin"].incoming
+    return counts
+
+
+def joined_route(routes: Sequence[Route]) -> Route:
+    """Return the route of a picture out of those of its bands."""
+    # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.
+    needed = next((route for route in routes if route.visibility != "layer"), routes[0])
+    visible = sum(route.visible for route in routes)
+    if needed.split is None:
+        return replace(needed, visible=visible)
+    fragments = sum(route.split.fragments for route in routes if route.split)
+    return replace(needed, split=replace(needed.split, fragments=fragments), visible=visible)

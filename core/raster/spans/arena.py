@@ -1,0 +1,46 @@
+"""Memory that is used again: large arrays cost more to get from the system than to fill.
+
+The GNU C library gives blocks above a limit, 128 kB at first, back to the system as soon as they are freed, and takes
+new pages for the next array. When such a block is freed the limit grows to its size, up to 32 MB: so one block of
+nearly that size, never written to, is taken and freed here. Sorting 110,000 bytes then takes 0.23 ms, not 0.82.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+_LARGEST_KEPT = 31 << 20
+"""Bytes of a block that the C library still keeps for later."""
+_block = np.empty(_LARGEST_KEPT, np.uint8)
+del _block
+
+
+class Arena:
+    """Named pieces of memory that only grow.
+
+    Notes
+    -----
+    A fresh array of more than about a megabyte is given by the system page by page, at three to four times the
+    cost of the work that is done in it. Whoever asks again under the same name gets the same memory, contents
+    undefined; so two arrays that live at the same time need two names, and an arena serves one picture at a time.
+    """
+
+    def __init__(self) -> None:
+        self._pieces: dict[str, NDArray[np.uint8]] = {}
+
+    def __call__(self, name: str, *shape: int, dtype: DTypeLike = np.float64) -> NDArray[Any]:
+        """Return an uninitialised array of ``shape``."""
+        kind = np.dtype(dtype)
+        count = kind.itemsize
+        for length in shape:
+            count *= length
+        piece = self._pieces.get(name)
+        if piece is None or len(piece) < count:
+            piece = self._pieces[name] = np.empty(count + count // 4 + 64, np.uint8)
+        return piece[:count].view(kind).reshape(shape)
+
+    @property
+    def byte_count(self) -> int:
+        """Bytes held."""
+        return sum(len(piece) for piece in self._pieces.values())

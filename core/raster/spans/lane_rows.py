@@ -1,0 +1,81 @@
+"""The rows of all lanes in drawing order: triangle by triangle, from its lowest row up.
+
+The engine walks level by level, so the rows of a triangle come out far from each other. Their places in drawing order
+are known beforehand, since every triangle has a fixed number of rows: they are put there without being sorted.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Integers
+from core.raster.edge_functions import EdgeFunctions
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes
+from core.raster.spans.rows import Carried, bounds_of_rows
+
+
+@dataclass(frozen=True, eq=False)
+class LaneRows:
+    """R rows of the triangles that have a lane, those without pixels among them, in drawing order."""
+
+    triangle: Integers
+    """(R,) int64, index of the triangle."""
+    row: Integers
+    """(R,) int64."""
+    start: Integers
+    """(R,) int64, first inside column."""
+    stop: Integers
+    """(R,) int64, column after the last; ``start`` where no centre is inside."""
+
+
+def owners_of(edges: EdgeFunctions) -> TieOwners:
+    """Return who owns ties on each kind of edge; a kind that does not occur decides nothing."""
+    a, b, owns = edges.a, edges.b, edges.owns_tie
+    level = a == 0
+    kinds = (a > 0, a < 0, level & (b > 0), level & (b < 0))
+    return TieOwners(*(bool(owns[kind].all()) for kind in kinds))
+
+
+def lanes_of_edges(edges: EdgeFunctions, raster: Raster, owners: TieOwners, arena: Arena) -> Lanes:
+    """Put the triangles side by side whose corners are all projected; they live in the memory of ``arena``."""
+    x, y = (np.ascontiguousarray(edges.corners.decided[..., axis].T) for axis in range(2))
+    area = np.where(is_in_lane(edges), edges.doubled_area, 0)
+    return set_up_lanes(x, y, area, raster, owners, arena)
+
+
+def is_in_lane(edges: EdgeFunctions) -> Flags:
+    """Return (P,) bool, whose corners are all projected: exact fractions need them on the lattice."""
+    return np.asarray(edges.corners.is_projected.all(axis=1))
+
+
+def height_of_lanes(lanes: Lanes) -> Integers:
+    """Return the number of rows (L,) int64 of every lane."""
+    shortest_first = np.array(lanes.taller[::-1], np.int64)
+    return len(lanes.taller) - np.searchsorted(shortest_first, np.arange(len(lanes.triangle)), side="right")
+
+
+def lane_rows(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> LaneRows:
+    """Walk the rows of all lanes and put them in drawing order."""
+    arena = Arena()
+    lanes = lanes_of_edges(edges, raster, owners, arena)
+    height, first_row = height_of_lanes(lanes), lanes.first_row.astype(np.int64)
+    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, (Carried(first_row.copy(), 1),), arena)
+
+    # A triangle's rows stand behind those of all triangles drawn before it.
+    count = np.zeros(len(edges), np.int64)
+    count[lanes.triangle] = height
+    before = (np.cumsum(count) - count).take(lanes.triangle)
+    level = row - first_row.take(lane)
+    is_own = level < height.take(lane)  # levels walked together run over the end of some lanes
+    walked = np.empty(int(count.sum()), np.int64)
+    walked[(before.take(lane) + level)[is_own]] = np.flatnonzero(is_own)
+
+    begin = start.take(walked).astype(np.int64)
+    return LaneRows(
+        triangle=np.repeat(np.arange(len(edges)), count),
+        row=row.take(walked),
+        start=begin,
+        stop=begin + np.maximum(length.take(walked), 0),
+    )

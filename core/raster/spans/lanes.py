@@ -1,0 +1,211 @@
+"""Lanes: triangles side by side, tallest first, and where their edges cross the rows, as exact fractions.
+
+An edge from (x0, y0) to (x1, y1) crosses the row whose centres are at y in the column
+
+    q = ((x0 - center) dy + (y - y0) dx) / dy        dx = x1 - x0,  dy = y1 - y0
+
+A column is right of it if it is greater than q, or equal to q and the fill rule gives the tie to the right.
+
+Exactness
+---------
+Snapped corners are multiples of 2^-8 up to 2^16 and centres multiples of 2^-1, so numerator and dy are multiples of
+2^-16 and 2^-8 below 2^35 and 2^18: float64 holds them, and the numerator's step dx from row to row, without
+rounding. Only the quotient is rounded, to within 2^-38 where it lies in a raster of at most 2^14 columns. A quotient
+that is not a whole number is at least 2^-16 / 2^17 = 2^-33 away from one. So a guard of 2^-35, taken off for a tie
+that belongs to the right of the edge and added for one that does not, decides every pixel as the edge functions in
+exact arithmetic do: for every corner that can be snapped, every slope and every number of rows.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.methods import table
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+
+GUARD = 2.0**-35
+"""Columns; larger than the rounding of a crossing, smaller than its distance from a whole number that it is not."""
+SUBPIXEL_GUARD = 2.0**-10
+"""The same for the rows of corners, which are multiples of 2^-8."""
+NOWHERE = 1e15
+"""Crossing of an edge that bounds no row."""
+
+
+@dataclass(frozen=True)
+class TieOwners:
+    """Which triangle's side owns a pixel centre that lies exactly on an edge, per kind of edge."""
+
+    left: bool
+    right: bool
+    bottom: bool
+    top: bool
+
+    @property
+    def left_guard(self) -> float:
+        """What is added to a left crossing."""
+        return -GUARD if self.left else GUARD
+
+    @property
+    def right_guard(self) -> float:
+        """What is added to a right crossing."""
+        return GUARD if self.right else -GUARD
+
+
+def tie_owners(fill_rule: str) -> TieOwners:
+    """Ask a method of the family ``fill_rule`` about a left, a right, a bottom and a top edge."""
+    a, b = np.array([1.0, -1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0, -1.0])
+    return TieOwners(*table.get("fill_rule", fill_rule).function(a, b).tolist())
+
+
+@dataclass(frozen=True, eq=False)
+class Lanes:
+    """L triangles that have rows, tallest first."""
+
+    triangle: Integers
+    """(L,) int64, index of the triangle."""
+    taller: list[int]
+    """Element r: how many lanes have more than r rows."""
+    first_row: Floats
+    """(L,) float64, whole numbers."""
+    numerator: Floats
+    """(4, L) float64, of the crossings with the first row: two left edges, then two right ones."""
+    step: Floats
+    """(4, L) float64, dx: what the numerator grows by from row to row."""
+    reciprocal: Floats
+    """(4, L) float64, 1 / dy."""
+    reaches_out: bool
+    """Some triangle, drawn or not, has a corner left or right of the raster."""
+
+
+def row_range(y: Floats, raster: Raster, owners: TieOwners, arena: Arena) -> tuple[Floats, Floats]:
+    """Return the first row and the number of rows (P,) float64 of triangles with corners at y (3, P), in the raster."""
+    first, end = arena("first", y.shape[1]), arena("rows", y.shape[1])
+    np.minimum(y[0], y[1], out=first)
+    np.minimum(first, y[2], out=first)
+    np.maximum(y[0], y[1], out=end)
+    np.maximum(end, y[2], out=end)
+    first -= raster.center + (SUBPIXEL_GUARD if owners.bottom else -SUBPIXEL_GUARD)
+    end -= raster.center - (SUBPIXEL_GUARD if owners.top else -SUBPIXEL_GUARD)
+    _, first_row, _, end_row = raster.bounds
+    for edge in (first, end):
+        np.ceil(edge, out=edge)
+        np.maximum(edge, float(first_row), out=edge)
+        np.minimum(edge, float(end_row), out=edge)
+    end -= first
+    return first, end
+
+
+def set_up_lanes(
+    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, arena: Arena
+) -> Lanes:
+    """Put triangles side by side.
+
+    Parameters
+    ----------
+    x, y : (3, P) float64
+        Snapped window coordinates of the corners.
+    doubled_area : (P,) float64
+        Its sign is the facing; triangles where it is 0 are left out.
+    raster : Raster
+    owners : TieOwners
+    arena : Arena
+        The lanes live in its memory.
+    """
+    first, rows = row_range(y, raster, owners, arena)
+    np.copyto(rows, 0.0, where=doubled_area == 0)  # also where a corner is nowhere
+    order, taller = _tallest_first(rows, arena)
+    lane_first = arena("lane_first", len(order))
+    first.take(order, out=lane_first, mode="clip")
+    first_column, _, end_column, _ = raster.bounds
+    is_within = bool(x.min(initial=first_column) >= first_column) and bool(
+        x.max(initial=0) < end_column + raster.center
+    )
+    corners = _from_lowest_corner(x, y, doubled_area, order, arena)
+    numerator, step, reciprocal = _edges(*corners, lane_first, raster.center, arena)
+    return Lanes(order, taller, lane_first, numerator, step, reciprocal, not is_within)
+
+
+def _tallest_first(rows: Floats, arena: Arena) -> tuple[Integers, list[int]]:
+    """Return triangles with rows in order of their number of rows, and how many have more than r rows."""
+    height = int(rows.max(initial=0))
+    kind, top = (np.uint8, 255) if height <= 255 else (np.uint16, 65535)
+    missing = arena("missing_rows", len(rows), dtype=kind)
+    np.subtract(top, rows, out=missing, casting="unsafe")
+    order = missing.argsort(kind="stable")  # one or two bytes: a radix sort
+    taller = np.searchsorted(missing.take(order), np.arange(top, top - height, -1).astype(kind)).tolist()
+    return order[: taller[0] if taller else 0], taller
+
+
+def _from_lowest_corner(
+    x: Floats, y: Floats, doubled_area: Floats, order: Integers, arena: Arena
+) -> tuple[Floats, Floats]:
+    """Return x and y (3, L) of the corners of ``order`` (L,), counter-clockwise from the lowest one."""
+    total, count = x.shape[1], len(order)
+    stacked_x, stacked_y = arena("stacked_x", 5, total), arena("stacked_y", 5, total)
+    stacked_x[:3], stacked_y[:3] = x, y
+    clockwise = np.flatnonzero(doubled_area < 0)
+    if len(clockwise):
+        for stacked, given in ((stacked_x, x), (stacked_y, y)):
+            stacked[1][clockwise] = given[2].take(clockwise)
+            stacked[2][clockwise] = given[1].take(clockwise)
+    stacked_x[3:], stacked_y[3:] = stacked_x[:2], stacked_y[:2]
+
+    # Corner k of a triangle whose lowest corner is n stands in row n + k.
+    y0, y1, y2 = stacked_y[:3]
+    lowest, third = arena("lowest", total, dtype=np.int8), arena("third_is_lowest", total, dtype=np.bool_)
+    np.less(y1, y0, out=lowest, casting="unsafe")
+    np.minimum(y0, y1, out=stacked_y[3])
+    np.less(y2, stacked_y[3], out=third)
+    stacked_y[3] = y0
+    np.copyto(lowest, 2, where=third)
+    lane_lowest = lowest.take(order)
+    place = arena("place", count, dtype=np.int64)
+    np.multiply(lane_lowest, total, out=place, dtype=np.int64)
+    place += order
+    turned_x, turned_y = arena("turned_x", 3, count), arena("turned_y", 3, count)
+    for corner in range(3):
+        stacked_x.reshape(-1).take(place, out=turned_x[corner], mode="clip")
+        stacked_y.reshape(-1).take(place, out=turned_y[corner], mode="clip")
+        place += total
+    return turned_x, turned_y
+
+
+LEFT, MIDDLE_LEFT, RIGHT, MIDDLE_RIGHT = range(4)
+
+
+def _edges(
+    x: Floats, y: Floats, first_row: Floats, center: float, arena: Arena
+) -> tuple[Floats, Floats, Floats]:
+    """Return numerator at the first row, step and reciprocal (4, L) of the edges between corners at x, y (3, L).
+
+    From the lowest corner the edge 0 to 1 goes up the right side, 2 to 0 comes down the left side; the edge 1 to 2 is
+    on the right where it goes up, on the left where it goes down. A level edge bounds no row.
+    """
+    count = len(first_row)
+    numerator, step, reciprocal = (arena(name, 4, count) for name in ("numerator", "step", "reciprocal"))
+    dy, above_start, part = (arena(name, count) for name in ("dy", "above_start", "part"))
+    for side, start, end in ((RIGHT, 0, 1), (LEFT, 0, 2), (MIDDLE_RIGHT, 1, 2)):
+        if side != LEFT:
+            np.subtract(first_row, y[start], out=above_start)
+            above_start += center
+        np.subtract(y[end], y[start], out=dy)
+        np.subtract(x[end], x[start], out=step[side])
+        np.subtract(x[start], center, out=numerator[side])
+        numerator[side] *= dy
+        np.multiply(above_start, step[side], out=part)
+        numerator[side] += part
+        level = np.flatnonzero(dy == 0)
+        dy[level] = 1
+        np.divide(1.0, dy, out=reciprocal[side])
+        numerator[side][level] = -NOWHERE if side == LEFT else NOWHERE
+        step[side][level] = 0
+
+    # The middle edge where it goes down: on the left.
+    numerator[MIDDLE_LEFT], step[MIDDLE_LEFT], reciprocal[MIDDLE_LEFT] = -NOWHERE, 0, 1
+    down = np.flatnonzero(reciprocal[MIDDLE_RIGHT] < 0)
+    for values, nowhere in ((numerator, NOWHERE), (step, 0), (reciprocal, 1)):
+        values[MIDDLE_LEFT][down] = values[MIDDLE_RIGHT].take(down)
+        values[MIDDLE_RIGHT][down] = nowhere
+    return numerator, step, reciprocal

@@ -1,0 +1,162 @@
+"""Packed words: depth and a payload in one 64-bit integer that is linear over the window.
+
+A word has the depth above (``fixed_depth``: 39 bits) and 24 bits for the number of the triangle plus one below. The
+least word of a pixel is its nearest fragment and, of equally near ones, the triangle that was drawn first:
+``numpy.minimum`` is the depth test.
+
+The word at (column, row) is ``origin + column * across + row * up``. Integers wrap at 2^64 without losing anything,
+so whatever the origin and the steps are, the word is exact wherever the depth itself fits; walking it pixel by
+pixel, row by row, or computing it at once gives the same bits.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Integers
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.bands import Band
+from core.raster.spans.lanes import Lanes, TieOwners
+from core.raster.spans.rows import Carried, Spans, walk_rows
+
+FEW = 96
+"""Spans: below this the rest of them is written out pixel by pixel, since a pass costs as much as for thousands."""
+
+
+@dataclass(frozen=True, eq=False)
+class PackedPlanes:
+    """Words of P triangles over the window."""
+
+    origin: Integers
+    """(P,) int64, word at column 0, row 0."""
+    across: Integers
+    """(P,) int64, change per column."""
+    up: Integers
+    """(P,) int64, change per row."""
+
+    def part(self, first: int, end: int) -> "PackedPlanes":
+        """Return the planes of triangles ``first`` to ``end``."""
+        at = slice(first, end)
+        return PackedPlanes(self.origin[at], self.across[at], self.up[at])
+
+    def block(self, triangle: int, band: Band, arena: Arena) -> Integers:
+        """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
+        ramp = band.column * self.across[triangle]
+        of_row = self.origin[triangle] + band.row * self.up[triangle]
+        block = arena("word_block", len(of_row), len(ramp), dtype=np.int64)
+        np.add(ramp, of_row[:, None], out=block)
+        return block
+
+
+@dataclass(frozen=True, eq=False)
+class WordSpans:
+    """S spans with the word of their first pixel."""
+
+    pixel: Integers
+    """(S,) int64, place of the first pixel in the buffer."""
+    word: Integers
+    """(S,) int64, word at the first pixel."""
+    step: Integers
+    """(S,) int64, change of the word from pixel to pixel."""
+    longer: list[int]
+    """Element k: how many spans have more than k pixels; longest first."""
+
+    @property
+    def pixel_count(self) -> int:
+        """Pixels of all spans together."""
+        return sum(self.longer)
+
+
+def place_of_origin(raster: Raster) -> int:
+    """Return where column 0, row 0 of the image would stand in the flattened buffers of the raster's region."""
+    first_column, first_row, _, _ = raster.bounds
+    return -(first_row * raster.shape[1] + first_column)
+
+
+def word_spans(
+    planes: PackedPlanes, lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
+) -> WordSpans:
+    """Walk the rows of all lanes and return their spans with the words to start from."""
+    count = len(lanes.triangle)
+    across, up, word, pixel = (
+        arena(name, count, dtype=np.int64) for name in ("lane_across", "lane_up", "lane_word", "lane_pixel")
+    )
+    np.copyto(pixel, lanes.first_row, casting="unsafe")
+    planes.up.take(lanes.triangle, out=up, mode="clip")
+    np.multiply(up, pixel, out=word)
+    planes.origin.take(lanes.triangle, out=across, mode="clip")
+    word += across
+    planes.across.take(lanes.triangle, out=across, mode="clip")
+    columns = raster.shape[1]
+    pixel *= columns
+    pixel += place_of_origin(raster)
+    spans = walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(word, up)), arena)
+    return _at_first_pixel(spans, across, arena)
+
+
+def _at_first_pixel(spans: Spans, across: Integers, arena: Arena) -> WordSpans:
+    """Move the carried values from column 0 to the first pixel of every span; ``across`` (L,) is that of the lanes."""
+    pixel, word = spans.carried
+    step, part = (arena(name, len(spans), dtype=np.int64) for name in ("span_step", "span_part"))
+    pixel += spans.start
+    across.take(spans.lane, out=step, mode="clip")
+    np.multiply(step, spans.start, out=part)
+    word += part
+    return WordSpans(pixel, word, step, spans.longer)
+
+
+def draw_words(words: Integers, spans: WordSpans) -> None:
+    """Keep the least word of every pixel.
+
+    Parameters
+    ----------
+    words : (H*W,) int64
+        Buffer of the raster's region.
+    spans : WordSpans
+        Used up.
+
+    Notes
+    -----
+    Pass k draws the k-th pixel of every span that has one: the first ``longer[k]``.
+    """
+    pixel, word, step = spans.pixel, spans.word, spans.step
+    for passes, count in enumerate(spans.longer):
+        if count < FEW:
+            _write_out(words, spans, passes)
+            return
+        np.minimum.at(words, pixel[:count], word[:count])
+        pixel[:count] += 1
+        word[:count] += step[:count]
+
+
+def list_words(spans: WordSpans) -> tuple[Integers, Integers]:
+    """Return place in the buffer and word of all pixels of spans (used up), (F,) int64 each, pass by pass."""
+    pixels, words = np.empty((2, spans.pixel_count), np.int64)
+    done = 0
+    for passes, count in enumerate(spans.longer):
+        if count < FEW:
+            span, place = write_out(spans.longer[passes:])
+            pixels[done:] = spans.pixel[span] + place
+            words[done:] = spans.word[span] + place * spans.step[span]
+            break
+        at = slice(done, done + count)
+        pixels[at], words[at] = spans.pixel[:count], spans.word[:count]
+        spans.pixel[:count] += 1
+        spans.word[:count] += spans.step[:count]
+        done += count
+    return pixels, words
+
+
+def _write_out(words: Integers, spans: WordSpans, passes: int) -> None:
+    """Draw what is left of the few longest spans after ``passes``, all at once."""
+    span, place = write_out(spans.longer[passes:])
+    np.minimum.at(words, spans.pixel[span] + place, spans.word[span] + place * spans.step[span])
+
+
+def write_out(longer: list[int]) -> tuple[Integers, Integers]:
+    """Return for every pixel of spans its span and its place in it, (F,) int64 each; ``longer`` as in `Spans`."""
+    count = longer[0]
+    length = len(longer) - np.searchsorted(longer[::-1], np.arange(count), side="right")
+    span = np.repeat(np.arange(count), length)
+    return span, np.arange(len(span)) - np.repeat(np.cumsum(length) - length, length)

@@ -1,0 +1,114 @@
+"""Words of a depth that is rounded pixel by pixel: the float32 window depth, walked along the spans.
+
+The depth at a pixel is evaluated from the plane anew, by the operations of ``interpolation.plane_value`` in their
+order, so its float32 is the one that every other fill stores; only the gathering is saved: what belongs to the row is
+computed once a span.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.bands import Band
+from core.raster.spans.lanes import Lanes, TieOwners
+from core.raster.spans.packed import FEW, place_of_origin, write_out
+from core.raster.spans.rows import Carried, Spans, walk_rows
+
+PAYLOAD_BITS = 32
+"""Bits below the 31 bits of a float32 that is 0 or more."""
+STEEPEST = 1e150
+"""Coefficients beyond this could overflow within the window."""
+
+
+@dataclass(frozen=True, eq=False)
+class DepthPlanes:
+    """Window depth ``a x + (b y + c)`` of P triangles whose corners lie between the near and the far plane."""
+
+    a: Floats
+    """(P,) float64."""
+    b: Floats
+    """(P,) float64."""
+    c: Floats
+    """(P,) float64."""
+    payload: Integers
+    """(P,) int64, what stands below the depth in a word."""
+
+    @property
+    def is_finite(self) -> Flags:
+        """(P,) bool, where depth is a number all over the window."""
+        return np.asarray(np.maximum(np.maximum(np.abs(self.a), np.abs(self.b)), np.abs(self.c)) < STEEPEST)
+
+    def part(self, first: int, end: int) -> "DepthPlanes":
+        """Return the planes of triangles ``first`` to ``end``."""
+        at = slice(first, end)
+        return DepthPlanes(self.a[at], self.b[at], self.c[at], self.payload[at])
+
+    def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Integers:
+        """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
+        shape = (len(band.row), len(band.column))
+        depth = arena("depth_block", *shape)
+        of_row = self.b[triangle] * raster.along(band.row) + self.c[triangle]
+        np.add(self.a[triangle] * raster.along(band.column), of_row[:, None], out=depth)
+        return _words(depth.reshape(-1), self.payload[triangle], arena).reshape(shape)
+
+
+def plane_spans(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -> Spans:
+    """Walk the rows of all lanes; the place of column 0 in the buffer and the row are carried along."""
+    row = arena("plane_row", len(lanes.triangle), dtype=np.int64)
+    np.copyto(row, lanes.first_row, casting="unsafe")
+    columns = raster.shape[1]
+    pixel: Integers = np.multiply(row, columns, out=arena("plane_pixel", len(row), dtype=np.int64))
+    pixel += place_of_origin(raster)
+    return walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(row, 1)), arena)
+
+
+def draw_plane_words(
+    words: Integers, planes: DepthPlanes, spans: Spans, triangle: Integers, raster: Raster, arena: Arena
+) -> None:
+    """Keep the least word of every pixel.
+
+    Parameters
+    ----------
+    words : (H*W,) int64
+    planes : DepthPlanes
+    spans : Spans
+        Of `plane_spans`; used up.
+    triangle : (L,) int64
+        The triangle of every lane.
+    """
+    if not spans.longer:
+        return
+    pixel, row = spans.carried
+    pixel += spans.start
+    owner = triangle.take(spans.lane)
+    x, y = raster.along(spans.start), raster.along(row)
+    a, payload = planes.a.take(owner), planes.payload.take(owner)
+    of_row = planes.b.take(owner) * y + planes.c.take(owner)
+    for passes, count in enumerate(spans.longer):
+        if count < FEW:
+            span, place = write_out(spans.longer[passes:])
+            depth = a[span] * (x[span] + place) + of_row[span]
+            np.minimum.at(words, pixel[span] + place, _words(depth, payload[span], arena))
+            return
+        depth = np.multiply(a[:count], x[:count], out=arena("plane_depth", count))
+        depth += of_row[:count]
+        np.minimum.at(words, pixel[:count], _words(depth, payload[:count], arena))
+        pixel[:count] += 1
+        x[:count] += 1
+
+
+def _words(depth: Floats, payload: Integers, arena: Arena) -> Integers:
+    """Return the words of depths (F,), which are clamped in place."""
+    np.maximum(depth, 0.0, out=depth)
+    np.minimum(depth, 1.0, out=depth)
+    single = arena("plane_single", len(depth), dtype=np.float32)
+    np.copyto(single, depth, casting="same_kind")
+    single += np.float32(0)  # no negative zero: bits are compared
+    words = arena("plane_words", len(depth), dtype=np.int64)
+    np.copyto(words, single.view(np.int32))
+    words <<= PAYLOAD_BITS
+    words |= payload
+    return words

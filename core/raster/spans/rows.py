@@ -1,0 +1,194 @@
+"""Rows: all lanes step up together; each row of a triangle becomes one span of inside columns.
+
+A triangle is convex, so an edge drawn on beyond its ends never cuts the triangle: in every row the left bound is
+the larger crossing of the left edges, the right bound the smaller one of the right edges, and no edge needs to know
+where it ends. In the triangle's own rows both bounds so lie within the triangle's columns, whatever an edge that is
+nearly level does outside.
+
+What else is linear in the rows is carried along: the number of the row, or of its first pixel, or a packed word.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, Lanes, TieOwners
+
+GROUP = 4096
+"""Crossings of one edge side that are computed in one go: enough to hide the cost of the calls."""
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """Integers of L lanes that change by a fixed step from row to row."""
+
+    first: Integers
+    """(L,) int64, value at the lane's first row; used up."""
+    up: Integers | int
+    """(L,) int64 or one number for all, change per row."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spans:
+    """S stretches of inside pixels, each in one row of one triangle; none is empty; longest first."""
+
+    lane: Integers
+    """(S,) int64."""
+    start: Integers
+    """(S,) int64, first column."""
+    carried: list[Integers]
+    """(S,) int64 each, the carried values in the span's row."""
+    longer: list[int]
+    """Element k: how many spans have more than k pixels."""
+
+    def __len__(self) -> int:
+        return len(self.lane)
+
+    @property
+    def pixel_count(self) -> int:
+        """Pixels of all spans together."""
+        return sum(self.longer)
+
+
+def walk_rows(
+    lanes: Lanes, raster: Raster, owners: TieOwners, carried: Sequence[Carried], arena: Arena
+) -> Spans:
+    """Return the spans of all lanes, longest first, with the carried values of their rows; see `bounds_of_rows`."""
+    rows, start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
+    return _longest_first(rows[0], start, length, rows[1:], arena)
+
+
+def bounds_of_rows(
+    lanes: Lanes, raster: Raster, owners: TieOwners, carried: Sequence[Carried], arena: Arena
+) -> tuple[list[Integers], Integers, Integers]:
+    """Walk the rows of all lanes, lowest level first.
+
+    Returns
+    -------
+    rows : list of (R,) arrays
+        The lane, int32, and every carried value, int64.
+    start, length : (R,) int32
+        First column and number of pixels (below 1: none).
+
+    Notes
+    -----
+    Lanes stand tallest first, so those with more than r rows are the first ``taller[r]``: a level works on a leading
+    part of the arrays, without gaps. Levels of few lanes are taken several at a time; a lane that ends within such a
+    group gets empty rows. The numerators of ``lanes`` are used up.
+    """
+    groups = _groups(lanes.taller)
+    total = sum(count * levels for count, levels in groups)
+    left, right = arena("left", total), arena("right", total)
+    lane = arena("row_lane", total, dtype=np.int32)
+    values = [arena(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
+    number = np.arange(len(lanes.triangle), dtype=np.int32)
+    done = row = 0
+    for count, levels in groups:
+        at = slice(done, done + count * levels)
+        shape = (levels, count)
+        _cross(lanes, row, levels, count, left[at].reshape(shape), right[at].reshape(shape), arena)
+        lane[at].reshape(shape)[:] = number[:count]
+        for value, carry in zip(values, carried, strict=True):
+            _carry(carry, levels, count, value[at].reshape(shape))
+        done += count * levels
+        row += levels
+    start, length = _bound_columns(left, right, lanes.reaches_out, raster, owners, arena)
+    return [lane, *values], start, length
+
+
+def _groups(taller: list[int]) -> list[tuple[int, int]]:
+    """Return lanes and levels of the groups of levels that are computed together."""
+    groups, row = [], 0
+    while row < len(taller):
+        levels = min(max(GROUP // taller[row], 1), len(taller) - row)
+        groups.append((taller[row], levels))
+        row += levels
+    return groups
+
+
+def _cross(
+    lanes: Lanes, row: int, levels: int, count: int, left: Floats, right: Floats, arena: Arena
+) -> None:
+    """Write the bounds (levels, count) of the next rows, and move the numerators on."""
+    numerator, step, reciprocal = (
+        values[:, :count] for values in (lanes.numerator, lanes.step, lanes.reciprocal)
+    )
+    if levels == 1:
+        at = arena("crossing", 4, count)
+        np.multiply(numerator, reciprocal, out=at)
+        np.maximum(at[LEFT], at[MIDDLE_LEFT], out=left[0])
+        np.minimum(at[RIGHT], at[MIDDLE_RIGHT], out=right[0])
+        numerator += step
+        return
+    block = arena("crossings", 4, levels, count)
+    np.multiply(step[:, None], np.arange(float(levels))[:, None], out=block)
+    block += numerator[:, None]
+    block *= reciprocal[:, None]
+    np.maximum(block[LEFT], block[MIDDLE_LEFT], out=left)
+    np.minimum(block[RIGHT], block[MIDDLE_RIGHT], out=right)
+    numerator += step * levels
+    ends = np.array(lanes.taller[row : row + levels])
+    if ends[-1] < count:
+        has_ended = np.arange(count) >= ends[:, None]
+        np.copyto(left, 0.0, where=has_ended)
+        np.copyto(right, -1.0, where=has_ended)
+
+
+def _carry(carry: Carried, levels: int, count: int, values: Integers) -> None:
+    """Write the carried values (levels, count) of the next rows, and move them on."""
+    first, up = carry.first[:count], carry.up if isinstance(carry.up, int) else carry.up[:count]
+    if levels == 1:
+        values[0] = first
+    else:
+        np.multiply(up, np.arange(levels)[:, None], out=values)
+        values += first
+    first += up if levels == 1 else up * levels
+
+
+def _bound_columns(
+    left: Floats, right: Floats, reaches_out: bool, raster: Raster, owners: TieOwners, arena: Arena
+) -> tuple[Integers, Integers]:
+    """Return first column and length (R,) int32 of spans between crossings (R,); the crossings are used up."""
+    # One more than the crossing, cut off: the next whole number, since the guard leaves none on a whole number.
+    left += 1 + owners.left_guard
+    right += 1 + owners.right_guard
+    if reaches_out:
+        first_column, _, end_column, _ = raster.bounds
+        np.maximum(left, float(first_column), out=left)
+        np.minimum(right, float(end_column), out=right)
+    start, length = (arena(name, len(left), dtype=np.int32) for name in ("row_start", "row_length"))
+    np.copyto(start, left, casting="unsafe")
+    np.copyto(length, right, casting="unsafe")
+    length -= start
+    return start, length
+
+
+def _longest_first(
+    lane: Integers, start: Integers, length: Integers, values: list[Integers], arena: Arena
+) -> Spans:
+    """Return spans in order of their length (R,) int32, without empty ones."""
+    np.maximum(length, 0, out=length)
+    longest = int(length.max(initial=0))
+    kind, top = (np.uint8, 255) if longest <= 255 else (np.uint16, 65535)
+    missing = arena("missing_pixels", len(length), dtype=kind)
+    np.subtract(top, length, out=missing, casting="unsafe")
+    order = missing.argsort(kind="stable")  # one or two bytes: a radix sort
+    longer = np.searchsorted(missing.take(order), np.arange(top, top - longest, -1, dtype=kind)).tolist()
+    order = order[: longer[0] if longer else 0]
+    count = len(order)
+
+    single = arena("sorted_single", count, dtype=np.int32)
+    columns = []
+    for name, given in (("span_lane", lane), ("span_start", start)):
+        given.take(order, out=single, mode="clip")
+        columns.append(arena(name, count, dtype=np.int64))
+        np.copyto(columns[-1], single)
+    carried = []
+    for number, given in enumerate(values):
+        carried.append(arena(f"span_carried_{number}", count, dtype=np.int64))
+        given.take(order, out=carried[-1], mode="clip")
+    return Spans(columns[0], columns[1], carried, longer)

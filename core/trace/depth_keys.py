@@ -1,0 +1,70 @@
+"""Keys of the depth method ``fixed-38`` in the trace: depth and triangle in one number, the least of which is kept."""
+
+import numpy as np
+
+from core.arrays import Integers
+from core.framebuffer.fixed_depth import FixedPlanes
+from core.framebuffer.packed_keys import NUMBER_BITS
+from core.framebuffer.stacks import stack_fragments
+from core.raster.wireframe import LineFragments
+from core.steps import Operation
+from core.trace.source import TraceSource
+
+_KEY = (
+    Operation("key", "key", ("key",)),
+    Operation("minimum", "minimum", ("before", "before_key", "passes")),
+    Operation("write", "store", ("after", "after_key")),
+)
+PLANAR_OPERATIONS: dict[str, tuple[Operation, ...]] = {
+    "test": (Operation("plane", "depth", ("depth", "stored")), *_KEY),
+    "rounded": (Operation("depth", "depth", ("depth", "stored")), *_KEY),
+    "plane": (
+        Operation("plane", "depth", ("depth", "stored")),
+        Operation("write", "store", ("before", "after", "passes")),
+    ),
+}
+"""Kinds of rows that only depth on integer planes has; ``rounded``: tested, but the triangle has no plane."""
+
+
+def plane_columns(source: TraceSource) -> dict[str, np.ndarray]:
+    """Return the integer planes of the fragments, and which have one."""
+    fragments = source.fragments
+    if isinstance(fragments, LineFragments):
+        nothing = np.zeros(len(fragments), np.int64)
+        return {"origin": nothing, "across": nothing, "up": nothing, "is_linear": nothing > 0}
+    planes: FixedPlanes = source.geometry.fixed_planes
+    return {
+        name: getattr(planes, name).take(fragments.primitive)
+        for name in ("origin", "across", "up", "is_linear")
+    }
+
+
+def key_columns(source: TraceSource) -> dict[str, np.ndarray]:
+    """Return the key of every fragment, what was in the buffer, and what is there afterwards.
+
+    Notes
+    -----
+    A key is (depth + slack) << 24 | number + 1, as `NearestFragments` packs it. Pictures number what culling and
+    clipping leave, here it is the triangle's number in the scene: the order is the same. Keys of fragments out of
+    depth range take no part and are -1.
+    """
+    depth_format, (_, keeps, stored) = source.depth_format, source.depths
+    kept = np.flatnonzero(keeps & ~np.isnan(stored))
+    number = source.triangle_of_fragment
+
+    def key_of(depth: np.ndarray, triangle: Integers) -> Integers:
+        return (depth_format.nearness_key(depth) << NUMBER_BITS) | (triangle + 1)
+
+    key, before, after = np.full((3, len(stored)), -1)
+    key[kept] = key_of(stored[kept], number[kept])
+
+    # The least key so far, one layer after another.
+    stacks = stack_fragments(source.place[kept])
+    start = source.start
+    there = key_of(start.depth.ravel(), start.primitive.ravel().astype(np.int64)).take(stacks.pixel)
+    for count, place in stacks.layers():
+        fragment = kept.take(place)
+        before[fragment] = there[:count]
+        np.minimum(there[:count], key[fragment], out=there[:count])
+        after[fragment] = there[:count]
+    return {"number": number, "key": key, "before_key": before, "after_key": after}

@@ -1,0 +1,57 @@
+"""The rows of the raster stage before their numbers: what each is about, in drawing order."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.trace.raster_rows import FILL_OPERATIONS
+from core.trace.source import TraceSource
+
+KIND = {name: number for number, name in enumerate(FILL_OPERATIONS)}
+"""Number of every kind of row of a fill."""
+
+
+@dataclass(frozen=True, eq=False)
+class RowTable:
+    """R rows, each about a triangle, a stretch of pixels in one of its rows, or one pixel."""
+
+    kind: Integers
+    """(R,) int64, number in `KIND`."""
+    primitive: Integers
+    """(R,) int64."""
+    group: Integers
+    """(R,) int64, equal in neighbouring rows that are one step of the level GROUP."""
+    row: Integers
+    """(R,) int64, -1: about no row of pixels."""
+    start: Integers
+    """(R,) int64, first column of the stretch that the row is about or lies in, -1: none."""
+    stop: Integers
+    """(R,) int64, column after the last."""
+    crossings: Floats
+    """(R, 3) float64, x where the edges are crossed; NaN: not known or of no use."""
+    test: Integers
+    """(R,) int64, index of the pixel test, -1: the row is about no pixel."""
+
+
+def rows_of_runs(source: TraceSource) -> RowTable:
+    """Return one row for every pixel looked at; of fills by spans, one before the pixels of every span."""
+    runs, tests = source.runs, source.tests
+    has_spans = runs.crossings is not None
+    headers = np.arange(len(runs)) if has_spans else np.empty(0, np.int64)
+    run = np.concatenate([headers, tests.run])
+    test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
+    order = np.argsort(run, kind="stable")
+    run, test = run[order], test[order]
+    span_kind = KIND["line" if source.settings.fill == "scanline-lecture" else "span"]
+    pixel_kind = np.where(runs.accepted[run], KIND["accept"], KIND["test"])
+    return RowTable(
+        kind=np.where(test >= 0, pixel_kind, span_kind),
+        primitive=runs.triangle[run],
+        group=run if has_spans else runs.group[run],
+        row=runs.row[run],
+        start=runs.start[run],
+        stop=runs.stop[run],
+        crossings=runs.crossings[run] if runs.crossings is not None else np.full((len(run), 3), np.nan),
+        test=test,
+    )

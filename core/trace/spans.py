@@ -1,0 +1,172 @@
+"""Trace of the fill ``spans``: lane, rows and pixels of every triangle, and when the engine draws each of them."""
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers
+from core.listing import Listing, listing
+from core.raster.edge_functions import edge_value
+from core.raster.spans.lane_rows import is_in_lane
+from core.raster.spans.lanes import tie_owners
+from core.raster.spans.order import SpanOrder
+from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
+from core.trace.row_table import KIND, RowTable
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack
+
+Columns = dict[str, np.ndarray]
+
+
+def rows_of_spans(source: TraceSource, order: SpanOrder) -> RowTable:
+    """Return one row for every lane, for every row of it, and for every pixel, in drawing order.
+
+    Triangles without a lane have rows as the fill ``scanline`` gives them.
+    """
+    runs, tests, rows = source.runs, source.tests, order.rows
+    has_lane = is_in_lane(source.geometry.edges)
+    assert runs.crossings is not None
+
+    # Rows of pixels: those of lanes, and the spans of triangles that have none.
+    in_lane = has_lane[runs.triangle]
+    others = np.flatnonzero(~in_lane)
+    triangle = np.concatenate([rows.triangle, runs.triangle[others]])
+    line_order = np.argsort(triangle, kind="stable")
+    triangle = triangle[line_order]
+    row, start, stop = (
+        np.concatenate([getattr(rows, name), getattr(runs, name)[others]])[line_order]
+        for name in ("row", "start", "stop")
+    )
+    line_kind = np.repeat([KIND["lane-row"], KIND["span"]], [len(rows.row), len(others)])[line_order]
+    missing = np.full((len(rows.row), 3), np.nan)
+    crossings = np.concatenate([missing, runs.crossings[others]])[line_order]
+    line_of_run = np.flatnonzero((start < stop) | (line_kind == KIND["span"]))
+
+    # A triangle's lane stands before its rows, a row before its pixels.
+    lanes = np.flatnonzero(order.row_count)
+    line = np.concatenate([np.full(len(lanes), -1), np.arange(len(triangle)), line_of_run[tests.run]])
+    primitive = np.concatenate([lanes, triangle, tests.primitive])
+    test = np.concatenate([np.full(len(lanes) + len(triangle), -1), np.arange(len(tests.run))])
+    pixel_kind = np.where(has_lane[tests.primitive], KIND["pass"], KIND["accept"])
+    kind = np.concatenate([np.full(len(lanes), KIND["lane"]), line_kind, pixel_kind])
+    sorting = np.lexsort((test, line, primitive))
+    line = line[sorting]
+
+    def of_line(values: np.ndarray, none: float) -> np.ndarray:
+        found = np.full((len(line), *values.shape[1:]), none, values.dtype)
+        found[line >= 0] = values[line[line >= 0]]
+        return found
+
+    return RowTable(
+        kind=kind[sorting],
+        primitive=primitive[sorting],
+        group=line,
+        row=of_line(row, -1),
+        start=of_line(start, -1),
+        stop=of_line(stop, -1),
+        crossings=of_line(crossings, np.nan),
+        test=test[sorting],
+    )
+
+
+def span_columns(source: TraceSource, table: RowTable, order: SpanOrder) -> Columns:
+    """Return the numbers of lanes, rows and passes; -1 or NaN where a row of the trace has no use for them."""
+    edges, kind, primitive = source.geometry.edges, table.kind, table.primitive
+    is_row, is_pass = kind == KIND["lane-row"], kind == KIND["pass"]
+    in_lane = is_row | is_pass | (kind == KIND["lane"])
+
+    # Which of the rows of all lanes it is, or lies in: a row stands before its pixels.
+    lane_row = np.where(is_row | is_pass, np.cumsum(is_row) - 1, -1)
+
+    def of_lane_row(values: Integers) -> Integers:
+        return np.append(values, -1)[lane_row]
+
+    def of_triangle(values: Integers) -> Integers:
+        return np.where(in_lane, values[primitive], -1)
+
+    columns: Columns = {
+        "corner_y": np.where(in_lane[:, None], edges.corners.decided[primitive, :, 1], np.nan),
+        "first_row": of_triangle(order.first_row),
+        "row_count": of_triangle(order.row_count),
+        "lane": of_triangle(order.lane),
+        "level": of_lane_row(order.level),
+        "length": of_lane_row(order.rows.stop - order.rows.start),
+        "place": of_lane_row(order.place),
+        "dx": edges.b[primitive] + 0.0,
+        "dy": 0.0 - edges.a[primitive],
+    }
+    columns |= _crossings(source, table, columns["dy"], is_row)
+    return columns | _passes(source, table, columns["place"], order, is_pass)
+
+
+def _crossings(source: TraceSource, table: RowTable, dy: Floats, is_row: Flags) -> Columns:
+    """Return where rows of lanes cross the edges, in columns, as fractions.
+
+    The edge function is linear and grows by -dy from column to column, so its value at the centre of column 0, over dy,
+    is the column at which it is 0. The engine computes the same numerator from the corners; neither is rounded.
+    """
+    edges, primitive = source.geometry.edges, table.primitive
+    y = source.raster.along(table.row)[:, None]
+    at_column_0 = np.full((len(y), 3), source.raster.center)
+    numerator = edge_value(edges.a[primitive], edges.b[primitive], edges.c[primitive], at_column_0, y)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        quotient = numerator * (1 / dy)
+    is_crossed = is_row[:, None] & (dy != 0)
+    numerator, quotient = np.where(is_row[:, None], numerator, np.nan), np.where(is_crossed, quotient, np.nan)
+    found: Columns = {f"numerator_{k}": numerator[:, k] for k in range(3)}
+    found |= {f"quotient_{k}": quotient[:, k] for k in range(3)}
+    left, right = (np.where(side & is_crossed, quotient, np.nan) for side in (dy < 0, dy > 0))
+    found["left"] = np.fmax(np.fmax(left[:, 0], left[:, 1]), left[:, 2])
+    found["right"] = np.fmin(np.fmin(right[:, 0], right[:, 1]), right[:, 2])
+    return found
+
+
+def _passes(
+    source: TraceSource, table: RowTable, place: Integers, order: SpanOrder, is_pass: Flags
+) -> Columns:
+    """Return pass and rank of every pixel; triangles without a lane are drawn after all that have one."""
+    is_pixel = table.test >= 0
+    column = np.append(source.tests.column, -1)[table.test]
+    number = np.where(is_pass, column - table.start, -1)
+    before = np.where(is_pass, order.drawn_before[number], -1)
+    others = is_pixel & ~is_pass
+    rank = np.where(is_pass, before + place, -1)
+    rank[others] = order.drawn_before[-1] + np.arange(np.count_nonzero(others))
+    return {
+        "pass_number": number,
+        "pass_size": np.where(is_pass, np.append(order.longer, -1)[number], -1),
+        "drawn_before": before,
+        "rank": rank,
+    }
+
+
+def span_constants(source: TraceSource, order: SpanOrder) -> dict[str, float | int]:
+    """Return what is the same in all rows."""
+    owners = tie_owners(source.settings.fill_rule)
+    return {
+        "lane_count": order.lane_count,
+        "span_count": order.span_count,
+        "left_guard": owners.left_guard,
+        "right_guard": owners.right_guard,
+    }
+
+
+def span_listings() -> dict[str, Listing]:
+    """Return the listings of lanes, rows and passes."""
+    in_order, passes = listing(place_by_size), listing(order_of_pixels)
+    return {
+        "lane": listing(rows_of_triangle),
+        "lane.lane": in_order,
+        "lane-row": listing(span_of_row),
+        "lane-row.place": in_order,
+        "pass": passes,
+    }
+
+
+def pass_track(source: TraceSource, columns: Columns) -> BufferTrack:
+    """Return the buffer of passes: which one drew each pixel, the last in drawing order.
+
+    ``columns`` are those of the trace, (R, ...) arrays.
+    """
+    rows = np.flatnonzero(columns["pass_number"] >= 0)
+    place = source.raster.index(columns["column"][rows], columns["row"][rows])
+    unknown = np.full(source.raster.shape, np.nan)
+    return BufferTrack("pass", unknown, rows, place, columns["pass_number"][rows].astype(float), "count")

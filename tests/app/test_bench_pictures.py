@@ -1,0 +1,99 @@
+"""The core and Pillow as contenders: small pictures of every kind, compared with the reference."""
+
+from contextlib import ExitStack
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.bench import cold_start, ours, pillow_peer
+from app.bench.checking import Difference, compare
+from app.bench.meshes import TO_LIGHT, textured_floor, viewed
+from app.bench.random_triangles import large_triangle, random_triangles
+from app.bench.records import ColdStart, Lighting, Lines, ViewedMesh, Work
+from app.bench.reference import make_reference
+from core.geometry.matrices import projection, world_to_camera
+from core.scene import Camera
+from lessons import shapes
+
+
+def small_sphere(is_per_pixel: bool) -> ViewedMesh:
+    mesh = shapes.sphere(columns=24, rows=12)
+    floor = textured_floor()
+    assert mesh.normals is not None
+    return viewed(
+        mesh.positions,
+        mesh.triangles,
+        mesh.normals,
+        camera=Camera(eye=np.array([1.1, 0.9, 2.6]), target=np.zeros(3)),
+        size=(90, 70),
+        colors=None if is_per_pixel else 0.6 + 0.3 * mesh.positions,
+        uvs=mesh.uvs if is_per_pixel else None,
+        texture=floor.texture if is_per_pixel else None,
+        lighting=Lighting(-TO_LIGHT, 0.2, 0.6, 0.2 if is_per_pixel else 0.0, 8.0, is_per_pixel),
+    )
+
+
+def small_floor() -> ViewedMesh:
+    floor, size = textured_floor(), (100, 80)
+    camera = Camera(floor.eye, floor.target, floor.up, field_of_view=floor.field_of_view)
+    return replace(
+        floor, size=size, view=world_to_camera(camera), projection=projection(camera, size[0] / size[1])
+    )
+
+
+def some_lines() -> Lines:
+    rng = np.random.default_rng(3)
+    return Lines(rng.integers(0, 60, (30, 4)), rng.integers(9, 256, (30, 3)).astype(np.uint8), (60, 60))
+
+
+def drawn(module, work: Work) -> Difference:
+    contender = module.contender(work)
+    with ExitStack() as stack:
+        pixels = contender.prepare(stack).run()
+        return compare(pixels, contender.is_top_down, make_reference(work))
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        large_triangle(((255, 40, 20),) * 3),
+        large_triangle(((255, 40, 20), (20, 250, 60), (30, 80, 240))),
+        random_triangles(1, 300, (64, 48), 40.0),
+        random_triangles(2, 100, (64, 48), 40.0, is_blended=True),
+        small_sphere(is_per_pixel=False),
+        small_sphere(is_per_pixel=True),
+        small_floor(),
+        some_lines(),
+    ],
+    ids=["flat", "gouraud", "random", "blended", "mesh", "phong", "floor", "lines"],
+)
+def test_the_core_draws_the_reference(work: Work) -> None:
+    assert drawn(ours, work) == Difference(0, 0)
+
+
+def test_pillow_draws_the_same_lines() -> None:
+    assert drawn(pillow_peer, some_lines()).is_none
+
+
+@pytest.mark.parametrize(
+    "work", [random_triangles(1, 60, (64, 48), 40.0), small_floor()], ids=["triangles", "floor"]
+)
+def test_pillow_draws_much_the_same(work: Work) -> None:
+    """It paints every pixel that a polygon touches, so that outlines differ, and no more."""
+    difference = drawn(pillow_peer, work)
+    assert difference.covered + difference.colored < 0.35 * work.size[0] * work.size[1]
+
+
+def test_a_library_says_what_it_cannot_draw() -> None:
+    assert pillow_peer.contender(small_sphere(is_per_pixel=True)) is None
+    assert pillow_peer.contender(large_triangle(((9, 9, 9), (9, 9, 9), (10, 9, 9)))) is None
+
+
+def test_a_fresh_process_draws_the_same_picture() -> None:
+    work = random_triangles(1, 50, (64, 48), 40.0)
+    contender = cold_start.contender(ours, ColdStart(work))
+    assert contender is not None
+    with ExitStack() as stack:
+        pixels = contender.prepare(stack).run()
+    assert compare(pixels, False, make_reference(work)).is_none

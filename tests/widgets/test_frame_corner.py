@@ -1,0 +1,69 @@
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+
+from widgets.frame_corner import FrameCorner, SizeChoice
+
+CHOICES = (SizeChoice("view", "Size of the view"), SizeChoice("64x48", "64 × 48"))
+
+
+@pytest.fixture
+def corner(qtbot) -> FrameCorner:
+    room = QWidget()
+    qtbot.addWidget(room)
+    room.resize(400, 300)
+    corner = FrameCorner(room)
+    corner.set_most_width(390)
+    room.show()
+    qtbot.waitExposed(room)
+    corner.room = room  # kept alive with it
+    return corner
+
+
+def test_nothing_is_seen_before_there_is_something_to_say(corner):
+    assert not corner.isVisible()
+    corner.show_figures("26.1 ms")
+    assert corner.isVisible()
+    corner.show_figures("")
+    assert not corner.isVisible()
+
+
+def test_it_is_as_wide_as_its_line_and_never_wider_than_its_room(corner):
+    corner.show_figures("26.1 ms")
+    short = corner.width()
+    corner.show_figures("26.1 ms · 1024 × 1024")
+    assert corner.width() > short
+    corner.show_figures("26.1 ms · 1024 × 1024" * 20)
+    assert corner.width() == 390
+    corner.set_most_width(100)
+    assert corner.width() == 100
+    assert not corner.grab().isNull()
+
+
+def test_the_menu_shows_and_tells_the_choice(corner, qtbot):
+    corner.show_sizes(CHOICES, "view")
+    actions = corner.menu().actions()
+    assert [action.text() for action in actions] == ["Size of the view", "64 × 48"]
+    assert [action.isChecked() for action in actions] == [True, False]
+    with qtbot.waitSignal(corner.size_chosen) as told:
+        actions[1].trigger()
+    assert told.args == ["64x48"]
+    corner.show_sizes(CHOICES, "64x48")
+    assert [action.isChecked() for action in corner.menu().actions()] == [False, True]
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Down])
+def test_keys_open_the_menu(corner, qtbot, key):
+    corner.show_figures("26.1 ms")
+    corner.show_sizes(CHOICES, "view")
+    qtbot.keyClick(corner, key)
+    assert corner.menu().isVisible()
+    corner.menu().close()
+
+
+def test_a_click_opens_the_menu(corner, qtbot):
+    corner.show_figures("26.1 ms")
+    corner.show_sizes(CHOICES, "view")
+    qtbot.mouseClick(corner, Qt.MouseButton.LeftButton)
+    assert corner.menu().isVisible()
+    corner.menu().close()
