@@ -15,7 +15,6 @@ from core.fragments.interpolation import Interpolator, interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import DepthFormat, Stored, clamp_depth, run_depth_tests
-from core.framebuffer.fixed_depth import fixed_value
 from core.framebuffer.nearest import NearestFragments
 from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
@@ -141,11 +140,9 @@ def fragment_depth(
     if depth_format.quantity == "z":
         stored = depth_format.store(depth)
         if depth_format.is_planar and not isinstance(fragments, LineFragments):
-            planes = geometry.fixed_planes
-            on_plane = planes.is_linear.take(fragments.primitive)
-            stored = np.where(
-                on_plane, fixed_value(planes, fragments.primitive, fragments.column, fragments.row), stored
-            )
+            fixed = geometry.fixed_planes
+            on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
+            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
         return depth, keeps, stored
     inverse_w = fragment_inverse_w(geometry, fragments, raster)
     return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)

@@ -19,6 +19,7 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.framebuffer.depth import DepthFormat, Stored
+from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes
 from core.methods import method
 
 DEPTH_BITS = 38
@@ -36,12 +37,7 @@ rounding; up to it the terms are within 2^-41."""
 class FixedPlanes:
     """Stored depth of P triangles over the window."""
 
-    origin: Integers
-    """(P,) int64, value at column 0, row 0 (modulo 2^64)."""
-    across: Integers
-    """(P,) int64, change per column."""
-    up: Integers
-    """(P,) int64, change per row."""
+    planes: IntegerPlanes
     is_linear: Flags
     """(P,) bool, where the plane holds; elsewhere depth is rounded pixel by pixel."""
 
@@ -68,25 +64,16 @@ def set_up_fixed_planes(
         dz1, dz2 = depth[1] - depth[0], depth[2] - depth[0]
         unit = SCALE / doubled_area
         right, left, above, below = dz1 * dy2, dz2 * dy1, dz2 * dx1, dz1 * dx2
-        across = np.rint((right - left) * unit)
-        up = np.rint((above - below) * unit)
+        across, up = (right - left) * unit, (above - below) * unit
         # The terms, not only their differences: what cancels leaves its rounding.
         steepest = np.maximum(np.abs(right), np.abs(left))
         for term in (above, below):
             np.maximum(steepest, np.abs(term), out=steepest)
         is_linear = (steepest * np.abs(unit) <= SLOPE_LIMIT * SCALE) & is_in_range
+    x, y, value = x[0], y[0], depth[0] * SCALE
     if not is_linear.all():
-        across, up = np.where(is_linear, across, 0), np.where(is_linear, up, 0)
-        x, y, depth = (np.where(is_linear, corners[0], 0)[None] for corners in (x, y, depth))
-
-    # The pixel of corner 0, and from there to column 0, row 0 in whole numbers.
-    column, row = np.floor(x[0]), np.floor(y[0])
-    at_pixel = np.rint(depth[0] * SCALE + ((column + center - x[0]) * across + (row + center - y[0]) * up))
-    across, up = across.astype(np.int64), up.astype(np.int64)
-    origin = at_pixel.astype(np.int64)
-    origin -= column.astype(np.int64) * across
-    origin -= row.astype(np.int64) * up
-    return FixedPlanes(origin, across, up, is_linear)
+        x, y, value, across, up = (np.where(is_linear, of, 0) for of in (x, y, value, across, up))
+    return FixedPlanes(integer_planes(x, y, center, [FieldPlane(value, across, up, 0)]), is_linear)
 
 
 class FixedDepth(DepthFormat):
@@ -128,11 +115,3 @@ def in_units(depth: Floats) -> Floats:
 def fixed_38() -> DepthFormat:
     """Store the window depth in units of 2^-38."""
     return FixedDepth("z", SCALE, False, in_units)
-
-
-def fixed_value(planes: FixedPlanes, primitive: Integers, column: Integers, row: Integers) -> Floats:
-    """Return the stored depth of fragments (F,) on their planes, float64 whole numbers."""
-    value = planes.origin.take(primitive)
-    value += planes.across.take(primitive) * column
-    value += planes.up.take(primitive) * row
-    return value.astype(np.float64)

@@ -10,32 +10,29 @@ colours are those of the unsnapped triangle and may leave the range of its corne
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers
+from core.arrays import Floats
 from core.framebuffer.display import srgb
 from core.framebuffer.nearest import NearestFragments
-from core.geometry_stages import Geometry
-from core.picture.byte_words import DRIFT, FIELDS, unpack
-from core.picture.palette import has_texture
-from core.primitives import CornerValues
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
+from core.picture.byte_errors import (
+    VertexBytes,
+    chord_error,
+    cut_off_error,
+    drift_error,
+    perspective_error,
+    product_error,
+)
+from core.picture.byte_words import FIELDS, unpack
+from core.picture.job import BLOCK, Job, Words
 from core.raster.spans.bands import Band
-from core.raster.spans.packed import PackedPlanes
-from core.scene import AnyScene
-from core.settings import Settings
 from core.surface import shade_fragments
-
-Words = NDArray[np.uint32]
 
 TOLERANCE = 0.95
 """Bytes that the interpolated colour may be away from the exact one before both are rounded: numbers less than 1 apart
 are rounded to the same byte or to neighbours."""
 LARGEST_DRIFT = 0.45
 """Bytes; half a byte would let a channel run over into the next one."""
-BLOCK = 1 << 15
-"""Pixels that are looked up together: their numbers stay in the processor's cache."""
 STEEPEST = 2.0**40
 """Bytes a pixel; steeper planes are seen edge-on."""
 
@@ -45,7 +42,7 @@ class ByteColors:
     """Corner colours of P triangles in bytes, 0 to 255, and their planes over the window."""
 
     corner: Floats
-    """(3, P) float64 per channel, at corner 0: (3 channels, P)."""
+    """(3 channels, P) float64, at corner 0."""
     across: Floats
     """(3, P) float64, change per column of the three channels."""
     up: Floats
@@ -60,26 +57,17 @@ class ByteColors:
     stage = "interpolate"
     fits_layer = True
 
-    def packed(self) -> PackedPlanes:
+    def packed(self) -> IntegerPlanes:
         """Return the words of all triangles."""
-        count = len(self.x)
-        column, row = np.floor(self.x), np.floor(self.y)
-        origin, across, up = np.zeros((3, count), np.int64)
-        for channel, (shift, bits) in enumerate(FIELDS):
-            unit = 2.0**bits
-            step, rise = np.rint(self.across[channel] * unit), np.rint(self.up[channel] * unit)
-            at_pixel = np.rint(
-                (self.corner[channel] + 0.5) * unit
-                + (column + self.center - self.x) * step
-                + (row + self.center - self.y) * rise
+        fields = [
+            FieldPlane((value + 0.5) * 2.0**bits, across * 2.0**bits, up * 2.0**bits, shift)
+            for value, across, up, (shift, bits) in zip(
+                self.corner, self.across, self.up, FIELDS, strict=True
             )
-            for word, values in ((origin, at_pixel), (across, step), (up, rise)):
-                word += values.astype(np.int64) << shift
-        origin -= column.astype(np.int64) * across
-        origin -= row.astype(np.int64) * up
-        return PackedPlanes(origin, across, up)
+        ]
+        return integer_planes(self.x, self.y, self.center, fields)
 
-    def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Words:
+    def block(self, job: Job, triangle: int, band: Band) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block.
 
         Notes
@@ -87,49 +75,28 @@ class ByteColors:
         The share of the row and that of the column are rounded by themselves, so the error does not grow with the
         distance from the corner.
         """
-        x, y = raster.along(band.column) - self.x[triangle], raster.along(band.row) - self.y[triangle]
+        x = job.raster.along(band.column) - self.x[triangle]
+        y = job.raster.along(band.row) - self.y[triangle]
         ramp, of_row = np.zeros(len(x), np.int64), np.zeros(len(y), np.int64)
         for channel, (shift, bits) in enumerate(FIELDS):
             unit = 2.0**bits
             ramp += np.rint(x * (self.across[channel, triangle] * unit)).astype(np.int64) << shift
             start = (self.corner[channel, triangle] + 0.5) * unit
             of_row += np.rint(y * (self.up[channel, triangle] * unit) + start).astype(np.int64) << shift
-        word = np.add(ramp, of_row[:, None], out=arena("color_block", len(y), len(x), dtype=np.int64))
-        return unpack(word.reshape(-1), arena).reshape(word.shape)
+        word = np.add(ramp, of_row[:, None], out=job.arena("color_block", len(y), len(x), dtype=np.int64))
+        return unpack(word.reshape(-1), job.arena).reshape(word.shape)
 
-    def look_up(self, nearest: NearestFragments, raster: Raster, pixels: Words, arena: Arena) -> int:
-        """Write the colour of what is seen at every pixel (H*W,) uint32; return how many there are.
-
-        The others keep what they have: the background.
-        """
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         planes = self.packed()
         seen_count = 0
-        for first in range(0, len(pixels), BLOCK):
-            part = slice(first, first + BLOCK)
-            place, primitive = nearest.seen_in(part)
+        for first in range(0, len(job.pixels), BLOCK):
+            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
             seen_count += len(place)
-            column, row = raster.position(np.add(place, first))
-            word, step = (arena(name, len(place), dtype=np.int64) for name in ("seen_word", "seen_step"))
-            planes.origin.take(primitive, out=word, mode="clip")
-            for along, change in ((column, planes.across), (row, planes.up)):
-                change.take(primitive, out=step, mode="clip")
-                step *= along
-                word += step
-            pixels[part][place] = unpack(word, arena)
+            place += first
+            word = planes.at(primitive, *job.raster.position(place))
+            job.pixels[place] = unpack(word, job.arena)
         return seen_count
-
-
-@dataclass(frozen=True, eq=False)
-class VertexBytes:
-    """Lit colours of M vertices as bytes, and what bounds the error of interpolating them."""
-
-    encoded: Floats
-    """(3, M) float64, 0 to 255, a row for each channel."""
-    products: list[tuple[int, Floats, Floats]]
-    """Channel, albedo (M,) and light (M,): where both vary, their product is not linear."""
-    is_opaque: bool
-    cut_off: Floats | None
-    """(M,) float64, what was cut off from linear colours brighter than 1 or darker than 0; ``None``: nothing was."""
 
 
 _last: list[tuple[Floats, str, VertexBytes]] = []
@@ -137,13 +104,14 @@ _last: list[tuple[Floats, str, VertexBytes]] = []
 camera gives the same array again."""
 
 
-def vertex_bytes(scene: AnyScene, values: CornerValues, settings: Settings, encoding: str) -> VertexBytes:
-    """Return the lit colours of the vertices whose ``values`` are given."""
+def vertex_bytes(job: Job) -> VertexBytes:
+    """Return the lit colours of the vertices."""
+    values, encoding = job.geometry.primitives.values, job.encoding
     for rows, of_encoding, known in _last:
         if rows is values.rows and of_encoding == encoding:
             return known
     mesh = np.zeros(len(values.rows), np.int64)
-    surface = shade_fragments(scene, settings, values.layout, mesh, values.rows)
+    surface = shade_fragments(job.scene, job.settings, values.layout, mesh, values.rows)
     unbounded = surface.color[:, :3].T
     linear = np.clip(unbounded, 0, 1)
     encoded = np.ascontiguousarray(255 * (srgb(linear) if encoding == "srgb" else linear))
@@ -161,17 +129,16 @@ def vertex_bytes(scene: AnyScene, values: CornerValues, settings: Settings, enco
     return made
 
 
-def byte_colors(
-    scene: AnyScene, geometry: Geometry, settings: Settings, encoding: str, center: float
-) -> ByteColors | None:
+def byte_colors(job: Job) -> ByteColors | None:
     """Return the colours of all primitives as bytes, or ``None`` where some pixel could be off by more than one."""
-    values = geometry.primitives.values
+    geometry, encoding = job.geometry, job.encoding
+    values, interpolation = geometry.primitives.values, job.settings.interpolation
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
-    if not is_lit_at_corners or has_texture(scene):
+    if not is_lit_at_corners or job.has_texture:
         return None
-    if settings.interpolation == "flat" or not geometry.is_projected.all():
+    if interpolation == "flat" or not geometry.is_projected.all():
         return None
-    vertices = vertex_bytes(scene, values, settings, encoding)
+    vertices = vertex_bytes(job)
     if not vertices.is_opaque:
         return None
     count = values.index.shape[1]
@@ -187,7 +154,7 @@ def byte_colors(
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":
         error += chord_error(low, spread)
-    if settings.interpolation == "perspective":
+    if interpolation == "perspective":
         error += perspective_error(geometry, spread.max(axis=0))
     drift = drift_error(geometry)
     error += drift
@@ -195,130 +162,8 @@ def byte_colors(
         return None
 
     x, y = geometry.window_x, geometry.window_y
-    second -= first
-    third -= first
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        share = 1 / geometry.doubled_area
-        dx1, dy1, dx2, dy2 = (side * share for side in (x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]))
-        across = second * dy2
-        across -= third * dy1
-        third *= dx1
-        second *= dx2
-        up = np.subtract(third, second, out=third)
-        steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
+    across, up = window_slopes(x, y, geometry.doubled_area, first, second, third)
+    steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
     if not steepest < STEEPEST:
         return None
-    return ByteColors(first, across, up, x[0], y[0], center)
-
-
-def chord_error(low: Floats, spread: Floats) -> Floats:
-    """Return how far (P,) interpolated sRGB bytes are from the sRGB bytes of interpolated light.
-
-    Parameters
-    ----------
-    low, spread : (3, P) float64
-        Least byte of a triangle's corners and greatest minus least, per channel.
-
-    Notes
-    -----
-    sRGB is concave; its chord over bytes s to s + d lies at most d^2 / (5 (s + d / 2) + 40) below it (tested).
-    """
-    gap: Floats = (spread * spread / (5 * low + 2.5 * spread + 40)).max(axis=0)
-    return gap
-
-
-def perspective_error(geometry: Geometry, spread: Floats) -> Floats:
-    """Return how far (P,) bytes that differ by ``spread`` (P,) are from those divided by w.
-
-    Notes
-    -----
-    For a ratio r of the greatest to the least w it is (sqrt r - 1) / (sqrt r + 1) of the spread, up to all of it
-    where the ratio is infinite.
-    """
-    w0, w1, w2 = (geometry.primitives.vertex_clip[3].take(index) for index in geometry.primitives.corner)
-    ratio = np.maximum(np.maximum(w0, w1), w2)
-    with np.errstate(over="ignore"):
-        ratio /= np.minimum(np.minimum(w0, w1), w2)
-    root = np.sqrt(ratio, out=ratio)
-    return np.asarray(spread * (1 - 2 / (root + 1)))
-
-
-def drift_error(geometry: Geometry) -> Floats:
-    """Return how far (P,) rounded steps may lead away from the plane, in bytes, in going from corner 0 to a pixel.
-
-    Notes
-    -----
-    While it is less than half a byte, a value from 0 to 255 never runs over into the next channel.
-    """
-    x, y = geometry.window_x, geometry.window_y
-    steps = np.maximum(np.abs(x[1] - x[0]), np.abs(x[2] - x[0]))
-    steps += np.maximum(np.abs(y[1] - y[0]), np.abs(y[2] - y[0]))
-    return np.asarray((steps + 2) * DRIFT)
-
-
-def cut_off_error(cut_off: Floats, index: Integers, low: Floats, spread: Floats, encoding: str) -> Floats:
-    """Return how far (P,) bytes cut off at the corners are from light that is interpolated and then cut off.
-
-    Parameters
-    ----------
-    cut_off : (M,) float64
-        What the vertices lost, in linear light.
-    index : (3, P) int64
-        The vertices of the corners.
-    low, spread : (3, P) float64
-        Least byte of the corners and greatest minus least, per channel.
-
-    Notes
-    -----
-    From a corner that lost e to one that is d below the limit, both are farthest apart where the limit is reached: by
-    e d / (e + d).
-    """
-    lost = np.maximum.reduce([cut_off.take(corner) for corner in index])
-    lost *= 255 if encoding == "linear" else _steepest_slope(low.min(axis=0))
-    below = spread.max(axis=0)
-    total = lost + below
-    total[total == 0] = 1
-    return np.asarray(lost * below / total)
-
-
-def product_error(vertices: VertexBytes, index: Integers, low: Floats, encoding: str) -> Floats:
-    """Return how far (P,) bytes are from the product of interpolated albedo and interpolated light.
-
-    Parameters
-    ----------
-    vertices : VertexBytes
-    index : (3, P) int64
-        The vertices of the corners.
-    low : (3, P) float64
-        Least byte of the corners, per channel.
-
-    Notes
-    -----
-    The product of two linear functions that vary by p and q is at most p q / 4 from linear; in bytes this is at most
-    255 times as much, times the slope of the encoding.
-    """
-    error = np.zeros(index.shape[1])
-    light_spread, known_light = error, None
-    for channel, albedo, light in vertices.products:
-        if known_light is None or not np.array_equal(light, known_light):
-            light_spread, known_light = _spread(light, index), light
-        product = _spread(albedo, index)
-        product *= light_spread
-        product *= 0.25 * 255 if encoding == "linear" else 0.25 * _steepest_slope(low[channel])
-        np.maximum(error, product, out=error)
-    return error
-
-
-def _spread(values: Floats, index: Integers) -> Floats:
-    """Return greatest minus least of the values (M,) at the corners (3, P): (P,)."""
-    first, second, third = (values.take(of) for of in index)
-    spread: Floats = np.maximum(np.maximum(first, second), third)
-    spread -= np.minimum(np.minimum(first, second), third)
-    return spread
-
-
-def _steepest_slope(byte: Floats) -> Floats:
-    """Return the bytes (P,) that sRGB rises by per unit of linear light above ``byte`` (P,), at most."""
-    power = 255 * 1.055 / 2.4 * np.float_power((byte / 255 + 0.055) / 1.055, -1.4)
-    slope: Floats = np.minimum(power, 255 * 12.92)
-    return slope
+    return ByteColors(first, across, up, x[0], y[0], job.raster.center)

@@ -1,76 +1,35 @@
 """Deferred colour: attributes and light once for every visible pixel, by the rules of every other picture."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from core.arrays import Integers
 from core.fragments.interpolation import Interpolator
-from core.frame import StageCount
-from core.framebuffer.display import encode_linear, write_pixels
 from core.framebuffer.nearest import NearestFragments
-from core.geometry_stages import Geometry, timed
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
-from core.scene import AnyScene
-from core.settings import Settings
+from core.picture.job import BLOCK, Job
 from core.surface import shade_fragments
 
-BLOCK = 1 << 15
-"""Pixels that are shaded together: their numbers stay in the processor's cache."""
 
-Words = NDArray[np.uint32]
-
-
-def shade_visible(
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    nearest: NearestFragments,
-    encoding: str,
-    pixels: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> int:
-    """Write the bytes of all pixels that something is seen at, (H*W,) uint32; return how many there are.
-
-    The others keep what they have: the background.
-    """
-    with timed(counts["interpolate"]):
-        values = geometry.primitives.values
-        interpolator = Interpolator(geometry.planes, values, settings.interpolation, settings.provoking)
+def shade_visible(job: Job, nearest: NearestFragments) -> int:
+    """Write the pixels that something is seen at, and return how many there are; the others keep what they have."""
+    primitives, raster = job.geometry.primitives, job.raster
+    with job.timed("interpolate"):
+        interpolator = Interpolator(
+            job.geometry.planes, primitives.values, job.settings.interpolation, job.settings.provoking
+        )
     seen_count = 0
-    for first in range(0, len(pixels), BLOCK):
-        part = slice(first, first + BLOCK)
-        with timed(counts["depth"]):
-            place, primitive = nearest.seen_in(part)
+    for first in range(0, len(job.pixels), BLOCK):
+        with job.timed("depth"):
+            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
         if not len(place):
             continue
         seen_count += len(place)
-        with timed(counts["interpolate"]):
-            column, row = raster.position(np.add(place, first))
-            x, y = raster.centers(column, row)
-            rows = arena("values", interpolator.value_count, len(place))
-            interpolated = interpolator.values(primitive, x, y, rows)
-        with timed(counts["shade"]):
-            mesh = _mesh_of(geometry, primitive)
-            color = shade_fragments(scene, settings, values.layout, mesh, interpolated).color
-        with timed(counts["resolve"]):
-            pixels[part][place] = encode(color, encoding)
+        place += first
+        with job.timed("interpolate"):
+            x, y = raster.centers(*raster.position(place))
+            rows = job.arena("values", interpolator.value_count, len(place))
+            values = interpolator.values(primitive, x, y, rows)
+        with job.timed("shade"):
+            mesh = primitives.mesh.take(primitive)
+            color = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values).color
+        with job.timed("resolve"):
+            job.pixels[place] = job.encode(np.asarray(color))
     return seen_count
-
-
-def _mesh_of(geometry: Geometry, primitive: Integers) -> Integers:
-    return geometry.primitives.mesh.take(primitive)
-
-
-def encode(color: np.ndarray, encoding: str) -> Words:
-    """Return the bytes of linear colours (F, 4), a word each, red lowest: ``srgb`` or ``linear``."""
-    with np.errstate(over="ignore"):
-        single = np.ascontiguousarray(color, np.float32)
-    if encoding == "linear":
-        encoded = encode_linear(single)
-    else:
-        encoded = np.empty(single.shape, np.uint8)
-        write_pixels(single, encoded)
-    return encoded.view(np.uint32).reshape(-1)

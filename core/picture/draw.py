@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
-from core.geometry_stages import Geometry, process_geometry, timed
+from core.geometry_stages import process_geometry
 from core.methods import table
 from core.picture.blended import draw_blended
 from core.picture.byte_colors import byte_colors
 from core.picture.cleared import all_pass_depth_test
-from core.picture.deferred import encode, shade_visible
+from core.picture.deferred import shade_visible
+from core.picture.job import Job, Words, encode
 from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
 from core.picture.palette import PaletteColors, palette
@@ -26,10 +27,11 @@ from core.raster.schedule import Raster, make_raster
 from core.raster.spans.arena import Arena
 from core.scene import AnyScene, ClipScene, Mesh
 from core.settings import Settings
+from core.timing import timed
+
+Colors = LayerColors | LitNormals
 
 ENCODINGS = ("srgb", "linear")
-
-Words = NDArray[np.uint32]
 
 FEW = 16
 """Triangles: so few are tried without depth, since it costs little."""
@@ -77,8 +79,10 @@ def draw_picture(
 
     Notes
     -----
-    The bytes are those of `render` and `to_display`; where corner colours are interpolated as bytes (see `Route`), up
-    to one away from them.
+    The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
+    `Route` has the colours ``palette`` or ``deferred``; with ``bytes`` and ``normals`` they are up to one away, with
+    ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay between those of
+    the corners, where `render` extrapolates.
     """
     settings = settings or Settings()
     raster = make_raster(scene.size, settings.pixel_center, region)
@@ -92,105 +96,77 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
-        frame = draw(scene, settings, raster)
-        with timed(frame.statistics["resolve"]):
-            pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
-        route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
-        return Picture(_bytes(pixels, raster), frame.depth, frame.statistics, route)
-
-    geometry = process_geometry(scene, settings, counts)
+    geometry = process_geometry(scene, settings, counts) if is_drawn_by_spans(settings) else None
+    if geometry is None or (settings.blend != "opaque" and with_depth):
+        return _draw_frame(scene, settings, raster, encoding, pixels)
+    job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
     depth = None
     if settings.blend != "opaque":
-        route = _draw_stacks(scene, geometry, settings, raster, encoding, pixels, counts, arena)
+        route = _draw_stacks(job)
     else:
-        colors = _choose_colors(scene, geometry, settings, raster, encoding, counts)
-        background = encode(scene.background[None], encoding)[0]
-        fragments = None
-        if (
-            isinstance(colors, LayerColors)
-            and colors.fits_layer
-            and not with_depth
-            and _may_be_one_layer(scene, geometry, settings)
-        ):
-            fragments = draw_layer(geometry, colors, settings, raster, background, pixels, counts, arena)
-            if fragments is None:
-                _overlaps[_key(scene)] = True
-        if fragments is not None and colors is not None:
-            split = Split(len(geometry.primitives), 0, 0, fragments)
-            route = Route("layer", colors.name, split, fragments)
+        colors = _choose_colors(job)
+        layer = None if with_depth else _draw_layer(job, colors)
+        if layer is None:
+            nearest, route = _draw_visible(job, colors)
+            depth = read_only(nearest.depth().reshape(raster.shape)) if with_depth else None
         else:
-            nearest, split = find_visible(geometry, settings, raster, counts, arena)
-            with timed(counts["resolve"]):
-                pixels.fill(background)
-            visible = _color_visible(
-                scene, geometry, settings, raster, nearest, colors, encoding, pixels, counts, arena
-            )
-            route = Route("words", colors.name if colors else "deferred", split, visible)
-            if with_depth:
-                with timed(counts["resolve"]):
-                    depth = read_only(nearest.depth().reshape(raster.shape))
+            route = layer
     _count(counts, route, len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
 
-def _draw_stacks(
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    encoding: str,
-    pixels: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> Route:
+def _draw_frame(scene: AnyScene, settings: Settings, raster: Raster, encoding: str, pixels: Words) -> Picture:
+    """Draw all buffers, and encode the colours."""
+    frame = draw(scene, settings, raster)
+    with timed(frame.statistics["resolve"]):
+        pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
+    route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
+    return Picture(_bytes(pixels, raster), frame.depth, frame.statistics, route)
+
+
+def _draw_stacks(job: Job) -> Route:
     """Draw every fragment in its turn."""
-    with timed(counts["shade"]):
-        of_triangles = palette(scene, geometry, settings)
-    blended, split = draw_blended(scene, geometry, settings, raster, of_triangles, counts, arena)
-    with timed(counts["resolve"]):
-        pixels[:] = encode(blended, encoding)
+    with job.timed("shade"):
+        of_triangles = palette(job)
+    split = draw_blended(job, of_triangles)
     return Route("stacks", "deferred" if of_triangles is None else "palette", split, split.fragments)
 
 
-def _color_visible(
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    nearest: NearestFragments,
-    colors: LayerColors | LitNormals | None,
-    encoding: str,
-    pixels: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> int:
-    """Write the colours of what is seen over the background; return how many pixels that is."""
+def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
+    """Draw without depth, if that can be right; ``None``: it is not."""
+    if (
+        colors is None
+        or isinstance(colors, LitNormals)
+        or not colors.fits_layer
+        or not _may_be_one_layer(job)
+    ):
+        return None
+    fragments = draw_layer(job, colors)
+    if fragments is None:
+        _overlaps[_key(job.scene)] = True
+        return None
+    return Route("layer", colors.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
+
+
+def _draw_visible(job: Job, colors: Colors | None) -> tuple[NearestFragments, Route]:
+    """Find what is seen, then colour it."""
+    nearest, split = find_visible(job)
+    with job.timed("resolve"):
+        job.pixels.fill(job.background)
     if colors is None:
-        return shade_visible(scene, geometry, settings, raster, nearest, encoding, pixels, counts, arena)
-    with timed(counts[colors.stage]):
-        return colors.look_up(nearest, raster, pixels, arena)
+        return nearest, Route("words", "deferred", split, shade_visible(job, nearest))
+    with job.timed(colors.stage):
+        return nearest, Route("words", colors.name, split, colors.look_up(job, nearest))
 
 
-def _choose_colors(
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    encoding: str,
-    counts: dict[str, StageCount],
-) -> LayerColors | LitNormals | None:
+def _choose_colors(job: Job) -> Colors | None:
     """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
-    with timed(counts["shade"]):
-        of_triangles = palette(scene, geometry, settings)
+    with job.timed("shade"):
+        of_triangles = palette(job)
         if of_triangles is not None:
-            return PaletteColors(encode(of_triangles, encoding))
-    with timed(counts["interpolate"]):
-        return (
-            byte_colors(scene, geometry, settings, encoding, raster.center)
-            or lit_normals(scene, geometry, settings, encoding, raster.center)
-            or texture_colors(scene, geometry, settings, encoding)
-        )
+            return PaletteColors(job.encode(of_triangles))
+    with job.timed("interpolate"):
+        return byte_colors(job) or lit_normals(job) or texture_colors(job)
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
@@ -203,16 +179,17 @@ def _key(scene: AnyScene) -> Mesh | ClipScene:
     return scene if isinstance(scene, ClipScene) else scene.meshes[0]
 
 
-def _may_be_one_layer(scene: AnyScene, geometry: Geometry, settings: Settings) -> bool:
+def _may_be_one_layer(job: Job) -> bool:
     """Tell whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
+    geometry, scene = job.geometry, job.scene
     if not (geometry.is_projected.all() and geometry.is_in_range.all()):
         return False
-    is_likely = len(geometry.primitives) <= FEW or (
-        settings.cull != "none" and not isinstance(scene, ClipScene)
-    )
-    if len(geometry.primitives) > 1 and (not is_likely or _key(scene) in _overlaps):
+    count = len(geometry.primitives)
+    is_likely = count <= FEW or (job.settings.cull != "none" and not isinstance(scene, ClipScene))
+    if count > 1 and (not is_likely or _key(scene) in _overlaps):
         return False
-    return all_pass_depth_test(geometry, table.get("depth", settings.depth).function())
+    with job.timed("depth"):
+        return all_pass_depth_test(geometry, job.depth_format)
 
 
 def _count(counts: dict[str, StageCount], route: Route, pixel_count: int) -> None:

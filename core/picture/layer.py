@@ -6,118 +6,78 @@ again with depth. The surface of a convex solid without its back faces is a sing
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.arrays import Flags, Integers
-from core.frame import StageCount
-from core.geometry_stages import Geometry, timed
 from core.picture.byte_colors import ByteColors
 from core.picture.byte_words import unpack
+from core.picture.job import Job, Words
 from core.picture.palette import PaletteColors
 from core.picture.textured import TextureColors
-from core.picture.visible import chunks, lanes_of
+from core.picture.visible import chunks
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
 from core.raster.spans.bands import BIG_AREA, bands, spans_by_row
-from core.raster.spans.lanes import tie_owners
 from core.raster.spans.packed import FEW, WordSpans, word_spans, write_out
-from core.settings import Settings
 
-Words = NDArray[np.uint32]
 LayerColors = PaletteColors | ByteColors | TextureColors
 
 
-def draw_layer(
-    geometry: Geometry,
-    colors: LayerColors,
-    settings: Settings,
-    raster: Raster,
-    background: np.uint32,
-    pixels: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> int | None:
+def draw_layer(job: Job, colors: LayerColors) -> int | None:
     """Draw all primitives over the background; return how many fragments there are, ``None`` if they overlap.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        All corners projected, all triangles between the near and the far plane.
-    colors : PaletteColors, ByteColors or TextureColors
-        No pixel that they give is 0.
-    pixels : (H*W,) uint32
-        Is written.
+    All corners are projected, and every fragment would pass the depth test; no pixel that ``colors`` give is 0.
     """
+    geometry, pixels = job.geometry, job.pixels
     is_checked = len(geometry.primitives) > 1
-    with timed(counts["resolve"]):
-        pixels.fill(0 if is_checked else background)
-    is_big: Flags = np.abs(geometry.doubled_area) > 2 * BIG_AREA
+    with job.timed("resolve"):
+        pixels.fill(0 if is_checked else job.background)
     if isinstance(colors, TextureColors):
-        is_big[:] = True
+        is_big: Flags = np.ones(len(geometry.primitives), bool)
         fragments = 0
     else:
-        fragments = _write_small(geometry, colors, ~is_big, settings, raster, pixels, counts, arena)
-    image = pixels.reshape(raster.shape)
+        is_big = np.abs(geometry.doubled_area) > 2 * BIG_AREA
+        fragments = _write_small(job, colors, ~is_big)
     for triangle in np.flatnonzero(is_big).tolist():
-        fragments += draw_bands(geometry, colors, triangle, settings, raster, image, counts, arena)
+        fragments += _write_big(job, colors, triangle)
     if is_checked:
-        with timed(counts["resolve"]):
+        with job.timed("resolve"):
             if int(np.count_nonzero(pixels)) != fragments:
                 return None
-            np.copyto(pixels, background, where=pixels == 0)
+            np.copyto(pixels, job.background, where=pixels == 0)
     return fragments
 
 
-def _write_small(
-    geometry: Geometry,
-    colors: PaletteColors | ByteColors,
-    chosen: Flags,
-    settings: Settings,
-    raster: Raster,
-    pixels: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> int:
+def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) -> int:
     """Write the ``chosen`` (P,) triangles along their spans; return how many pixels they have."""
     if not chosen.any():
         return 0
-    owners, fragments = tie_owners(settings.fill_rule), 0
-    with timed(counts["interpolate"]):
+    fragments = 0
+    with job.timed("interpolate"):
         planes = colors.packed()
-    for first, end in chunks(len(geometry.primitives)):
-        with timed(counts["bin"]):
-            lanes = lanes_of(geometry, first, end, chosen, raster, owners, arena)
-        with timed(counts["raster"]):
-            spans = word_spans(planes.part(first, end), lanes, raster, owners, arena)
+    for first, end in chunks(len(job.geometry.primitives)):
+        with job.timed("bin"):
+            lanes = job.lanes(first, end, chosen)
+        with job.timed("raster"):
+            spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
             fragments += spans.pixel_count
-        with timed(counts["shade"]):
-            write_words(pixels, spans, arena)
+        with job.timed("shade"):
+            write_words(job.pixels, spans, job.arena)
     return fragments
 
 
-def draw_bands(
-    geometry: Geometry,
-    colors: LayerColors,
-    triangle: int,
-    settings: Settings,
-    raster: Raster,
-    image: Words,
-    counts: dict[str, StageCount],
-    arena: Arena,
-) -> int:
-    """Write the pixels of one triangle to ``image`` (H, W) uint32; return how many it has."""
-    owners = tie_owners(settings.fill_rule)
-    with timed(counts["bin"]):
-        lanes = lanes_of(geometry, triangle, triangle + 1, None, raster, owners, arena)
+def _write_big(job: Job, colors: LayerColors, triangle: int) -> int:
+    """Write the pixels of one triangle; return how many it has."""
+    image = job.pixels.reshape(job.raster.shape)
+    with job.timed("bin"):
+        lanes = job.lanes(triangle, triangle + 1)
     if isinstance(colors, PaletteColors):
-        with timed(counts["shade"]):
-            return fill_rows(
-                image, *spans_by_row(lanes, raster, owners, arena), colors.words[triangle], raster
-            )
+        with job.timed("shade"):
+            rows = spans_by_row(lanes, job.raster, job.owners, job.arena)
+            return fill_rows(image, *rows, colors.words[triangle], job.raster)
     fragments = 0
-    with timed(counts["shade"]):
-        for band in bands(lanes, raster, owners, arena):
-            block = colors.block(triangle, band, raster, arena)
+    with job.timed("shade"):
+        for band in bands(lanes, job.raster, job.owners, job.arena):
+            block = colors.block(job, triangle, band)
             there = image[band.rows, band.columns]
             first, end = 0, block.shape[1]
             for columns, outside in band.outside():

@@ -12,20 +12,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.arrays import Floats, Integers, Singles, read_only
+from core.framebuffer.display import encode_linear, encode_srgb
 from core.framebuffer.nearest import NearestFragments
 from core.geometry.matrices import world_to_camera
-from core.geometry_stages import Geometry
-from core.picture.deferred import encode
-from core.raster.schedule import Raster
+from core.geometry_record import Geometry
+from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
+from core.picture.job import BLOCK, Job, Words
 from core.raster.spans.arena import Arena
-from core.raster.spans.packed import PackedPlanes
-from core.scene import AnyScene, Camera, DirectionalLight, Material, Scene
-from core.settings import Settings
-
-Words = NDArray[np.uint32]
+from core.scene import Camera, DirectionalLight, Material, Scene
 
 TOLERANCE = 1.0
 """Bytes that a colour may be away from the exact one before both are rounded."""
@@ -39,69 +35,48 @@ ALIKE = 0.2
 """Least cosine between the normals of a triangle: with less, those between them become too short."""
 RATIO = 2.0
 """Largest ratio of w within a triangle, likewise."""
+STEEPEST = 2.0**60
+"""Units of a component a pixel; steeper planes are seen edge-on."""
 LEVELS = 1 << 14
 """Linear colours that are told apart."""
-BLOCK = 1 << 15
-"""Pixels that are shaded together: their numbers stay in the processor's cache."""
 
 
 @dataclass(frozen=True, eq=False)
 class LitNormals:
     """Normals of P triangles in camera space, packed, and what lights them."""
 
-    planes: PackedPlanes
+    planes: IntegerPlanes
     material: Material
     albedo: tuple[float, ...]
     """Linear red, green and blue of everything."""
     lights: tuple[tuple[Singles, tuple[float, ...]], ...]
     """Per light the unit direction to it in camera space, (3,) float32, and its colour."""
     camera: Camera
-    size: tuple[int, int]
-    encoding: str
     name = "normals"
     stage = "shade"
 
-    def look_up(self, nearest: NearestFragments, raster: Raster, pixels: Words, arena: Arena) -> int:
-        """Write the lit colour of what is seen at every pixel (H*W,) uint32; return how many there are.
-
-        The others keep what they have: the background.
-        """
-        width = raster.shape[1]
-        rows = max(BLOCK // width, 1)
-        column_of, row_of = (np.tile(np.arange(width), rows), np.repeat(np.arange(rows), width))
-        first_column, first_row, _, _ = raster.bounds
-        column_of += first_column
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
         seen_count = 0
-        for first in range(0, len(pixels), rows * width):
-            place, primitive = nearest.seen_in(slice(first, first + rows * width))
+        for first in range(0, len(job.pixels), BLOCK):
+            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
             if not len(place):
                 continue
             seen_count += len(place)
-            column, row, word, part = (
-                arena(f"normal_{name}", len(place), dtype=np.int64)
-                for name in ("column", "row", "word", "part")
-            )
-            column_of.take(place, out=column, mode="clip")
-            row_of.take(place, out=row, mode="clip")
-            row += first_row + first // width
-            self.planes.origin.take(primitive, out=word, mode="clip")
-            for along, change in ((column, self.planes.across), (row, self.planes.up)):
-                change.take(primitive, out=part, mode="clip")
-                part *= along
-                word += part
-            normal = _unit(_components(word, arena), arena)
-            to_eye = self._to_eye(column, row, raster.center, arena)
             place += first
-            pixels[place] = self._light(normal, to_eye, arena)
+            column, row = job.raster.position(place)
+            word = self.planes.at(primitive, column, row)
+            normal = _unit(_components(word, job.arena), job.arena)
+            job.pixels[place] = self._light(job, normal, self._to_eye(job, column, row))
         return seen_count
 
-    def _to_eye(self, column: Integers, row: Integers, center: float, arena: Arena) -> Singles:
+    def _to_eye(self, job: Job, column: Integers, row: Integers) -> Singles:
         """Return the unit directions (3, F) float32 from pixels to the eye, in camera space."""
-        direction = arena("to_eye", 3, len(column), dtype=np.float32)
+        direction: Singles = job.arena("to_eye", 3, len(column), dtype=np.float32)
         if self.camera.projection == "orthographic":
             direction[:2], direction[2] = 0, 1
             return direction
-        width, height = self.size
+        (width, height), center = job.scene.size, job.raster.center
         half_height = float(np.tan(self.camera.field_of_view / 2))
         pixel = np.float32(2 * half_height / height)
         np.copyto(direction[0], column, casting="unsafe")
@@ -110,12 +85,11 @@ class LitNormals:
         direction[1] -= np.float32(height / 2 - center)
         direction[:2] *= -pixel
         direction[2] = 1
-        return _unit(direction, arena)
+        return _unit(direction, job.arena)
 
-    def _light(self, normal: Singles, to_eye: Singles, arena: Arena) -> Words:
+    def _light(self, job: Job, normal: Singles, to_eye: Singles) -> Words:
         """Return the pixels (F,) uint32 of points with unit normals and directions (3, F)."""
-        count = normal.shape[1]
-        material = self.material
+        arena, material, count = job.arena, self.material, normal.shape[1]
         is_gray = all(len(set(color)) == 1 for _, color in self.lights)
         channels = 1 if is_gray else 3
         diffuse, specular = (arena(f"light_{name}", channels, count, dtype=np.float32) for name in ("d", "s"))
@@ -133,7 +107,7 @@ class LitNormals:
                 if material.specular:
                     np.multiply(power, np.float32(material.specular * color[channel]), out=product)
                     specular[channel] += product
-        return self._bytes(diffuse, specular, arena)
+        return self._bytes(job, diffuse, specular)
 
     def _terms(
         self, normal: Singles, to_eye: Singles, to_light: Singles, arena: Arena
@@ -153,14 +127,14 @@ class LitNormals:
         np.maximum(cosine, np.float32(0), out=cosine)
         return cosine, power
 
-    def _bytes(self, diffuse: Singles, specular: Singles, arena: Arena) -> Words:
+    def _bytes(self, job: Job, diffuse: Singles, specular: Singles) -> Words:
         """Return the pixels (F,) uint32 of diffuse and specular light (1 or 3, F); the light is used up."""
-        count = diffuse.shape[1]
+        arena, count = job.arena, diffuse.shape[1]
         is_gray = len(diffuse) == 1 and len(set(self.albedo)) == 1
         level = arena("level", count, dtype=np.float32)
         index = arena("level_index", count, dtype=np.int64)
         pixels, byte = (arena(f"level_{name}", count, dtype=np.uint32) for name in ("pixels", "byte"))
-        tables = level_words(self.encoding)
+        tables = level_words(job.encoding)
         for channel in range(1 if is_gray else 3):
             source = min(channel, len(diffuse) - 1)
             np.multiply(diffuse[source], np.float32(self.albedo[channel]), out=level)
@@ -179,13 +153,11 @@ class LitNormals:
 @lru_cache(maxsize=2)
 def level_words(encoding: str) -> tuple[Words, Words, Words, Words]:
     """Return for every one of (16384,) linear levels its red, green, blue and grey pixel, uint32; red has the alpha."""
-    linear = np.zeros((LEVELS, 4))
-    linear[:, :3] = np.linspace(0, 1, LEVELS)[:, None]
-    linear[:, 3] = 1
-    grey = encode(linear, encoding)
-    masks = (0xFF0000FF, 0x0000FF00, 0x00FF0000, 0xFFFFFFFF)
-    red, green, blue, all_of_it = (read_only(grey & np.uint32(mask)) for mask in masks)
-    return red, green, blue, all_of_it
+    level = np.linspace(0, 1, LEVELS).astype(np.float32)
+    byte = (encode_linear(level) if encoding == "linear" else encode_srgb(level)).astype(np.uint32)
+    opaque = np.uint32(0xFF000000)
+    red, green, blue = byte | opaque, byte << np.uint32(8), byte << np.uint32(16)
+    return read_only(red), read_only(green), read_only(blue), read_only(red | green | blue)
 
 
 def _components(word: Integers, arena: Arena) -> Singles:
@@ -220,13 +192,12 @@ def _unit(vectors: Singles, arena: Arena) -> Singles:
     return vectors
 
 
-def lit_normals(
-    scene: AnyScene, geometry: Geometry, settings: Settings, encoding: str, center: float
-) -> LitNormals | None:
+def lit_normals(job: Job) -> LitNormals | None:
     """Return the lit normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
     The scene is one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
     """
+    scene, geometry, settings = job.scene, job.geometry, job.settings
     if not isinstance(scene, Scene) or settings.shading != "phong" or len(scene.meshes) != 1:
         return None
     mesh = scene.meshes[0]
@@ -251,7 +222,7 @@ def lit_normals(
         for light in scene.lights
         if isinstance(light, DirectionalLight)
     )
-    error = error_bound(geometry, scene, albedo, encoding)
+    error = error_bound(geometry, scene, albedo, job.encoding)
     if not (
         min(float(of.min(initial=1)) for of in alike) >= ALIKE
         and float((greatest / least).max(initial=1)) <= RATIO
@@ -260,10 +231,8 @@ def lit_normals(
         return None
     for corner, of_corner in zip(corners, w, strict=True):
         corner *= least / of_corner
-    planes = _pack(geometry, corners, center)
-    if planes is None:
-        return None
-    return LitNormals(planes, mesh.material, albedo, lights, scene.camera, scene.size, encoding)
+    planes = _pack(geometry, corners, job.raster.center)
+    return None if planes is None else LitNormals(planes, mesh.material, albedo, lights, scene.camera)
 
 
 def _cosine(a: Floats, b: Floats) -> Floats:
@@ -308,27 +277,14 @@ def _slope(linear: float, encoding: str) -> float:
     return float(255 * 1.055 / 2.4 * linear ** (1 / 2.4 - 1))
 
 
-def _pack(geometry: Geometry, corners: list[Floats], center: float) -> PackedPlanes | None:
+def _pack(geometry: Geometry, corners: list[Floats], center: float) -> IntegerPlanes | None:
     """Return the words of normals at the three corners, each (3, P) float64; ``None``: one is too steep."""
-    x, y = geometry.window_x, geometry.window_y
-    count = x.shape[1]
-    unit = 2.0**BITS
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        share = unit / geometry.doubled_area
-        dx1, dy1, dx2, dy2 = (side * share for side in (x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]))
-    column, row = np.floor(x[0]), np.floor(y[0])
-    right, above = column + center - x[0], row + center - y[0]
-    origin, across, up = np.zeros((3, count), np.int64)
-    for axis in range(3):
-        first, second, third = (corner[axis] for corner in corners)
-        second = second - first
-        third = third - first
-        step, rise = np.rint(second * dy2 - third * dy1), np.rint(third * dx1 - second * dx2)
-        if not max(float(np.abs(step).max(initial=0)), float(np.abs(rise).max(initial=0))) < 2.0**60:
-            return None
-        at_pixel = np.rint((first + OFFSET) * unit + (right * step + above * rise))
-        for word, field in ((origin, at_pixel), (across, step), (up, rise)):
-            word += field.astype(np.int64) << (FIELD * axis)
-    origin -= column.astype(np.int64) * across
-    origin -= row.astype(np.int64) * up
-    return PackedPlanes(origin, across, up)
+    x, y, unit = geometry.window_x, geometry.window_y, 2.0**BITS
+    across, up = window_slopes(x, y, geometry.doubled_area, *(corner * unit for corner in corners))
+    if not max(float(np.abs(across).max(initial=0)), float(np.abs(up).max(initial=0))) < STEEPEST:
+        return None
+    fields = [
+        FieldPlane((corners[0][axis] + OFFSET) * unit, across[axis], up[axis], FIELD * axis)
+        for axis in range(3)
+    ]
+    return integer_planes(x[0], y[0], center, fields)

@@ -4,27 +4,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.framebuffer.nearest import NearestFragments
-from core.geometry_stages import Geometry
+from core.integer_planes import IntegerPlanes
 from core.picture.byte_words import OPAQUE, pack_level
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
-from core.raster.spans.bands import Band
-from core.raster.spans.packed import PackedPlanes
-from core.scene import AnyScene, ClipScene, Scene
-from core.settings import Settings
+from core.picture.job import BLOCK, Job, Words
+from core.scene import ClipScene, Scene
 from core.surface import shade_fragments
 
-Words = NDArray[np.uint32]
 
-BLOCK = 1 << 15
-"""Pixels that are looked up together: their numbers stay in the processor's cache."""
-
-
-def palette(scene: AnyScene, geometry: Geometry, settings: Settings) -> Floats | None:
+def palette(job: Job) -> Floats | None:
     """Return the linear colour of every primitive, (P, 4) float64, or ``None`` where its pixels differ.
 
     Notes
@@ -32,7 +22,8 @@ def palette(scene: AnyScene, geometry: Geometry, settings: Settings) -> Floats |
     The corners of a triangle agree in all that is interpolated, so its pixels agree, to the rounding of the weights'
     sum: the colour is that of a corner.
     """
-    if has_texture(scene) or (isinstance(scene, Scene) and settings.shading == "phong"):
+    scene, geometry = job.scene, job.geometry
+    if job.has_texture or (isinstance(scene, Scene) and job.settings.shading == "phong"):
         return None
     values = geometry.primitives.values
     first, second, third = values.index
@@ -42,7 +33,7 @@ def palette(scene: AnyScene, geometry: Geometry, settings: Settings) -> Floats |
             if not (np.array_equal(first, other) or np.array_equal(given, values.rows.take(other, axis=0))):
                 return None
     mesh = geometry.primitives.mesh
-    color: Floats = shade_fragments(scene, settings, values.layout, mesh, given).color
+    color: Floats = shade_fragments(scene, job.settings, values.layout, mesh, given).color
     return color
 
 
@@ -51,13 +42,6 @@ def _is_flat(scene: ClipScene) -> bool:
     """Tell whether the corners of every triangle have the same values."""
     assert scene.attributes is not None
     return all(np.array_equal(scene.attributes[:, 0], scene.attributes[:, corner]) for corner in (1, 2))
-
-
-def has_texture(scene: AnyScene) -> bool:
-    """Tell whether anything in the scene has a texture."""
-    if isinstance(scene, ClipScene):
-        return scene.texture is not None
-    return any(mesh.texture is not None for mesh in scene.meshes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,28 +58,25 @@ class PaletteColors:
         """Whether all are opaque, so that a pixel that is drawn is never 0."""
         return not bool((self.words < OPAQUE).any())
 
-    def packed(self) -> PackedPlanes:
+    def packed(self) -> IntegerPlanes:
         """Return the colours as words that are the same all over the window."""
         level = np.zeros(len(self.words), np.int64)
-        return PackedPlanes(pack_level(self.words), level, level)
+        return IntegerPlanes(pack_level(self.words), level, level)
 
-    def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Words:
-        """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
-        return np.broadcast_to(self.words[triangle], (len(band.row), len(band.column)))
-
-    def look_up(self, nearest: NearestFragments, raster: Raster, pixels: Words, arena: Arena) -> int:
-        """Write the colour of the triangle seen at every pixel (H*W,); return how many are seen.
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the colour of the triangle seen at every pixel; return how many are seen.
 
         Notes
         -----
         The low bits of a word are the number of the triangle plus one, and 0 where nothing was drawn: an index as it
-        is into a table that begins with the background, which ``pixels`` holds.
+        is into a table that begins with the background, which the picture holds.
         """
-        table = np.concatenate([pixels[:1], self.words])
+        table = np.concatenate([job.pixels[:1], self.words])
         seen_count = 0
-        for first in range(0, len(pixels), BLOCK):
+        for first in range(0, len(job.pixels), BLOCK):
             part = slice(first, first + BLOCK)
-            index = nearest.number_in(part, arena("palette_index", len(pixels[part]), dtype=np.int64))
-            table.take(index, out=pixels[part], mode="clip")
+            pixels = job.pixels[part]
+            index = nearest.number_in(part, job.arena("palette_index", len(pixels), dtype=np.int64))
+            table.take(index, out=pixels, mode="clip")
             seen_count += int(np.count_nonzero(index))
         return seen_count

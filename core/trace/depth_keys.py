@@ -32,11 +32,10 @@ def plane_columns(source: TraceSource) -> dict[str, np.ndarray]:
     if isinstance(fragments, LineFragments):
         nothing = np.zeros(len(fragments), np.int64)
         return {"origin": nothing, "across": nothing, "up": nothing, "is_linear": nothing > 0}
-    planes: FixedPlanes = source.geometry.fixed_planes
-    return {
-        name: getattr(planes, name).take(fragments.primitive)
-        for name in ("origin", "across", "up", "is_linear")
-    }
+    fixed: FixedPlanes = source.geometry.fixed_planes
+    columns = {name: getattr(fixed.planes, name) for name in ("origin", "across", "up")}
+    columns["is_linear"] = fixed.is_linear
+    return {name: values.take(fragments.primitive) for name, values in columns.items()}
 
 
 def key_columns(source: TraceSource) -> dict[str, np.ndarray]:

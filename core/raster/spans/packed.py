@@ -4,9 +4,8 @@ A word has the depth above (``fixed_depth``: 39 bits) and 24 bits for the number
 least word of a pixel is its nearest fragment and, of equally near ones, the triangle that was drawn first:
 ``numpy.minimum`` is the depth test.
 
-The word at (column, row) is ``origin + column * across + row * up``. Integers wrap at 2^64 without losing anything,
-so whatever the origin and the steps are, the word is exact wherever the depth itself fits; walking it pixel by
-pixel, row by row, or computing it at once gives the same bits.
+Words are integer planes (``core.integer_planes``): walking one pixel by pixel, row by row, or computing it at once
+gives the same bits.
 """
 
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Integers
+from core.integer_planes import IntegerPlanes
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
 from core.raster.spans.bands import Band
@@ -22,31 +22,6 @@ from core.raster.spans.rows import Carried, Spans, walk_rows
 
 FEW = 96
 """Spans: below this the rest of them is written out pixel by pixel, since a pass costs as much as for thousands."""
-
-
-@dataclass(frozen=True, eq=False)
-class PackedPlanes:
-    """Words of P triangles over the window."""
-
-    origin: Integers
-    """(P,) int64, word at column 0, row 0."""
-    across: Integers
-    """(P,) int64, change per column."""
-    up: Integers
-    """(P,) int64, change per row."""
-
-    def part(self, first: int, end: int) -> "PackedPlanes":
-        """Return the planes of triangles ``first`` to ``end``."""
-        at = slice(first, end)
-        return PackedPlanes(self.origin[at], self.across[at], self.up[at])
-
-    def block(self, triangle: int, band: Band, arena: Arena) -> Integers:
-        """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
-        ramp = band.column * self.across[triangle]
-        of_row = self.origin[triangle] + band.row * self.up[triangle]
-        block = arena("word_block", len(of_row), len(ramp), dtype=np.int64)
-        np.add(ramp, of_row[:, None], out=block)
-        return block
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +50,7 @@ def place_of_origin(raster: Raster) -> int:
 
 
 def word_spans(
-    planes: PackedPlanes, lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
+    planes: IntegerPlanes, lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
 ) -> WordSpans:
     """Walk the rows of all lanes and return their spans with the words to start from."""
     count = len(lanes.triangle)
@@ -160,3 +135,12 @@ def write_out(longer: list[int]) -> tuple[Integers, Integers]:
     length = len(longer) - np.searchsorted(longer[::-1], np.arange(count), side="right")
     span = np.repeat(np.arange(count), length)
     return span, np.arange(len(span)) - np.repeat(np.cumsum(length) - length, length)
+
+
+def word_block(planes: IntegerPlanes, triangle: int, band: Band, arena: Arena) -> Integers:
+    """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
+    ramp = band.column * planes.across[triangle]
+    of_row = planes.origin[triangle] + band.row * planes.up[triangle]
+    block = arena("word_block", len(of_row), len(ramp), dtype=np.int64)
+    np.add(ramp, of_row[:, None], out=block)
+    return block

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, render
-from core.framebuffer.fixed_depth import DEPTH_BITS, SCALE, SLACK, fixed_value, set_up_fixed_planes
+from core.framebuffer.fixed_depth import DEPTH_BITS, SCALE, SLACK, set_up_fixed_planes
 from core.methods import table
 from tests.core.drawing import TESTING_FILLS
 from tests.core.meshes import clip_of_view, icosphere, random_rotation
@@ -69,7 +69,7 @@ def assert_within_the_bound(corners: np.ndarray, depth: np.ndarray, size: tuple[
         if not planes.is_linear[triangle]:
             continue
         where = (np.array([n]) for n in (triangle, column, row))
-        stored = int(fixed_value(planes, *where)[0])
+        stored = int(planes.planes.at(*where)[0])
         away = abs(stored - rational_depth(corners[triangle], depth[triangle], column, row))
         columns, rows = np.abs(np.array([column + 0.5, row + 0.5]) - corners[triangle, 0])
         assert away <= 0.6 * (2 + columns + rows)

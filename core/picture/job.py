@@ -1,0 +1,97 @@
+"""One picture to be drawn: what it shows, where to, and with what memory; the steps of drawing hand it on."""
+
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Flags, Floats, Singles
+from core.frame import StageCount
+from core.framebuffer.depth import DepthFormat
+from core.framebuffer.display import encode_linear, write_pixels
+from core.geometry_record import Geometry
+from core.methods import table
+from core.raster.schedule import Raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes, tie_owners
+from core.scene import AnyScene, ClipScene
+from core.settings import Settings
+from core.timing import timed
+
+Words = NDArray[np.uint32]
+"""Pixels of four bytes, red lowest."""
+
+BLOCK = 1 << 15
+"""Pixels that are worked on together: their numbers stay in the processor's cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A picture to be drawn."""
+
+    scene: AnyScene
+    settings: Settings
+    geometry: Geometry
+    raster: Raster
+    """The pixels that are drawn."""
+    encoding: str
+    """``srgb`` or ``linear``."""
+    pixels: Words
+    """(H*W,) uint32, the picture."""
+    counts: dict[str, StageCount]
+    arena: Arena
+
+    @cached_property
+    def owners(self) -> TieOwners:
+        """Who owns a pixel centre on an edge."""
+        return tie_owners(self.settings.fill_rule)
+
+    @cached_property
+    def depth_format(self) -> DepthFormat:
+        """How depth is kept."""
+        made: DepthFormat = table.get("depth", self.settings.depth).function()
+        return made
+
+    @property
+    def has_texture(self) -> bool:
+        """Whether anything in the scene has a texture."""
+        if isinstance(self.scene, ClipScene):
+            return self.scene.texture is not None
+        return any(mesh.texture is not None for mesh in self.scene.meshes)
+
+    @property
+    def background(self) -> np.uint32:
+        """The pixel that nothing is seen at."""
+        word: np.uint32 = self.encode(self.scene.background[None])[0]
+        return word
+
+    def timed(self, stage: str) -> AbstractContextManager[StageCount]:
+        """Add the time of the block to a stage."""
+        return timed(self.counts[stage])
+
+    def encode(self, color: Floats | Singles) -> Words:
+        """Return the bytes of linear colours (F, 4), a word each."""
+        return encode(color, self.encoding)
+
+    def lanes(self, first: int, end: int, chosen: Flags | None = None) -> Lanes:
+        """Put the ``chosen`` (P,) ones, or all, of primitives ``first`` to ``end`` side by side."""
+        at = slice(first, end)
+        area = self.geometry.doubled_area[at]
+        if chosen is not None:
+            area = np.multiply(area, chosen[at], out=self.arena("chosen_area", end - first))
+        x, y = self.geometry.window_x[:, at], self.geometry.window_y[:, at]
+        return set_up_lanes(x, y, area, self.raster, self.owners, self.arena)
+
+
+def encode(color: Floats | Singles, encoding: str) -> Words:
+    """Return the bytes of linear colours (F, 4), a word each: ``srgb`` or ``linear``."""
+    with np.errstate(over="ignore"):
+        single = np.ascontiguousarray(color, np.float32)
+    if encoding == "linear":
+        encoded = encode_linear(single)
+    else:
+        encoded = np.empty(single.shape, np.uint8)
+        write_pixels(single, encoded)
+    return encoded.view(np.uint32).reshape(-1)
