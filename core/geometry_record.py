@@ -1,5 +1,6 @@
 """The record of the stages before the raster; what only some pictures need is computed when it is first asked for."""
 
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -51,6 +52,12 @@ class Geometry:
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
+
+    def counted_in(self, count: StageCount) -> "Geometry":
+        """Return the same geometry, whose time from now on is added to ``count``; what is computed stays so."""
+        same = copy(self)
+        object.__setattr__(same, "count", count)
+        return same
 
     @cached_property
     def window_x(self) -> Floats:

@@ -52,16 +52,38 @@ def check_needs(scene: AnyScene, settings: Settings) -> None:
             )
 
 
+GEOMETRY_STAGES = ("transform", "cull", "clip", "edges")
+
+_last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []
+"""The geometry of the last whole scene, with its counts: scenes never change, so another look at the same one, a pixel
+that is pointed at or the next redraw, starts from there."""
+
+
 def process_geometry(
     scene: AnyScene, settings: Settings, counts: dict[str, StageCount], chosen: Integers | None = None
 ) -> Geometry:
-    """Run the stages from the vertices to the edge functions.
+    """Run the stages from the vertices to the edge functions; those of the last whole scene are kept.
 
     Parameters
     ----------
     chosen : (C,) int64, optional
         Only these triangles, in drawing order.
     """
+    if chosen is not None:
+        return _process(scene, settings, counts, chosen)
+    for of_scene, of_settings, known, known_counts in _last:
+        if of_scene is scene and of_settings == settings:
+            for stage in GEOMETRY_STAGES:
+                counts[stage] = replace(known_counts[stage], seconds=0.0)
+            return known.counted_in(counts["edges"])
+    geometry = _process(scene, settings, counts, None)
+    _last[:] = [(scene, settings, geometry, {stage: replace(counts[stage]) for stage in GEOMETRY_STAGES})]
+    return geometry
+
+
+def _process(
+    scene: AnyScene, settings: Settings, counts: dict[str, StageCount], chosen: Integers | None
+) -> Geometry:
     check_needs(scene, settings)
     with timed(counts["transform"]):
         vertices = transform_vertices(scene)

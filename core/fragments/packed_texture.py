@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats, Singles, read_only
+from core.byte_words import FIELDS, OPAQUE, let_meet
 from core.methods import table
 from core.scene import Texture
 
@@ -44,7 +45,8 @@ BLOCK = 32768
 
 _FIELD = 21
 _SUBTEXELS = 256
-_OPAQUE = 0xFF000000
+_HALF = np.uint64(sum(1 << (low + fraction - 1) for low, fraction in FIELDS))
+"""Half a byte in each field: cutting off the fraction rounds."""
 _FARTHEST = 2.0**30
 """Positions in 1/256 of a texel that 32-bit numbers hold with room to spare."""
 
@@ -64,6 +66,24 @@ def is_packable(texture: Texture) -> bool:
     """Return whether a texture has no alpha and nothing brighter than 1 or darker than 0."""
     pixels = texture.pixels
     return pixels.shape[2] < 4 and bool(pixels.min() >= 0 and pixels.max() <= 1)
+
+
+@lru_cache(maxsize=16)
+def has_bytes(texture: Texture) -> bool:
+    """Return whether every linear value of a packable texture is a byte, a 255th."""
+    byte = np.rint(texture.pixels * np.float32(255)).astype(np.float32)
+    return bool((byte / np.float32(255) == texture.pixels).all())
+
+
+@lru_cache(maxsize=16)
+def pack_bytes(texture: Texture) -> PackedTexture:
+    """Return a texture of bytes packed so that sums of weights of 256 are words of ``core.byte_words``."""
+    height, width, channels = texture.pixels.shape
+    byte = np.rint(texture.pixels * np.float32(255)).astype(np.uint64)
+    texels = np.zeros((height, width), np.uint64)
+    for place, (low, fraction) in enumerate(FIELDS):
+        texels |= byte[:, :, place % channels] << np.uint64(low + fraction - 8)
+    return PackedTexture(read_only(texels.reshape(-1)), width, height)
 
 
 @lru_cache(maxsize=16)
@@ -99,17 +119,19 @@ class PackedSampler:
     texture : Texture
     texture_filter, wrap : str
         Names of methods of these families: ``bilinear`` or ``nearest``.
-    level_bytes : (8192,) uint8 array
-        The byte that is shown for each of `linear_levels`: sRGB, or linear.
+    level_bytes : (8192,) uint8 array, optional
+        The byte that is shown for each of `linear_levels`: sRGB, or linear. ``None``: the texture is one of bytes
+        (`has_bytes`), and these are mixed.
     """
 
-    def __init__(self, texture: Texture, texture_filter: str, wrap: str, level_bytes: Bytes) -> None:
-        self._packed = pack(texture)
+    def __init__(self, texture: Texture, texture_filter: str, wrap: str, level_bytes: Bytes | None) -> None:
+        self._packed = pack_bytes(texture) if level_bytes is None else pack(texture)
         self._write_means = {"bilinear": self._write_bilinear, "nearest": self._write_nearest}[texture_filter]
         self._wrap: Callable[[Wholes, int], Wholes] = table.get("wrap", wrap).function
-        self._is_clamped = wrap == "clamp"
-        byte = level_bytes.astype(np.uint32)
-        self._byte_words = [byte << 8 * place for place in range(3)]
+        self._is_clamped, self._is_repeated = wrap == "clamp", wrap == "repeat"
+        self._byte_words: list[Words] = []
+        if level_bytes is not None:
+            self._byte_words = [level_bytes.astype(np.uint32) << np.uint32(8 * place) for place in range(3)]
         self._means, self._product, self._factor = np.empty((3, BLOCK), np.uint64)
         self._index = np.empty(BLOCK, np.int64)
         self._texel, self._weight = np.empty((2, BLOCK), np.int32)
@@ -166,6 +188,10 @@ class PackedSampler:
         weight = index & (_SUBTEXELS - 1)
         index >>= 8
         following = index + 1
+        if self._is_repeated and size & (size - 1) == 0:
+            index &= size - 1
+            following &= size - 1
+            return index, following, weight
         if index.min() >= 0 and index.max() < size - 1:
             return index, following, weight
         return self._wrap(index, size), self._wrap(following, size), weight
@@ -205,8 +231,12 @@ class PackedSampler:
 
     def _write_bytes(self, means: Fields, words: Words) -> None:
         """Turn weighted sums (F,) into words of bytes."""
+        if not self._byte_words:
+            means += _HALF
+            let_meet(means, means, words)
+            return
         byte, index = self._byte[: len(means)], self._index[: len(means)]
-        words[:] = _OPAQUE
+        words[:] = OPAQUE
         for place, byte_word in enumerate(self._byte_words):
             np.right_shift(means, _FIELD * place + 8, out=index.view(np.uint64))
             index &= LEVELS - 1

@@ -1,38 +1,22 @@
-"""Colours of three channels in one 64-bit word that is linear over the window, and how it becomes a pixel.
-
-A word has blue at bits 40 to 63 as 8.16 in fixed point, red at 20 to 39 and green at 0 to 19 as 8.12; half a byte is
-added, so that cutting the fraction off rounds. Three operations turn it into a pixel: mask the three bytes, multiply
-so that they meet at bit 40, shift. In this order what the product puts elsewhere lies below bit 40 or beyond bit 63.
-"""
+"""Colours that change linearly over the window, as words of three bytes (``core.byte_words``)."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Integers
+from core.byte_words import FIELDS, OPAQUE, let_meet
 from core.raster.spans.arena import Arena
 
 Words = NDArray[np.uint32]
 
-FIELDS = ((20, 12), (0, 12), (40, 16))
-"""Lowest bit, and bits of the fraction, of red, green and blue."""
 DRIFT = 2.0**-13
 """Bytes that a value is off at most after one step: half of the last bit of the shortest fraction."""
-OPAQUE = np.uint32(0xFF000000)
-"""A pixel with alpha 255 and no colour."""
-_INTEGER_BITS = np.uint64(0xFF << 12 | 0xFF << 32 | 0xFF << 56)
-_MEETING = np.uint64(1 + (1 << 8) + (1 << 36))
-_SHIFT = np.uint64(40)
 
 
 def unpack(word: Integers, arena: Arena) -> Words:
-    """Return words (F,) as opaque pixels (F,) uint32."""
-    wide = arena("unpacked", len(word), dtype=np.uint64)
-    np.bitwise_and(word.view(np.uint64), _INTEGER_BITS, out=wide)
-    wide *= _MEETING
-    wide >>= _SHIFT
+    """Return words (F,) as opaque pixels (F,) uint32; each has half a byte more, so that cutting off rounds."""
     pixels: Words = arena("unpacked_pixels", len(word), dtype=np.uint32)
-    np.copyto(pixels, wide, casting="unsafe")
-    pixels |= OPAQUE
+    let_meet(word.view(np.uint64), arena("unpacked", len(word), dtype=np.uint64), pixels)
     return pixels
 
 
@@ -43,3 +27,6 @@ def pack_level(pixels: Words) -> Integers:
         byte = (pixels.astype(np.int64) >> 8 * channel) & 0xFF
         words += byte << (shift + bits)
     return words
+
+
+__all__ = ["DRIFT", "FIELDS", "OPAQUE", "pack_level", "unpack"]

@@ -7,7 +7,7 @@ For a picture whose bytes are linear, of triangles so few and large that a band 
 import numpy as np
 
 from core.fragments.interpolation import value_plane
-from core.fragments.packed_texture import PackedSampler, is_packable, linear_levels
+from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_levels
 from core.framebuffer.display import encode_linear
 from core.framebuffer.nearest import NearestFragments
 from core.picture.job import Job, Words
@@ -31,7 +31,7 @@ class TextureColors:
         uv = values.rows[:, values.layout["uv"]]
         corner_values = (uv[:, axis].take(values.index).T for axis in range(2))
         self._planes = [geometry.inverse_w_plane, *(value_plane(geometry.planes, of) for of in corner_values)]
-        levels = encode_linear(linear_levels())
+        levels = None if has_bytes(texture) else encode_linear(linear_levels())
         self._sampler = PackedSampler(texture, job.settings.texture_filter, job.settings.wrap, levels)
 
     def block(self, job: Job, triangle: int, band: Band) -> Words:

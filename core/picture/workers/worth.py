@@ -4,10 +4,15 @@ from dataclasses import dataclass
 
 from core.picture.record import Picture
 
-TRIANGLE, PIXEL, FRAGMENT, SHADED, BUFFERED = 60e-9, 1e-9, 8e-9, 80e-9, 250e-9
-"""Seconds for a triangle that is drawn, a pixel that is cleared and shown, a fragment that is compared by its word, a
-pixel that is shaded after that, and a fragment that is drawn through all buffers; measured on one core, to within a
-factor of two."""
+TRIANGLE, PIXEL = 60e-9, 1e-9
+"""Seconds for a triangle that is drawn, and for a pixel that is cleared and shown; measured on one core, as all that
+follow, to within a factor of two."""
+FRAGMENT = {"layer": 6e-9, "words": 8e-9, "stacks": 60e-9, "frame": 250e-9}
+"""Seconds for a covered pixel of a triangle, by ``Route.visibility``."""
+COLOR = {"palette": 1e-9, "bytes": 5e-9, "texture": 25e-9, "normals": 35e-9, "deferred": 120e-9}
+"""Seconds for the colour of a pixel, by ``Route.color``."""
+COLORS_EVERY_FRAGMENT = ("stacks", "frame")
+"""Here the colour is part of what a fragment takes."""
 ASKING = 0.5e-3
 """Seconds that asking, waking and putting together take."""
 LEAST_GAIN = 1e-3
@@ -23,20 +28,21 @@ class Load:
     pixels: int
     fragments: int
     """Covered pixels of all triangles."""
-    shaded: int
-    """Pixels whose colour was worked out one by one."""
-    buffered: int
-    """Fragments that went through all buffers."""
+    visible: int
+    """Pixels that something is seen at."""
+    visibility: str = "words"
+    """As in ``Route``, which see; also ``color``."""
+    color: str = "bytes"
 
     @property
     def seconds(self) -> float:
         """Estimated time of the work that bands divide, on one core."""
+        color = 0.0 if self.visibility in COLORS_EVERY_FRAGMENT else COLOR[self.color]
         return (
             TRIANGLE * self.triangles
             + PIXEL * self.pixels
-            + FRAGMENT * self.fragments
-            + SHADED * self.shaded
-            + BUFFERED * self.buffered
+            + FRAGMENT[self.visibility] * self.fragments
+            + color * self.visible
         )
 
     def gain(self, processes: int) -> float:
@@ -51,9 +57,12 @@ class Load:
 def load_of(picture: Picture) -> Load:
     """Return what a picture held."""
     height, width, _ = picture.pixels.shape
-    triangles, fragments = picture.statistics["edges"].outgoing, picture.statistics["raster"].outgoing
     route = picture.route
-    if route.visibility == "frame":
-        return Load(triangles, width * height, 0, 0, fragments)
-    shaded = route.visible if route.color == "deferred" else 0
-    return Load(triangles, width * height, fragments, shaded, 0)
+    return Load(
+        picture.statistics["edges"].outgoing,
+        width * height,
+        picture.statistics["raster"].outgoing,
+        route.visible,
+        route.visibility,
+        route.color,
+    )

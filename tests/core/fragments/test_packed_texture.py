@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.packed_texture import PackedSampler, is_packable, linear_error, linear_levels
+from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_error, linear_levels
 from core.fragments.textures import texture_colors
 from core.framebuffer.display import encode_linear, encode_srgb, from_display
 from core.scene import Texture
@@ -141,3 +141,19 @@ def test_what_can_be_packed():
     assert not is_packable(random_texture((3, 2), 4))
     assert not is_packable(Texture(np.full((1, 1, 3), 1.25, np.float32)))
     assert not is_packable(Texture(np.full((1, 1, 1), -0.1, np.float32)))
+
+
+@pytest.mark.parametrize("wrap", WRAPS)
+@pytest.mark.parametrize("size", SIZES)
+def test_a_texture_of_bytes_is_mixed_in_bytes(size, wrap):
+    width, height = size
+    pixels = np.random.default_rng(4).integers(0, 256, (height, width, 3))
+    texture, uv = Texture((pixels / 255).astype(np.float32)), places(40000)
+    assert has_bytes(texture)
+    assert not has_bytes(random_texture((5, 5)))
+    found = looked_up(texture, uv, wrap=wrap, level_bytes=None)
+    exact = 255 * texture_colors(texture, uv, "bilinear", wrap)[:, :3]
+    assert np.abs(found[:, :3] - exact).max() <= 0.5 + 255 * linear_error(1.0)
+    assert (found[:, 3] == 255).all()
+    nearest = looked_up(texture, uv, "nearest", wrap, level_bytes=None)
+    assert np.array_equal(nearest[:, :3], np.rint(255 * texture_colors(texture, uv, "nearest", wrap)[:, :3]))

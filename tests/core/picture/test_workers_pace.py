@@ -1,10 +1,12 @@
 """Sharing goes on for as long as it is faster, and is tried again after a while where it is not."""
 
+from dataclasses import replace
+
 from core.picture.workers.pace import ALONE_FOR, EVIDENCE, Pace
 from core.picture.workers.worth import Load
 
-LOAD = Load(1000, 1_000_000, 600_000, 0, 0)
-HEAVY = Load(1000, 1_000_000, 600_000, 600_000, 0)
+LOAD = Load(1000, 1_000_000, 600_000, 600_000)
+HEAVY = replace(LOAD, color="deferred")
 
 
 def run(pace: Pace, pictures: int, alone: float, shared: float, load: Load = LOAD) -> list[bool]:

@@ -1,0 +1,26 @@
+"""Three bytes in one 64-bit word with room for fractions between them, and how they meet in a pixel.
+
+A word has blue at bits 40 to 63 as 8.16 in fixed point, red at 20 to 39 and green at 0 to 19 as 8.12. Three
+operations make a pixel of it: mask the three bytes, multiply so that they meet at bit 40, shift. In this order what the
+product puts elsewhere lies below bit 40 or beyond bit 63.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+FIELDS = ((20, 12), (0, 12), (40, 16))
+"""Lowest bit, and bits of the fraction, of red, green and blue."""
+OPAQUE = np.uint32(0xFF000000)
+"""A pixel with alpha 255 and no colour."""
+_INTEGER_BITS = np.uint64(0xFF << 12 | 0xFF << 32 | 0xFF << 56)
+_MEETING = np.uint64(1 + (1 << 8) + (1 << 36))
+_SHIFT = np.uint64(40)
+
+
+def let_meet(words: NDArray[np.uint64], wide: NDArray[np.uint64], pixels: NDArray[np.uint32]) -> None:
+    """Write the whole parts of ``words`` (F,) as opaque ``pixels`` (F,); ``wide`` (F,) is memory, or ``words``."""
+    np.bitwise_and(words, _INTEGER_BITS, out=wide)
+    wide *= _MEETING
+    wide >>= _SHIFT
+    np.copyto(pixels, wide, casting="unsafe")
+    pixels |= OPAQUE

@@ -1,0 +1,100 @@
+"""Phong from packed normals: within two bytes of the buffers, and used only where that is known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, draw_picture
+from lessons.shapes import sphere, torus
+from tests.core.picture.references import exact_bytes, shows_thin_triangle
+
+LIGHTS = (
+    DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),
+    DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.array([0.3, 0.2, 0.1])),
+)
+CAMERA = Camera(np.array([1.0, 0.8, 3.0]), np.zeros(3))
+PHONG = Settings(depth="fixed-38")
+
+
+def scene_of(mesh: Mesh, camera: Camera = CAMERA, lights=LIGHTS, size=(160, 120)) -> Scene:
+    return Scene((mesh,), camera, lights, size, np.array([0.1, 0.2, 0.3, 1.0]))
+
+
+def drawn(scene: Scene, encoding: str, chosen: Settings = PHONG):
+    return draw_picture(scene, chosen, encoding=encoding)
+
+
+def assert_close(scene: Scene, encoding: str, chosen: Settings = PHONG) -> None:
+    picture = drawn(scene, encoding, chosen)
+    assert picture.route.color == "normals"
+    away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
+    away[shows_thin_triangle(scene, chosen)] = 0
+    assert away.max() <= 2
+    assert (away > 0).mean() < 0.02
+
+
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+@pytest.mark.parametrize("cull", ["none", "back", "front"])
+@pytest.mark.parametrize("depth", ["fixed-38", "z-float32", "inverse-w"])
+def test_a_sphere_is_lit_as_in_the_buffers(encoding: str, cull: str, depth: str) -> None:
+    assert_close(scene_of(sphere()), encoding, Settings(depth=depth, cull=cull))
+
+
+@pytest.mark.parametrize("lights", [(), LIGHTS[:1], LIGHTS[1:], (*LIGHTS, LIGHTS[1])], ids=len)
+@pytest.mark.parametrize("specular", [0.0, 0.4])
+def test_any_number_of_lights_white_or_coloured(lights, specular: float) -> None:
+    mesh = replace(torus(), material=Material(0.2, 0.7, specular, 20.0))
+    assert_close(scene_of(mesh, lights=lights), "srgb")
+
+
+@settings(max_examples=15)
+@given(
+    st.floats(-3, 3),
+    st.floats(-3, 3),
+    st.floats(2.5, 6),
+    st.sampled_from(["perspective", "orthographic"]),
+    st.tuples(*[st.floats(0.6, 1)] * 3),
+)
+def test_any_view_of_one_colour(x: float, y: float, z: float, projection: str, color) -> None:
+    mesh = sphere()
+    colors = np.tile([*color, 1.0], (len(mesh.positions), 1))
+    camera = Camera(np.array([x, y, z]), np.zeros(3), projection=projection, view_height=2.5)
+    assert_close(scene_of(replace(mesh, colors=colors), camera), "srgb")
+
+
+def unlike_normals() -> Mesh:
+    mesh = sphere()
+    normals = np.random.default_rng(1).normal(size=(len(mesh.positions), 3))
+    return replace(mesh, normals=normals)
+
+
+def without_normals() -> Mesh:
+    mesh = sphere()
+    return replace(mesh, normals=np.zeros((len(mesh.positions), 3)))
+
+
+def of_many_colors() -> Mesh:
+    mesh = sphere()
+    colors = np.random.default_rng(2).random((len(mesh.positions), 4))
+    return replace(mesh, colors=colors)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        scene_of(unlike_normals()),
+        scene_of(without_normals()),
+        scene_of(of_many_colors()),
+        scene_of(sphere(), lights=(PointLight(np.array([2.0, 2.0, 2.0])),)),
+        scene_of(sphere(), Camera(np.array([0.0, 0.0, 1.02]), np.zeros(3), near=0.001)),
+        scene_of(replace(sphere(), material=Material(0.0, 0.5, 1.0, 10000.0))),
+    ],
+    ids=["unlike normals", "no normals", "colours", "point light", "very near", "sharp highlight"],
+)
+def test_otherwise_attributes_and_light_come_from_every_pixel(scene: Scene) -> None:
+    picture = drawn(scene, "srgb")
+    assert picture.route.color == "deferred"
+    assert np.array_equal(picture.pixels, exact_bytes(scene, PHONG, "srgb"))
