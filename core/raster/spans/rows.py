@@ -143,6 +143,8 @@ def _carry(carry: Carried, levels: int, count: int, values: Integers) -> None:
     first, up = carry.first[:count], carry.up if isinstance(carry.up, int) else carry.up[:count]
     if levels == 1:
         values[0] = first
+    elif isinstance(up, int):
+        np.add(first, (np.arange(levels) * up)[:, None], out=values)
     else:
         np.multiply(up, np.arange(levels)[:, None], out=values)
         values += first
