@@ -9,6 +9,7 @@ import numpy as np
 from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import set_up_planes, value_plane
 from core.framebuffer.depth import DepthFormat
+from core.framebuffer.fixed_depth import SLOPE_LIMIT
 from core.geometry_record import Geometry
 from core.raster.snapping import place_corners
 
@@ -38,10 +39,22 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
     farthest = geometry.depth.max(axis=0)
     if farthest.max(initial=0.0) >= FARTHEST:
         return False
-    # In a triangle that is not thin, snapping moves the depth by less than it differs between the corners.
     difference = farthest - geometry.depth.min(axis=0)
+    if depth_format.is_planar and _all_linear(geometry, difference):
+        return True  # planes through the snapped corners do not leave the corners' depths
+    # In a triangle that is not thin, snapping moves the depth by less than it differs between the corners.
     doubtful = np.flatnonzero(_is_thin(geometry) | (farthest + difference >= FARTHEST))
     return bool((farthest.take(doubtful) + _extrapolated(geometry, doubtful) < FARTHEST).all())
+
+
+def _all_linear(geometry: Geometry, difference: Floats) -> bool:
+    """Tell whether every triangle certainly has an integer plane; corners differ in depth by ``difference`` (P,)."""
+    reach = max(
+        float(np.abs(window[1:] - window[0]).max(initial=0))
+        for window in (geometry.window_x, geometry.window_y)
+    )
+    steepest = 2 * reach * float(difference.max(initial=0))
+    return steepest <= SLOPE_LIMIT * float(np.abs(geometry.doubled_area).min(initial=np.inf))
 
 
 def _is_thin(geometry: Geometry) -> Flags:

@@ -33,7 +33,7 @@ def assert_close(scene: Scene, encoding: str, chosen: Settings = PHONG) -> None:
     away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
     away[shows_thin_triangle(scene, chosen)] = 0
     assert away.max() <= 2
-    assert (away > 0).mean() < 0.02
+    assert (away > 0).mean() < 0.05
 
 
 @pytest.mark.parametrize("encoding", ["srgb", "linear"])
