@@ -54,9 +54,12 @@ GOALS = {
 }
 """Goals by workload and library."""
 
+SHARED_GOALS = {("D", "OpenGL"): Goal(2, (1.1, 1.2))}
+"""Goals of the core on two processes."""
 
-def goal_of(workload: str, library: str, detail: str) -> Goal | None:
-    """Return the goal against a library; there is none against a graphics card."""
+
+def goal_of(workload: str, library: str, detail: str, is_shared: bool = False) -> Goal | None:
+    """Return the goal against a library, of one or of two processes; there is none against a graphics card."""
     if library == "OpenGL" and "llvmpipe" not in detail:
         return None
-    return GOALS.get((workload, library))
+    return (SHARED_GOALS if is_shared else GOALS).get((workload, library))

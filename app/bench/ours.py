@@ -1,5 +1,7 @@
 """The core as a contender."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from app.bench.contender import Contender, Prepared
@@ -41,12 +43,19 @@ def prepare_triangles(work: WindowTriangles) -> Prepared:
     return Prepared(lambda: draw().pixels, lambda: account(draw()))
 
 
-def prepare_mesh(work: ViewedMesh) -> Prepared:
-    """Hold mesh and lights; camera and scene are new in every picture, as in an orbit."""
+def prepare_mesh(work: ViewedMesh, draw_with: Callable[..., Picture] = draw_picture) -> Prepared:
+    """Hold mesh and lights; camera and scene are new in every picture, as in an orbit.
+
+    Parameters
+    ----------
+    work : ViewedMesh
+    draw_with : callable
+        `core.draw_picture`, or what draws the same picture in another way.
+    """
     mesh, lights, settings = mesh_of(work), lights_of(work), settings_of(work)
 
     def draw() -> Picture:
-        return draw_picture(view_of(work, mesh, lights), settings, encoding="linear")
+        return draw_with(view_of(work, mesh, lights), settings, encoding="linear")
 
     return Prepared(lambda: draw().pixels, lambda: account(draw()))
 

@@ -57,7 +57,7 @@ def method_names(work: WindowTriangles | ViewedMesh) -> dict[str, str]:
     """Return the settings that say what the picture is, whatever draws it."""
     if isinstance(work, ViewedMesh):
         if work.lighting is None:
-            return {"shading": "unlit"}
+            return {"shading": "unlit", "clipping": "sutherland-hodgman"}
         return {"shading": "phong" if work.lighting.is_per_pixel else "gouraud"}
     names = {"interpolation": "flat" if work.is_flat else "perspective"}
     return names | ({"blend": "over", "visibility": "last-drawn"} if work.is_blended else {})

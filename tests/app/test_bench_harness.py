@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from app.bench import ours, pillow_peer, run
 from app.bench.chart import chart_svg
 from app.bench.contender import Contender, Prepared, UnavailableError
-from app.bench.goals import GOALS, Goal, goal_of
+from app.bench.goals import GOALS, SHARED_GOALS, Goal, goal_of
 from app.bench.harness import Result, run_workload
 from app.bench.libraries import LIBRARIES
 from app.bench.machine import this_machine
@@ -169,3 +169,9 @@ def test_verdict(ratio: float, verdict: str) -> None:
 def test_there_is_no_goal_against_a_graphics_card() -> None:
     assert goal_of("B", "OpenGL", "llvmpipe (LLVM 15)") == GOALS["B", "OpenGL"]
     assert goal_of("B", "OpenGL", "Some Card") is None
+
+
+def test_two_processes_have_goals_of_their_own() -> None:
+    assert goal_of("D", "OpenGL", "llvmpipe (LLVM 15)", is_shared=True) == SHARED_GOALS["D", "OpenGL"]
+    assert goal_of("D", "OpenGL", "Some Card", is_shared=True) is None
+    assert goal_of("D", "VTK", "", is_shared=True) is None

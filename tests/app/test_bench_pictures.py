@@ -1,24 +1,26 @@
 """The core and Pillow as contenders: small pictures of every kind, compared with the reference."""
 
+import re
 from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from app.bench import cold_start, ours, pillow_peer
+from app.bench import cold_start, ours, ours_shared, pillow_peer
 from app.bench.checking import Difference, compare
 from app.bench.meshes import TO_LIGHT, textured_floor, viewed
 from app.bench.random_triangles import large_triangle, random_triangles
 from app.bench.records import ColdStart, Lighting, Lines, ViewedMesh, Work
 from app.bench.reference import make_reference
 from core.geometry.matrices import projection, world_to_camera
+from core.picture.workers import Sharing
 from core.scene import Camera
 from lessons import shapes
 
 
-def small_sphere(is_per_pixel: bool) -> ViewedMesh:
-    mesh = shapes.sphere(columns=24, rows=12)
+def small_sphere(is_per_pixel: bool, columns: int = 24) -> ViewedMesh:
+    mesh = shapes.sphere(columns=columns, rows=columns // 2)
     floor = textured_floor()
     assert mesh.normals is not None
     return viewed(
@@ -70,6 +72,21 @@ def drawn(module, work: Work) -> Difference:
 )
 def test_the_core_draws_the_reference(work: Work) -> None:
     assert drawn(ours, work) == Difference(0, 0)
+
+
+def test_two_processes_draw_large_meshes_and_say_who_drew_what() -> None:
+    assert ours_shared.contender(small_sphere(is_per_pixel=False)) is None
+    assert ours_shared.contender(some_lines()) is None
+    work = small_sphere(is_per_pixel=False, columns=120)
+    contender = ours_shared.contender(work)
+    assert contender is not None
+    assert (contender.library, contender.kind) == ("Rasterscope, 2 processes", "ours")
+    with ExitStack() as stack:
+        prepared = contender.prepare(stack)
+        assert compare(prepared.run(), False, make_reference(work)) == Difference(0, 0)
+        told = prepared.tell()
+    assert re.search(r"; rows 0-\d+ [\d.]+ ms, rows \d+-69 [\d.]+ ms$", told)
+    assert ours_shared.sharing_text(Sharing(reason="of luck")) == "one process, because of luck"
 
 
 def test_pillow_draws_the_same_lines() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.document import open_document
-from app.views.scene_figures import FrameFigures, figures_text
+from app.views.scene_figures import FrameFigures, drawing_text, figures_text
 from app.views.scene_lines import SpaceLine, draw_space_lines, visible_part
 from app.views.scene_picture import SceneShot, draw_scene, space_lines, triangle_seen
 from app.views.scene_sizes import fixed_size, size_choices
@@ -18,6 +18,8 @@ from app.views.view_space import make_space, thinned, viewed_scene, viewing_came
 from core import STAGES, render
 from core.geometry.culling import plane_distances
 from core.geometry.vertex_stage import transform_vertices
+from core.picture import Route, Split
+from core.picture.workers import BandTime, BandWorkers, Sharing
 from lessons.scenes import make_scene
 from widgets.orbit import fitted
 from widgets.theme import LIGHT
@@ -136,13 +138,27 @@ def shot_of(scene_name: str, size: tuple[int, int]) -> SceneShot:
 
 
 def test_the_stages_of_a_frame_add_up_to_less_than_its_time():
-    drawn = draw_scene(shot_of("torus", (320, 200)))
+    drawn = draw_scene(shot_of("torus", (320, 200)), BandWorkers(1))
     assert drawn.pixels.shape == (200, 320, 4)
     assert drawn.figures.size == (320, 200)
     assert tuple(drawn.figures.stages) == STAGES
     stages = sum(count.seconds for count in drawn.figures.stages.values())
     assert 0 < stages < drawn.figures.seconds
     assert drawn.figures.stages["transform"].incoming == drawn.figures.triangle_count
+
+
+def test_two_processes_draw_the_frame_of_one_with_its_lines():
+    shot = shot_of("torus", (200, 150))
+    alone = draw_scene(shot, BandWorkers(1))
+    with BandWorkers(2, always=True) as workers:
+        assert workers.start(), workers.failure
+        together = draw_scene(shot, workers)
+    assert np.array_equal(together.pixels, alone.pixels)
+    assert together.figures.sharing.process_count == 2
+    assert together.figures.route.color == alone.figures.route.color
+    assert together.figures.route.visible == alone.figures.route.visible
+    stages = sum(count.seconds for count in together.figures.stages.values())
+    assert 0 < stages < together.figures.seconds
 
 
 def test_a_frame_shares_the_meshes_of_its_scene():
@@ -164,6 +180,20 @@ def test_a_thinned_scene_tells_the_triangles_of_the_document():
     assert triangle_seen(shot, column, row) == -1
 
 
+IN_ONE_PROCESS = Sharing()
+BY_BUFFERS = Route("frame", "deferred")
+
+
+def figures_of(
+    size: tuple[int, int] = (1, 1),
+    triangle_count: int = 1,
+    seconds: float = 0.001,
+    route: Route = BY_BUFFERS,
+    sharing: Sharing = IN_ONE_PROCESS,
+) -> FrameFigures:
+    return FrameFigures(size, triangle_count, seconds, {}, route, sharing)
+
+
 @pytest.mark.parametrize(
     ("seconds", "rate", "text"),
     [
@@ -173,8 +203,32 @@ def test_a_thinned_scene_tells_the_triangles_of_the_document():
     ],
 )
 def test_figures_as_text(seconds, rate, text):
-    assert figures_text(FrameFigures((1024, 768), 81920, seconds, {}), rate) == text
-    assert figures_text(FrameFigures((1, 1), 1, 0.001, {}), None) == "1.0 ms · 1 × 1 · 1 triangle"
+    assert figures_text(figures_of((1024, 768), 81920, seconds), rate) == text
+    assert figures_text(figures_of((1, 1), 1, 0.001), None) == "1.0 ms · 1 × 1 · 1 triangle"
+
+
+def test_how_a_frame_was_drawn_as_text():
+    route = Route("words", "normals", Split(67652, 3, 0, 798142), 399071)
+    bands = (BandTime(0, 500, 0.0231), BandTime(500, 1024, 0.0228))
+    assert drawing_text(figures_of(route=route, sharing=Sharing(bands))).splitlines() == [
+        "Drawn by 2 processes: rows 0 to 499 in 23.1 ms, rows 500 to 1,023 in 22.8 ms.",
+        "Seen: depth and triangle number in one word, the least is seen.",
+        "Colours: light once per visible pixel, from packed normals.",
+        "Triangles: 67,652 along spans, 3 in bands, 0 one by one.",
+        "Fragments: 798,142 for 399,071 pixels, depth complexity 2.00.",
+    ]
+    failed = Sharing(reason="Traceback:\n  line\nKeyError: 1")
+    assert drawing_text(figures_of(sharing=failed)).splitlines() == [
+        "Drawn by one process: KeyError: 1.",
+        "Seen: through all buffers.",
+        "Colours: attributes and light once per visible pixel.",
+    ]
+
+
+@pytest.mark.parametrize("name", ["single-triangle", "torus", "textured-floor", "intersecting", "cube"])
+def test_every_way_of_drawing_has_words(name):
+    figures = draw_scene(shot_of(name, (64, 48)), BandWorkers(1)).figures
+    assert drawing_text(figures).startswith("Drawn by one process: one process is all there is to be.")
 
 
 def test_sizes_that_can_be_chosen():

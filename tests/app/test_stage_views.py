@@ -13,6 +13,7 @@ from app.views.stage_views import StageViews
 from app.views.view_space import thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.geometry.vertex_stage import transform_vertices
+from core.picture.workers import BandWorkers
 from lessons.scenes import make_scene
 from widgets.theme import DARK, LIGHT, apply_theme
 
@@ -278,6 +279,32 @@ def test_the_corner_and_the_signal_tell_what_a_frame_took(show, qtbot):
     assert told[-1] is None
     widget.show()
     assert told[-1] is figures
+
+
+def test_workers_that_are_given_draw_and_end_with_the_views(show, qtbot):
+    _, views, widget = show("scene", "torus")
+    first = views.scene_presenter.drawn
+    assert first.figures.sharing.process_count == 1
+    workers = BandWorkers(2, always=True)
+    views.scene_presenter.draw_with(workers)
+    assert workers.start(), workers.failure
+    drag(widget, QPoint(30, 30), QPoint(60, 40))
+    rested(qtbot, views)
+    figures = views.scene_presenter.drawn.figures
+    assert figures.sharing.process_count == 2
+    qtbot.waitUntil(lambda: "Drawn by 2 processes: rows 0 to" in widget.corner().toolTip())
+    views.stop()
+    assert workers.pids == ()
+    assert not workers.start(), "they are closed"
+
+
+def test_no_process_is_started_by_itself(show, qtbot):
+    _, views, widget = show("scene", "knot")
+    views.scene_presenter.choose_size("1920x1080")
+    for _ in range(3):
+        drag(widget, QPoint(30, 30), QPoint(60, 40))
+        rested(qtbot, views)
+    assert views.scene_presenter.drawn.figures.sharing.reason == "one process is all there is to be"
 
 
 def test_a_chosen_size_is_drawn_whatever_the_size_of_the_view(show, qtbot):

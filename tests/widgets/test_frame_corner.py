@@ -40,6 +40,14 @@ def test_it_is_as_wide_as_its_line_and_never_wider_than_its_room(corner):
     assert not corner.grab().isNull()
 
 
+def test_how_the_picture_was_drawn_is_said_under_the_mouse(corner):
+    plain = corner.toolTip()
+    corner.show_details("Drawn by 2 processes.")
+    assert corner.toolTip() == f"{plain}\n\nDrawn by 2 processes."
+    corner.show_details("")
+    assert corner.toolTip() == plain
+
+
 def test_the_menu_shows_and_tells_the_choice(corner, qtbot):
     corner.show_sizes(CHOICES, "view")
     actions = corner.menu().actions()
