@@ -11,6 +11,7 @@ from app.look import THEMES, the_application
 from app.main_window import MainWindow
 from app.open_any import Opened, open_any
 from app.preferences import Preferences, load_preferences
+from core.picture.workers import BandWorkers
 from lessons.scenes import CATALOGUE
 from widgets.message_bar import MessageKind
 from widgets.theme import DARK, LIGHT, Theme, apply_theme
@@ -51,6 +52,7 @@ def run_window(target: str | None = None) -> int:
     apply_theme(application, theme_of(preferences.theme, application))
     opened, not_reopened = first_document(preferences)
     window = MainWindow(opened.document, preferences)
+    window.page.views.scene_presenter.draw_with(BandWorkers())
     window.files.show_opened(opened)
     window.resize(1280, 800)
     window.restore()

@@ -8,16 +8,17 @@ from functools import partial
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Flags, Floats, Integers
 from core.frame import StageCount
 from core.geometry.culling import cull, plane_distances
-from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes
+from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
 from core.geometry.sutherland_hodgman import DEPTH_PLANES, Clipped, clip_primitives
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 from core.geometry_record import Geometry, all_projected, clipping_distances
 from core.methods import table
 from core.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
 from core.raster.edge_functions import gather_area, orient
+from core.raster.schedule import Raster
 from core.raster.snapping import WindowVertices, place_corners, place_vertices
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
@@ -60,7 +61,11 @@ that is pointed at or the next redraw, starts from there."""
 
 
 def process_geometry(
-    scene: AnyScene, settings: Settings, counts: dict[str, StageCount], chosen: Integers | None = None
+    scene: AnyScene,
+    settings: Settings,
+    counts: dict[str, StageCount],
+    chosen: Integers | None = None,
+    raster: Raster | None = None,
 ) -> Geometry:
     """Run the stages from the vertices to the edge functions; those of the last whole scene are kept.
 
@@ -68,21 +73,27 @@ def process_geometry(
     ----------
     chosen : (C,) int64, optional
         Only these triangles, in drawing order.
+    raster : Raster, optional
+        Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
-    if chosen is not None:
-        return _process(scene, settings, counts, chosen)
+    if chosen is not None or (raster is not None and raster.region is not None):
+        return _process(scene, settings, counts, chosen, raster)
     for of_scene, of_settings, known, known_counts in _last:
         if of_scene is scene and of_settings == settings:
             for stage in GEOMETRY_STAGES:
                 counts[stage] = replace(known_counts[stage], seconds=0.0)
             return known.counted_in(counts["edges"])
-    geometry = _process(scene, settings, counts, None)
+    geometry = _process(scene, settings, counts, None, None)
     _last[:] = [(scene, settings, geometry, {stage: replace(counts[stage]) for stage in GEOMETRY_STAGES})]
     return geometry
 
 
 def _process(
-    scene: AnyScene, settings: Settings, counts: dict[str, StageCount], chosen: Integers | None
+    scene: AnyScene,
+    settings: Settings,
+    counts: dict[str, StageCount],
+    chosen: Integers | None,
+    raster: Raster | None,
 ) -> Geometry:
     check_needs(scene, settings)
     with timed(counts["transform"]):
@@ -95,21 +106,24 @@ def _process(
         facing = face(assembled, window, scene.size, settings)
         culled = cull(assembled, outcode, facing, settings.cull)
         drawing = drawing_order(vertices, settings)
-        if chosen is None and drawing.is_as_given and culled.kept.all():
+        wanted = culled.kept if raster is None else culled.kept & ~is_beside(window, assembled.corner, raster)
+        if chosen is None and drawing.is_as_given and wanted.all():
             kept, doubled_area = assembled, facing
         else:
-            index = in_drawing_order(np.flatnonzero(culled.kept), assembled, drawing)
+            index = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
             kept, doubled_area = assembled.take(index), facing.take(index)
-        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept)
+        # Triangles beside the raster are counted as if they went on, or the bands' counts would not be the picture's.
+        beside_count = int(np.count_nonzero(culled.kept)) - len(kept) if raster is not None else 0
+        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept) + beside_count
 
     with timed(counts["clip"]):
-        counts["clip"].incoming = len(kept)
+        counts["clip"].incoming = len(kept) + beside_count
         primitives, clipped, inserted = clip(kept, outcode, settings)
-        counts["clip"].outgoing = len(primitives)
+        counts["clip"].outgoing = len(primitives) + beside_count
         counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
 
     with timed(counts["edges"]):
-        counts["edges"].incoming = counts["edges"].outgoing = len(primitives)
+        counts["edges"].incoming = counts["edges"].outgoing = len(primitives) + beside_count
         if primitives is not kept:
             window, outcode = place(primitives, scene.size, settings)
             doubled_area = face(primitives, window, scene.size, settings)
@@ -194,6 +208,22 @@ def face(
     if len(lost):
         facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
     return facing
+
+
+def is_beside(window: WindowVertices, corner: Integers, raster: Raster) -> Flags:
+    """Return (T,) bool: all corners (3, T) lie beyond the same outermost pixel centres, so no pixel is covered.
+
+    A corner that cannot be projected is beyond none.
+    """
+    first_column, first_row, end_column, end_row = raster.bounds
+    left, bottom, right, top = (
+        edge + raster.center for edge in (first_column, first_row, end_column - 1, end_row - 1)
+    )
+    code = np.zeros(len(window.x), np.uint8)
+    for bit, is_beyond in enumerate((window.x < left, window.x > right, window.y < bottom, window.y > top)):
+        code |= is_beyond.view(np.uint8) << np.uint8(bit)
+    beside: Flags = shared_bits(code, corner) != 0
+    return beside
 
 
 def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:

@@ -64,8 +64,8 @@ def compared(result: Result) -> list[tuple[Entry, float]]:
     """Return the other libraries of a workload with their ratios, or nothing where ours did not draw it right."""
     if not result.is_right:
         return []
-    ours = result.ours
-    ratios = [(entry, ratio_to(entry, ours)) for entry in result.entries if entry is not ours]
+    others = [entry for entry in result.entries if entry.contender.kind != "ours"]
+    ratios = [(entry, ratio_to(entry, result.ours)) for entry in others]
     return [(entry, ratio) for entry, ratio in ratios if ratio is not None]
 
 

@@ -60,9 +60,18 @@ class Result:
         return next((entry for entry in self.entries if entry.contender.kind == "ours"), None)
 
     @property
+    def shared(self) -> Entry | None:
+        """The core's entry with more than one process, if there is one."""
+        return next((entry for entry in self._all_ours if entry is not self.ours), None)
+
+    @property
     def is_right(self) -> bool:
-        """Whether the core drew the reference."""
-        return self.ours is not None and self.ours.difference.is_none
+        """Whether the core drew the reference, by however many processes."""
+        return bool(self._all_ours) and all(entry.difference.is_none for entry in self._all_ours)
+
+    @property
+    def _all_ours(self) -> list[Entry]:
+        return [entry for entry in self.entries if entry.contender.kind == "ours"]
 
 
 @dataclass(frozen=True)

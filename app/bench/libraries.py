@@ -10,6 +10,7 @@ from app.bench import (
     opencv_peer,
     opengl_peer,
     ours,
+    ours_shared,
     pillow_peer,
     skimage_peer,
     vtk_peer,
@@ -18,8 +19,8 @@ from app.bench.contender import Contender
 from app.bench.records import ColdStart, Work
 
 LIBRARIES: tuple[ModuleType, ...] = (
-    *(ours, vtk_peer, opengl_peer, numba_peer, opencv_peer, pillow_peer),
-    *(skimage_peer, matplotlib_peer),
+    *(ours, ours_shared, vtk_peer, opengl_peer, numba_peer, opencv_peer),
+    *(pillow_peer, skimage_peer, matplotlib_peer),
 )
 """All of them, ours first. VTK ends every EGL context that was opened before its own: it must begin before OpenGL."""
 

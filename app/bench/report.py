@@ -32,9 +32,27 @@ def result_text(result: Result) -> str:
     )
     ours = result.ours
     rows = [HEADINGS, *(entry_row(result.workload.name, entry, ours) for entry in result.entries)]
-    told = [f"  {ours.contender.library}: {ours.detail}"] if ours and ours.detail else []
+    told = [
+        f"  {entry.contender.library}: {entry.detail}"
+        for entry in (ours, result.shared)
+        if entry and entry.detail
+    ]
     missing = [f"  {each.library} did not take part: {each.reason}" for each in result.missing]
-    return "\n".join([title, *aligned(rows), *told, *missing])
+    return "\n".join([title, *aligned(rows), *told, *shared_lines(result), *missing])
+
+
+def shared_lines(result: Result) -> list[str]:
+    """Return how far the core comes with more than one process, for each library that there is such a goal against."""
+    shared, lines = result.shared, []
+    for entry in result.entries:
+        goal = goal_of(result.workload.name, entry.contender.library, entry.detail, is_shared=True)
+        ratio = ratio_to(entry, shared)
+        if shared is not None and goal is not None and ratio is not None:
+            lines.append(
+                f"  {shared.contender.library}: {entry.contender.library} takes {ratio:.2f} times as long, "
+                f"goal {goal.wanted:g}, prototype {prototype_text(goal)}: {VERDICTS[goal.verdict(ratio)]}"
+            )
+    return lines
 
 
 def entry_row(workload: str, entry: Entry, ours: Entry | None) -> tuple[str, ...]:

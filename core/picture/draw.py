@@ -96,9 +96,10 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    geometry = process_geometry(scene, settings, counts) if is_drawn_by_spans(settings) else None
+    by_spans = is_drawn_by_spans(settings)
+    geometry = process_geometry(scene, settings, counts, raster=raster) if by_spans else None
     if geometry is None or (settings.blend != "opaque" and with_depth):
-        return _draw_frame(scene, settings, raster, encoding, pixels)
+        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
     depth = None
     if settings.blend != "opaque":
@@ -115,13 +116,16 @@ def draw_picture(
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
 
-def _draw_frame(scene: AnyScene, settings: Settings, raster: Raster, encoding: str, pixels: Words) -> Picture:
+def _draw_frame(
+    scene: AnyScene, settings: Settings, raster: Raster, encoding: str, pixels: Words, with_depth: bool
+) -> Picture:
     """Draw all buffers, and encode the colours."""
     frame = draw(scene, settings, raster)
     with timed(frame.statistics["resolve"]):
         pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
     route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
-    return Picture(_bytes(pixels, raster), frame.depth, frame.statistics, route)
+    depth = frame.depth if with_depth else None
+    return Picture(_bytes(pixels, raster), depth, frame.statistics, route)
 
 
 def _draw_stacks(job: Job) -> Route:

@@ -258,9 +258,9 @@ def error_bound(geometry: Geometry, scene: Scene, albedo: tuple[float, ...], enc
     by e and the highlight by at most shininess * e; in bytes this is 255 times as much, or the slope of sRGB at
     the least light there is, the ambient term.
     """
-    reach = 0.0
-    for window in (geometry.window_x, geometry.window_y):
-        reach += float((np.abs(window[1:] - window[0])).max(initial=0)) + 1
+    # Of one triangle, so that what holds for all bands of a picture holds for the picture.
+    across, up = (np.abs(of[1:] - of[0]).max(axis=0) for of in (geometry.window_x, geometry.window_y))
+    reach = float((across + up).max(initial=0)) + 2
     turn = np.sqrt(3) * reach * 2.0 ** -(BITS + 1) * RATIO / np.sqrt((1 + 2 * ALIKE) / 3)
     material = scene.meshes[0].material
     strength = sum(max(float(light.color.max()), 0.0) for light in scene.lights)

@@ -65,7 +65,11 @@ class TextureColors:
 def texture_colors(job: Job) -> TextureColors | None:
     """Return the colours of all primitives, or ``None`` where they are more than one texture, or too many."""
     primitives, settings = job.geometry.primitives, job.settings
-    if job.encoding != "linear" or len(primitives) > MOST or settings.interpolation != "perspective":
+    if (
+        job.encoding != "linear"
+        or job.counts["cull"].outgoing > MOST
+        or settings.interpolation != "perspective"
+    ):
         return None
     if settings.texture_filter not in ("bilinear", "nearest"):
         return None

@@ -186,6 +186,7 @@ class BandWorkers:
         if is_tried:
             try:
                 picture, bands = self._draw_bands(order)
+                reason = "" if bands else "colours of the bands were worked out in different ways"
             except WorkerFailedError as problem:
                 self._give_up(problem)
                 reason = self._failure
@@ -247,6 +248,7 @@ class BandWorkers:
         _close_all(self._workers)
 
     def _draw_bands(self, order: _Order) -> tuple[Picture, tuple[BandTime, ...]]:
+        """Draw with all workers; no bands: the picture is not to be used, see below."""
         start = perf_counter()
         scene, (height, width, _) = order.scene, order.shape
         rows = rows_of(self._cuts, height)
@@ -266,6 +268,10 @@ class BandWorkers:
             raise
         seconds = perf_counter() - start
         done = [worker.answer(SECONDS_TO_ANSWER + 10 * seconds) for worker in self._workers]
+        routes = [own.route, *(band.route for band in done)]
+        if len({route.color for route in routes if route.visible}) > 1:
+            # A colour may be a byte away from that of the whole picture, whose triangles are more.
+            return own, ()
         statistics = joined_counts([own.statistics, *(band.statistics for band in done)])
         with timed(statistics["resolve"]):
             depth = _room_for_depth(own.depth, height) if order.with_depth else None
@@ -274,7 +280,7 @@ class BandWorkers:
         times = [seconds, *(band.seconds for band in done)]
         if all(worker.picture_count > 1 for worker in self._workers):
             self._move_cuts(times, asking, [own.statistics, *(band.statistics for band in done)])
-        route = joined_route([own.route, *(band.route for band in done)])
+        route = joined_route(routes)
         kept_depth = None if depth is None else read_only(depth)
         picture = Picture(read_only(pixels), kept_depth, statistics, route)
         return picture, tuple(BandTime(*band, time) for band, time in zip(rows, times, strict=True))

@@ -1,13 +1,13 @@
 """How the work on a picture was shared, and what the bands say about the whole picture."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 from core.frame import STAGES, StageCount
-from core.picture.record import Route
+from core.picture.record import Route, Split
 
 WHOLE_STAGES = STAGES[: STAGES.index("bin")]
-"""Stages that every band does for all triangles."""
+"""Stages whose counts are those of the whole picture in every band."""
 
 
 @dataclass(frozen=True)
@@ -48,16 +48,18 @@ def joined_counts(statistics: Sequence[dict[str, StageCount]]) -> dict[str, Stag
         if stage not in WHOLE_STAGES:
             count.incoming = sum(part[stage].incoming for part in statistics)
             count.outgoing = sum(part[stage].outgoing for part in statistics)
-    counts["bin"].incoming = statistics[0]["bin"].incoming
+    # Each band clips its own triangles; one that reaches into two is clipped, and counted, twice.
+    added = sum(part["clip"].outgoing - part["clip"].incoming for part in statistics)
+    counts["clip"].outgoing = counts["clip"].incoming + added
+    counts["edges"].incoming = counts["edges"].outgoing = counts["bin"].incoming = counts["clip"].outgoing
     return counts
 
 
 def joined_route(routes: Sequence[Route]) -> Route:
-    """Return the route of a picture out of those of its bands."""
+    """Return the route of a picture out of those of its bands; a triangle in two bands went its way twice."""
     # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.
     needed = next((route for route in routes if route.visibility != "layer"), routes[0])
     visible = sum(route.visible for route in routes)
-    if needed.split is None:
-        return replace(needed, visible=visible)
-    fragments = sum(route.split.fragments for route in routes if route.split)
-    return replace(needed, split=replace(needed.split, fragments=fragments), visible=visible)
+    splits = [route.split for route in routes if route.split is not None]
+    total = Split(*(sum(ways) for ways in zip(*map(astuple, splits), strict=True))) if splits else None
+    return replace(needed, split=total, visible=visible)

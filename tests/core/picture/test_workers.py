@@ -89,6 +89,19 @@ def textured_sheets() -> Scene:
     return Scene((mesh,), Camera(np.array([0.2, 0.3, 2.9]), np.zeros(3)), (), (512, 512))
 
 
+def smooth_below_and_steep_above() -> ClipScene:
+    """Return two triangles: bytes are right for the lower one, not for the upper one, whose w differ a lot."""
+    clip = np.array(
+        [
+            [[-1.0, -1.0, 0, 1], [1, -1, 0, 1], [0, -0.8, 0, 1]],
+            [[-9.0, 4.5, 0, 9], [1, 0.5, 0, 1], [0, 0.9, 0, 1]],
+        ]
+    )
+    colors = np.array([[0.5, 0.5, 0.5, 1], [0.52, 0.5, 0.5, 1], [0.5, 0.52, 0.5, 1]])
+    bright = np.array([[1.0, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]])
+    return ClipScene(clip, np.stack([colors, bright]), (60, 90))
+
+
 SCENES = {
     "ball": (ball(), SPANS),
     "ball, one side drawn": (ball(), replace(SPANS, cull="back", shading="gouraud")),
@@ -100,6 +113,7 @@ SCENES = {
         replace(SPANS, depth="inverse-w"),
     ),
     "rings with a texture": (textured_rings(), SPANS),
+    "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
     "two layers in one band": (textured_sheets(), replace(SPANS, cull="back", shading="unlit")),
     "wireframe": (textured_rings(), replace(SPANS, polygon_mode="wireframe")),
     "blended": (loose_triangles(60, (50, 41)), replace(SPANS, blend="over")),
@@ -112,6 +126,10 @@ SCENES = {
     "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }
+
+
+DIFFER = ("smooth below, steep above",)
+"""Scenes whose bands may go different ways, so that one process has to draw them."""
 
 
 @pytest.fixture(scope="module")
@@ -133,7 +151,7 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
         assert together.statistics["raster"].outgoing == alone.statistics["raster"].outgoing
         assert together.statistics["cull"].outgoing == alone.statistics["cull"].outgoing
         assert together.route.visible == alone.route.visible
-    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason
+    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason or name in DIFFER
     assert not together.pixels.flags.writeable
 
 
