@@ -269,7 +269,9 @@ class BandWorkers:
         seconds = perf_counter() - start
         done = [worker.answer(SECONDS_TO_ANSWER + 10 * seconds) for worker in self._workers]
         routes = [own.route, *(band.route for band in done)]
-        if len({route.color for route in routes if route.visible}) > 1:
+        # One colour a triangle looks the same whichever way it is worked out.
+        ways = {route.color for route in routes if route.visible} - {"palette"}
+        if len(ways) > 1:
             # A colour may be a byte away from that of the whole picture, whose triangles are more.
             return own, ()
         statistics = joined_counts([own.statistics, *(band.statistics for band in done)])

@@ -10,6 +10,7 @@ from multiprocessing import get_context, resource_tracker
 from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
 from pickle import PicklingError
+from secrets import token_hex
 from threading import Lock
 from types import ModuleType
 from typing import Any
@@ -31,6 +32,11 @@ SHARED_FOLDER = Path("/dev/shm")
 """Where Linux keeps shared memory; elsewhere the system says itself when there is no more."""
 
 _starting = Lock()
+
+
+def memory_prefix(pid: int) -> str:
+    """Return what the names of shared memory begin with that a process makes (macOS wants them short)."""
+    return f"raster{pid}-"
 
 
 class WorkerFailedError(Exception):
@@ -154,7 +160,8 @@ class Worker:
         if self._memory is None or self._memory.size < byte_count:
             self._release_memory()
             _check_room(byte_count)
-            self._memory = SharedMemory(create=True, size=byte_count)
+            name = f"{memory_prefix(os.getpid())}{token_hex(4)}"
+            self._memory = SharedMemory(name, create=True, size=byte_count)
             self._has_name = True
         return self._memory
 

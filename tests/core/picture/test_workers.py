@@ -26,6 +26,7 @@ from core import (
     draw_picture,
 )
 from core.picture.workers import BandWorkers
+from core.picture.workers.worker import memory_prefix
 from tests.core.meshes import icosphere, torus
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -128,8 +129,8 @@ SCENES = {
 }
 
 
-DIFFER = ("smooth below, steep above",)
-"""Scenes whose bands may go different ways, so that one process has to draw them."""
+DIFFER = ("smooth below, steep above", "ball in bytes", "ball in bytes, both sides")
+"""Scenes whose bands may go different ways, depending on the cut, so that one process has to draw them."""
 
 
 @pytest.fixture(scope="module")
@@ -326,26 +327,21 @@ def test_a_scene_that_cannot_be_sent_is_told() -> None:
         assert "LocalMesh" in workers.failure
 
 
-def shared_memory_names() -> set[str]:
-    return {path.name for path in SHARED_FOLDER.iterdir()} if SHARED_FOLDER.is_dir() else set()
-
-
-def none_is_left_but(before: set[str], seconds: float = 5.0) -> bool:
-    """Tell whether no shared memory has a name but those; that of other tests, run at the same time, goes soon."""
+def no_memory_of(pid: int, seconds: float = 5.0) -> bool:
+    """Tell whether no shared memory of a process has a name, at once or soon."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
-        if shared_memory_names() <= before:
+        if not SHARED_FOLDER.is_dir() or not list(SHARED_FOLDER.glob(f"{memory_prefix(pid)}*")):
             return True
         time.sleep(0.01)
     return False
 
 
 def test_closing_leaves_nothing_and_may_be_done_twice() -> None:
-    before = shared_memory_names()
     workers = BandWorkers(2, always=True)
     assert workers.start()
     workers.draw(ball(), SPANS)
-    assert none_is_left_but(before)  # the name is gone while the memory is in use
+    assert no_memory_of(os.getpid())  # the name is gone while the memory is in use
     pids = workers.pids
     workers.close()
     workers.close()
@@ -428,19 +424,17 @@ def has_ended(pid: int, seconds: float = 10.0) -> bool:
 
 
 def test_a_script_runs_its_main_part_once_and_ends_quietly(tmp_path: Path) -> None:
-    before = shared_memory_names()
     process = start(PROGRAM, tmp_path)
     output, problems = process.communicate(timeout=60)
     assert (process.returncode, problems) == (0, "")
     assert output.count("main part") == 1
     assert has_ended(int(output.split()[-1]))
-    assert none_is_left_but(before)
+    assert no_memory_of(process.pid)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
 @pytest.mark.parametrize("is_drawing", [False, True])
 def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing: bool) -> None:
-    before = shared_memory_names()
     pause = "\n    import time\n    time.sleep(60)\n"
     with start(PROGRAM + (GO_ON if is_drawing else pause), tmp_path) as process:
         worker = worker_of(process)
@@ -449,7 +443,7 @@ def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing:
         process.kill()
         _, problems = process.communicate(timeout=30)
     assert has_ended(worker)
-    assert none_is_left_but(before)
+    assert no_memory_of(process.pid)
     assert problems == ""
 
 
