@@ -327,21 +327,29 @@ def test_a_scene_that_cannot_be_sent_is_told() -> None:
         assert "LocalMesh" in workers.failure
 
 
-def no_memory_of(pid: int, seconds: float = 5.0) -> bool:
-    """Tell whether no shared memory of a process has a name, at once or soon."""
+def memory_of(pid: int) -> set[str]:
+    """Return the names of the shared memory that a process made."""
+    if not SHARED_FOLDER.is_dir():
+        return set()
+    return {path.name for path in SHARED_FOLDER.glob(f"{memory_prefix(pid)}*")}
+
+
+def is_gone(pid: int, but: set[str] | None = None, seconds: float = 5.0) -> bool:
+    """Tell whether no shared memory of a process has a name, ``but`` these, at once or soon."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
-        if not SHARED_FOLDER.is_dir() or not list(SHARED_FOLDER.glob(f"{memory_prefix(pid)}*")):
+        if memory_of(pid) <= (but or set()):
             return True
         time.sleep(0.01)
     return False
 
 
 def test_closing_leaves_nothing_and_may_be_done_twice() -> None:
+    others = memory_of(os.getpid())
     workers = BandWorkers(2, always=True)
     assert workers.start()
     workers.draw(ball(), SPANS)
-    assert no_memory_of(os.getpid())  # the name is gone while the memory is in use
+    assert is_gone(os.getpid(), others)  # the name is gone while the memory is in use
     pids = workers.pids
     workers.close()
     workers.close()
@@ -429,7 +437,7 @@ def test_a_script_runs_its_main_part_once_and_ends_quietly(tmp_path: Path) -> No
     assert (process.returncode, problems) == (0, "")
     assert output.count("main part") == 1
     assert has_ended(int(output.split()[-1]))
-    assert no_memory_of(process.pid)
+    assert is_gone(process.pid)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
@@ -443,7 +451,7 @@ def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing:
         process.kill()
         _, problems = process.communicate(timeout=30)
     assert has_ended(worker)
-    assert no_memory_of(process.pid)
+    assert is_gone(process.pid)
     assert problems == ""
 
 
