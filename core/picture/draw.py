@@ -96,10 +96,9 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    by_spans = is_drawn_by_spans(settings)
-    geometry = process_geometry(scene, settings, counts, raster=raster) if by_spans else None
-    if geometry is None or (settings.blend != "opaque" and with_depth):
+    if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
+    geometry = process_geometry(scene, settings, counts, raster=raster)
     job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
     depth = None
     if settings.blend != "opaque":

@@ -61,7 +61,7 @@ class Job:
             return self.scene.texture is not None
         return any(mesh.texture is not None for mesh in self.scene.meshes)
 
-    @property
+    @cached_property
     def background(self) -> np.uint32:
         """The pixel that nothing is seen at."""
         word: np.uint32 = self.encode(self.scene.background[None])[0]

@@ -15,9 +15,8 @@ from core.picture.palette import PaletteColors
 from core.picture.textured import TextureColors
 from core.picture.visible import chunks
 from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
 from core.raster.spans.bands import BIG_AREA, bands, spans_by_row
-from core.raster.spans.packed import FEW, WordSpans, word_spans, write_out
+from core.raster.spans.packed import each_pass, word_spans
 
 LayerColors = PaletteColors | ByteColors | TextureColors
 
@@ -61,7 +60,8 @@ def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) ->
             spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
             fragments += spans.pixel_count
         with job.timed("shade"):
-            write_words(job.pixels, spans, job.arena)
+            for pixel, word in each_pass(spans):
+                job.pixels[pixel] = unpack(word, job.arena)
     return fragments
 
 
@@ -110,16 +110,3 @@ def fill_rows(
     for at, end in zip(begins, ends, strict=True):
         target[at:end] = row[: end - at]
     return int((stop - start).sum())
-
-
-def write_words(pixels: Words, spans: WordSpans, arena: Arena) -> None:
-    """Write the colours of spans (used up) to pixels (H*W,): pass k writes the k-th pixel of every long enough span."""
-    pixel, word, step = spans.pixel, spans.word, spans.step
-    for passes, count in enumerate(spans.longer):
-        if count < FEW:
-            span, place = write_out(spans.longer[passes:])
-            pixels[pixel[span] + place] = unpack(word[span] + place * step[span], arena)
-            return
-        pixels[pixel[:count]] = unpack(word[:count], arena)
-        pixel[:count] += 1
-        word[:count] += step[:count]

@@ -8,6 +8,7 @@ Words are integer planes (``core.integer_planes``): walking one pixel by pixel, 
 gives the same bits.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,52 +82,40 @@ def _at_first_pixel(spans: Spans, across: Integers, arena: Arena) -> WordSpans:
     return WordSpans(pixel, word, step, spans.longer)
 
 
-def draw_words(words: Integers, spans: WordSpans) -> None:
-    """Keep the least word of every pixel.
-
-    Parameters
-    ----------
-    words : (H*W,) int64
-        Buffer of the raster's region.
-    spans : WordSpans
-        Used up.
+def each_pass(spans: WordSpans) -> Iterator[tuple[Integers, Integers]]:
+    """Yield place in the buffer and word of pixels, (F,) int64 each, until all pixels of ``spans`` have come.
 
     Notes
     -----
-    Pass k draws the k-th pixel of every span that has one: the first ``longer[k]``.
+    Pass k is the k-th pixel of every span that has one: the first ``longer[k]``. What is left of the few longest spans
+    comes at once. The arrays are good until the next pass; the spans are used up.
     """
     pixel, word, step = spans.pixel, spans.word, spans.step
     for passes, count in enumerate(spans.longer):
         if count < FEW:
-            _write_out(words, spans, passes)
+            span, place = write_out(spans.longer[passes:])
+            yield pixel[span] + place, word[span] + place * step[span]
             return
-        np.minimum.at(words, pixel[:count], word[:count])
+        yield pixel[:count], word[:count]
         pixel[:count] += 1
         word[:count] += step[:count]
+
+
+def draw_words(words: Integers, spans: WordSpans) -> None:
+    """Keep the least word of every pixel of the buffer ``words`` (H*W,) int64; the spans are used up."""
+    for pixel, word in each_pass(spans):
+        np.minimum.at(words, pixel, word)
 
 
 def list_words(spans: WordSpans) -> tuple[Integers, Integers]:
     """Return place in the buffer and word of all pixels of spans (used up), (F,) int64 each, pass by pass."""
     pixels, words = np.empty((2, spans.pixel_count), np.int64)
     done = 0
-    for passes, count in enumerate(spans.longer):
-        if count < FEW:
-            span, place = write_out(spans.longer[passes:])
-            pixels[done:] = spans.pixel[span] + place
-            words[done:] = spans.word[span] + place * spans.step[span]
-            break
-        at = slice(done, done + count)
-        pixels[at], words[at] = spans.pixel[:count], spans.word[:count]
-        spans.pixel[:count] += 1
-        spans.word[:count] += spans.step[:count]
-        done += count
+    for pixel, word in each_pass(spans):
+        at = slice(done, done + len(pixel))
+        pixels[at], words[at] = pixel, word
+        done += len(pixel)
     return pixels, words
-
-
-def _write_out(words: Integers, spans: WordSpans, passes: int) -> None:
-    """Draw what is left of the few longest spans after ``passes``, all at once."""
-    span, place = write_out(spans.longer[passes:])
-    np.minimum.at(words, spans.pixel[span] + place, spans.word[span] + place * spans.step[span])
 
 
 def write_out(longer: list[int]) -> tuple[Integers, Integers]:
