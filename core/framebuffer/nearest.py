@@ -61,10 +61,11 @@ class NearestFragments:
         np.minimum.at(self.keys, pixel, key)
 
     def seen_in(self, part: slice) -> tuple[Integers, Integers]:
-        """Return the places in ``part`` of the buffer that something is seen at (V,), and the primitive there (V,)."""
+        """Return the places, within ``part``, that something is seen at (V,), and the primitive there (V,)."""
         keys = self.keys[part]
         place = np.flatnonzero(keys != self._cleared)
         seen = keys.take(place)
+        place += part.start or 0
         if self._uses_depth_test:
             seen &= (1 << self.primitive_bits) - 1
             seen -= 1

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Integers
+from core.sorting import largest_first, radix_order
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,30 +38,10 @@ def stack_fragments(pixel: Integers) -> PixelStacks:
     return stacks_of(pixel.take(order), order)
 
 
-def radix_order(*keys: Integers) -> Integers:
-    """Return the order (F,) that sorts by the last of ``keys`` (F,) int64, 0 or more, then by the one before it.
-
-    Notes
-    -----
-    Digit by digit from the lowest, 16 bits each: NumPy sorts such short numbers by counting them, 5 ns each, ten times
-    faster than it finds the order of long ones. Equal keys stay as they are.
-    """
-    order = np.arange(len(keys[0]))
-    for key in keys:
-        for shift in range(0, int(key.max(initial=0)).bit_length(), 16):
-            digit = ((key >> shift) & 0xFFFF).astype(np.uint16)
-            order = order.take(digit.take(order).argsort(kind="stable"))
-    return order
-
-
 def stacks_of(pixel: Integers, fragment: Integers) -> PixelStacks:
     """Return the stacks of fragments (F,) that are sorted by pixel (F,), then by drawing order."""
     bottom = np.flatnonzero(np.diff(pixel, prepend=-1))
     height = np.diff(bottom, append=len(pixel))
-    highest = int(height.max(initial=0))
-    kind = np.uint8 if highest < 256 else np.uint16 if highest < 65536 else np.int64
-    missing = (highest - height).astype(kind)
-    order = np.argsort(missing, kind="stable")
-    higher = np.searchsorted(missing.take(order), np.arange(highest, 0, -1, dtype=kind)).tolist()
+    order, higher = largest_first(height)
     bottom = bottom.take(order)
     return PixelStacks(fragment, pixel.take(bottom), bottom, higher)

@@ -46,20 +46,20 @@ def outcodes(clip: Floats) -> Outcodes:
 
 def shared_bits(code: Outcodes, corner: Integers) -> Outcodes:
     """Return (P,) uint8: the bits that all corners (3, P) of a triangle have."""
-    if not code.any():
-        return np.zeros(corner.shape[1], np.uint8)
-    first, second, third = (code.take(index) for index in corner)
-    shared: Outcodes = first & second & third
-    return shared
+    return _of_corners(np.bitwise_and, code, corner)
 
 
 def joined_bits(code: Outcodes, corner: Integers) -> Outcodes:
     """Return (P,) uint8: the bits that any corner (3, P) of a triangle has."""
+    return _of_corners(np.bitwise_or, code, corner)
+
+
+def _of_corners(combine: np.ufunc, code: Outcodes, corner: Integers) -> Outcodes:
     if not code.any():
         return np.zeros(corner.shape[1], np.uint8)
     first, second, third = (code.take(index) for index in corner)
-    joined: Outcodes = first | second | third
-    return joined
+    combined: Outcodes = combine(combine(first, second), third)
+    return combined
 
 
 def has_bits(code: Outcodes, bits: int) -> Flags:

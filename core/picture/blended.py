@@ -9,19 +9,19 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.fragments.interpolation import Interpolator
 from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import run_depth_tests
-from core.framebuffer.stacks import radix_order, stacks_of
+from core.framebuffer.stacks import stacks_of
 from core.integer_planes import IntegerPlanes
 from core.methods import table
-from core.picture.job import BLOCK, Job
+from core.picture.fragment_colors import FragmentColors
+from core.picture.job import Job, blocks
 from core.picture.record import Split
 from core.picture.visible import chunks
 from core.pipeline import covered, fragment_depth
 from core.raster.coverage import Fragments
 from core.raster.spans.packed import list_words, word_spans
-from core.surface import shade_fragments
+from core.sorting import radix_order
 
 STRIP_FRAGMENTS = 1 << 17
 """Fragments of a strip of rows, about: sorting them stays in the processor's cache."""
@@ -118,18 +118,8 @@ def _fragments(job: Job) -> tuple[Integers, Integers]:
 
 def _colors(job: Job, fragments: Fragments) -> Floats:
     """Return the colours (F, 4) float64 of fragments."""
-    primitives, settings = job.geometry.primitives, job.settings
-    source = np.empty((4, len(fragments))).T
-    interpolator = Interpolator(
-        job.geometry.planes, primitives.values, settings.interpolation, settings.provoking
-    )
-    for first in range(0, len(fragments), BLOCK):
-        part = slice(first, first + BLOCK)
-        primitive = fragments.primitive[part]
-        with job.timed("interpolate"):
-            x, y = job.raster.centers(fragments.column[part], fragments.row[part])
-            values = interpolator.values(primitive, x, y)
-        with job.timed("shade"):
-            mesh = primitives.mesh.take(primitive)
-            source[part] = shade_fragments(job.scene, settings, primitives.layout, mesh, values).color
+    colors, source = FragmentColors(job), np.empty((4, len(fragments))).T
+    for part in blocks(len(fragments)):
+        at = (fragments.primitive[part], fragments.column[part], fragments.row[part])
+        source[part] = colors.at(*at)
     return source

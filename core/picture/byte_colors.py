@@ -24,7 +24,7 @@ from core.picture.byte_errors import (
     product_error,
 )
 from core.picture.byte_words import FIELDS, unpack
-from core.picture.job import BLOCK, Job, Words
+from core.picture.job import Job, Words, blocks
 from core.raster.spans.bands import Band
 from core.surface import shade_fragments
 
@@ -90,10 +90,9 @@ class ByteColors:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         planes = self.packed()
         seen_count = 0
-        for first in range(0, len(job.pixels), BLOCK):
-            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
+        for part in blocks(len(job.pixels)):
+            place, primitive = nearest.seen_in(part)
             seen_count += len(place)
-            place += first
             word = planes.at(primitive, *job.raster.position(place))
             job.pixels[place] = unpack(word, job.arena)
         return seen_count

@@ -1,35 +1,21 @@
-"""Deferred colour: attributes and light once for every visible pixel, by the rules of every other picture."""
+"""Deferred colour: attributes and light once for every visible pixel."""
 
-import numpy as np
-
-from core.fragments.interpolation import Interpolator
 from core.framebuffer.nearest import NearestFragments
-from core.picture.job import BLOCK, Job
-from core.surface import shade_fragments
+from core.picture.fragment_colors import FragmentColors
+from core.picture.job import Job, blocks
 
 
 def shade_visible(job: Job, nearest: NearestFragments) -> int:
     """Write the pixels that something is seen at, and return how many there are; the others keep what they have."""
-    primitives, raster = job.geometry.primitives, job.raster
-    with job.timed("interpolate"):
-        interpolator = Interpolator(
-            job.geometry.planes, primitives.values, job.settings.interpolation, job.settings.provoking
-        )
+    colors = FragmentColors(job)
     seen_count = 0
-    for first in range(0, len(job.pixels), BLOCK):
+    for part in blocks(len(job.pixels)):
         with job.timed("depth"):
-            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
+            place, primitive = nearest.seen_in(part)
         if not len(place):
             continue
         seen_count += len(place)
-        place += first
-        with job.timed("interpolate"):
-            x, y = raster.centers(*raster.position(place))
-            rows = job.arena("values", interpolator.value_count, len(place))
-            values = interpolator.values(primitive, x, y, rows)
-        with job.timed("shade"):
-            mesh = primitives.mesh.take(primitive)
-            color = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values).color
+        color = colors.at(primitive, *job.raster.position(place))
         with job.timed("resolve"):
-            job.pixels[place] = job.encode(np.asarray(color))
+            job.pixels[place] = job.encode(color)
     return seen_count

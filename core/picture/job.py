@@ -1,5 +1,6 @@
 """One picture to be drawn: what it shows, where to, and with what memory; the steps of drawing hand it on."""
 
+from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property
@@ -25,6 +26,12 @@ Words = NDArray[np.uint32]
 
 BLOCK = 1 << 15
 """Pixels that are worked on together: their numbers stay in the processor's cache."""
+
+
+def blocks(count: int) -> Iterator[slice]:
+    """Yield the parts of ``count`` pixels that are worked on together."""
+    for first in range(0, count, BLOCK):
+        yield slice(first, first + BLOCK)
 
 
 @dataclass(frozen=True, eq=False)

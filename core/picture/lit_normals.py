@@ -19,7 +19,7 @@ from core.framebuffer.nearest import NearestFragments
 from core.geometry.matrices import world_to_camera
 from core.geometry_record import Geometry
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
-from core.picture.job import BLOCK, Job, Words
+from core.picture.job import Job, Words, blocks
 from core.raster.spans.arena import Arena
 from core.scene import Camera, DirectionalLight, Material, Scene
 
@@ -58,12 +58,11 @@ class LitNormals:
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
         seen_count = 0
-        for first in range(0, len(job.pixels), BLOCK):
-            place, primitive = nearest.seen_in(slice(first, first + BLOCK))
+        for part in blocks(len(job.pixels)):
+            place, primitive = nearest.seen_in(part)
             if not len(place):
                 continue
             seen_count += len(place)
-            place += first
             column, row = job.raster.position(place)
             word = self.planes.at(primitive, column, row)
             normal = _unit(_components(word, job.arena), job.arena)

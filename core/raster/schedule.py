@@ -53,8 +53,13 @@ class Raster:
 
     def index(self, column: Integers, row: Integers) -> Integers:
         """Return the place of pixels (F,) in flattened buffers."""
-        first_column, first_row, end_column, _ = self.bounds
-        return (row - first_row) * (end_column - first_column) + (column - first_column)
+        return row * self.shape[1] + (column + self.place_of_origin)
+
+    @property
+    def place_of_origin(self) -> int:
+        """Where column 0, row 0 of the image would stand in flattened buffers: 0, or before a region."""
+        first_column, first_row, _, _ = self.bounds
+        return -(first_row * self.shape[1] + first_column)
 
     def position(self, index: Integers) -> tuple[Integers, Integers]:
         """Return column and row (F,) of places in flattened buffers."""

@@ -24,6 +24,7 @@ from core.arrays import Floats, Integers
 from core.methods import table
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
+from core.sorting import largest_first
 
 GUARD = 2.0**-35
 """Columns; larger than the rounding of a crossing, smaller than its distance from a whole number that it is not."""
@@ -115,7 +116,7 @@ def set_up_lanes(
     """
     first, rows = row_range(y, raster, owners, arena)
     np.copyto(rows, 0.0, where=doubled_area == 0)  # also where a corner is nowhere
-    order, taller = _tallest_first(rows, arena)
+    order, taller = largest_first(rows, arena("missing_rows", 2 * len(rows), dtype=np.uint8))
     lane_first = arena("lane_first", len(order))
     first.take(order, out=lane_first, mode="clip")
     first_column, _, end_column, _ = raster.bounds
@@ -125,17 +126,6 @@ def set_up_lanes(
     corners = _from_lowest_corner(x, y, doubled_area, order, arena)
     numerator, step, reciprocal = _edges(*corners, lane_first, raster.center, arena)
     return Lanes(order, taller, lane_first, numerator, step, reciprocal, not is_within)
-
-
-def _tallest_first(rows: Floats, arena: Arena) -> tuple[Integers, list[int]]:
-    """Return triangles with rows in order of their number of rows, and how many have more than r rows."""
-    height = int(rows.max(initial=0))
-    kind, top = (np.uint8, 255) if height <= 255 else (np.uint16, 65535)
-    missing = arena("missing_rows", len(rows), dtype=kind)
-    np.subtract(top, rows, out=missing, casting="unsafe")
-    order = missing.argsort(kind="stable")  # one or two bytes: a radix sort
-    taller = np.searchsorted(missing.take(order), np.arange(top, top - height, -1).astype(kind)).tolist()
-    return order[: taller[0] if taller else 0], taller
 
 
 def _from_lowest_corner(

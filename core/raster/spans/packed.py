@@ -44,12 +44,6 @@ class WordSpans:
         return sum(self.longer)
 
 
-def place_of_origin(raster: Raster) -> int:
-    """Return where column 0, row 0 of the image would stand in the flattened buffers of the raster's region."""
-    first_column, first_row, _, _ = raster.bounds
-    return -(first_row * raster.shape[1] + first_column)
-
-
 def word_spans(
     planes: IntegerPlanes, lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
 ) -> WordSpans:
@@ -66,7 +60,7 @@ def word_spans(
     planes.across.take(lanes.triangle, out=across, mode="clip")
     columns = raster.shape[1]
     pixel *= columns
-    pixel += place_of_origin(raster)
+    pixel += raster.place_of_origin
     spans = walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(word, up)), arena)
     return _at_first_pixel(spans, across, arena)
 

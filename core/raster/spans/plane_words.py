@@ -14,7 +14,7 @@ from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import Lanes, TieOwners
-from core.raster.spans.packed import FEW, place_of_origin, write_out
+from core.raster.spans.packed import FEW, write_out
 from core.raster.spans.rows import Carried, Spans, walk_rows
 
 PAYLOAD_BITS = 32
@@ -61,7 +61,7 @@ def plane_spans(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -
     np.copyto(row, lanes.first_row, casting="unsafe")
     columns = raster.shape[1]
     pixel: Integers = np.multiply(row, columns, out=arena("plane_pixel", len(row), dtype=np.int64))
-    pixel += place_of_origin(raster)
+    pixel += raster.place_of_origin
     return walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(row, 1)), arena)
 
 

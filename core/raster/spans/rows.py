@@ -17,6 +17,7 @@ from core.arrays import Floats, Integers
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
 from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, Lanes, TieOwners
+from core.sorting import largest_first
 
 GROUP = 4096
 """Crossings of one edge side that are computed in one go: enough to hide the cost of the calls."""
@@ -174,13 +175,7 @@ def _longest_first(
 ) -> Spans:
     """Return spans in order of their length (R,) int32, without empty ones."""
     np.maximum(length, 0, out=length)
-    longest = int(length.max(initial=0))
-    kind, top = (np.uint8, 255) if longest <= 255 else (np.uint16, 65535)
-    missing = arena("missing_pixels", len(length), dtype=kind)
-    np.subtract(top, length, out=missing, casting="unsafe")
-    order = missing.argsort(kind="stable")  # one or two bytes: a radix sort
-    longer = np.searchsorted(missing.take(order), np.arange(top, top - longest, -1, dtype=kind)).tolist()
-    order = order[: longer[0] if longer else 0]
+    order, longer = largest_first(length, arena("missing_pixels", 2 * len(length), dtype=np.uint8))
     count = len(order)
 
     single = arena("sorted_single", count, dtype=np.int32)

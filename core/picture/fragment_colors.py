@@ -1,0 +1,32 @@
+"""Colours of fragments wherever they lie: attributes and light by the rules of every other picture."""
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.fragments.interpolation import Interpolator
+from core.picture.job import Job
+from core.surface import shade_fragments
+
+
+class FragmentColors:
+    """Interpolates and shades the fragments of a picture, one block after another."""
+
+    def __init__(self, job: Job) -> None:
+        self._job = job
+        values, settings = job.geometry.primitives.values, job.settings
+        with job.timed("interpolate"):
+            self._interpolator = Interpolator(
+                job.geometry.planes, values, settings.interpolation, settings.provoking
+            )
+
+    def at(self, primitive: Integers, column: Integers, row: Integers) -> Floats:
+        """Return the linear colours (F, 4) float64 of primitives (F,) at pixels (F,)."""
+        job, primitives = self._job, self._job.geometry.primitives
+        with job.timed("interpolate"):
+            x, y = job.raster.centers(column, row)
+            rows = job.arena("values", self._interpolator.value_count, len(primitive))
+            values = self._interpolator.values(primitive, x, y, rows)
+        with job.timed("shade"):
+            mesh = primitives.mesh.take(primitive)
+            shaded = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values)
+            return np.asarray(shaded.color)
