@@ -1,0 +1,19 @@
+"""Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
+
+from core.study.stability.experiment import Experiment, Verdict, experiments
+from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
+from core.study.stability.stress import StressCancelledError, count_outcomes, stress
+
+__all__ = [
+    "Atlas",
+    "Axis",
+    "Experiment",
+    "ExperimentInfo",
+    "Outcome",
+    "StabilityMap",
+    "StressCancelledError",
+    "Verdict",
+    "count_outcomes",
+    "experiments",
+    "stress",
+]

@@ -1,0 +1,81 @@
+"""Run an experiment over its whole grid: one real run for every cell of every method."""
+
+from collections.abc import Callable, Mapping
+from itertools import product
+
+import numpy as np
+
+from core.study.stability.experiment import experiments
+from core.study.stability.record import Atlas, Axis, Outcome, StabilityMap
+
+
+class StressCancelledError(Exception):
+    """Whoever asked for the experiment does not want it any more."""
+
+
+def stress(
+    name: str,
+    *,
+    seed: int = 0,
+    axes: tuple[Axis, ...] | None = None,
+    progress: Callable[[float, str], None] | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+    machine: Mapping[str, str] | None = None,
+) -> Atlas:
+    """Run every method of an experiment at every place of its axes.
+
+    Parameters
+    ----------
+    name : str
+        One of `core.study.stability.experiment.experiments`.
+    seed : int
+        What is random in the experiment follows from it.
+    axes : tuple of Axis, optional
+        Other values for the experiment's axes, in their order.
+    progress : callable, optional
+        Called with the fraction done and the method at work.
+    is_cancelled : callable, optional
+        Asked after every cell.
+    machine : mapping, optional
+        Kept in the atlas.
+
+    Raises
+    ------
+    ValueError
+        For an experiment that is not there, or axes that are not the experiment's.
+    StressCancelledError
+        As soon as ``is_cancelled()``.
+    """
+    experiment = experiments.get(name)
+    info = experiment.info
+    chosen = info.axes if axes is None else axes
+    if [axis.name for axis in chosen] != [axis.name for axis in info.axes]:
+        wanted = ", ".join(axis.name for axis in info.axes)
+        raise ValueError(
+            f"axes of {name} must be {wanted}, got {', '.join(axis.name for axis in chosen) or 'none'}"
+        )
+    columns = len(chosen[0].values)
+    rows = len(chosen[1].values) if len(chosen) > 1 else 1
+    places = [place[::-1] for place in product(*(axis.values for axis in reversed(chosen)))]
+    maps = []
+    for number, method in enumerate(info.methods):
+        outcome, severity = np.zeros(len(places), np.uint8), np.zeros(len(places))
+        for cell, place in enumerate(places):
+            if is_cancelled is not None and is_cancelled():
+                raise StressCancelledError(f"{info.title} was cancelled")
+            verdict = experiment.run(method, place, seed)
+            outcome[cell], severity[cell] = int(verdict.outcome), verdict.severity
+            if progress is not None and cell % max(columns // 2, 1) == 0:
+                progress((number + cell / len(places)) / len(info.methods), method)
+        maps.append(
+            StabilityMap(method, method, outcome.reshape(rows, columns), severity.reshape(rows, columns))
+        )
+    return Atlas(info, tuple(maps), seed, dict(machine or {}))
+
+
+def count_outcomes(atlas: Atlas) -> dict[str, dict[str, int]]:
+    """Return by method how many cells ended in which way; ways that none ended in are left out."""
+    return {
+        each.method: {outcome.name: each.count(outcome) for outcome in Outcome if each.count(outcome)}
+        for each in atlas.maps
+    }
