@@ -2,8 +2,16 @@
 
 A picture whose fragments show nothing but a texture needs no more than a byte per channel. So a texel becomes one
 64-bit word of three fields of 21 bits, each with 13 bits of linear colour; times a weight of 8 bits no field
-overflows, and a bilinear mean is four look-ups, four products and three sums for red, green and blue together.
-Weights of 8 bits are what graphics processors have.
+overflows, and a bilinear mean works on red, green and blue together. Weights of 8 bits are what graphics processors
+have.
+
+With weights s across and t up, in 256ths, the mean of the texels A, B (right of it), C (above) and D is
+
+    (256 - s - t + st) A + (s - st) B + (t - st) C + st D  =  256 A + s (B - A) + t (C - A) + st (A - B - C + D)
+
+and the four words on the right depend on the place of A alone: they are kept, as a table that knows what lies
+beyond the border too. So there is one index for a fragment, and the differences may be negative: words are added
+modulo 2^64, and the sum, whose fields are not negative, comes out right.
 
 How exact it is
 ---------------
@@ -19,20 +27,19 @@ References
 M. Segal, K. Akeley, The OpenGL Graphics System 4.6, 2022, section 8.14.2 (subtexel precision is the implementation's).
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats, Singles, read_only
+from core.arrays import Floats, Integers, Singles, read_only
 from core.byte_words import FIELDS, OPAQUE, let_meet
 from core.methods import table
 from core.scene import Texture
 
 Words = NDArray[np.uint32]
-Fields = NDArray[np.uint64]
 Bytes = NDArray[np.uint8]
 Wholes = NDArray[np.int32]
 Coordinates = Floats | Singles
@@ -42,29 +49,69 @@ LEVELS = 8192
 
 BLOCK = 32768
 """Fragments that are looked up at once: enough to make the calls cheap, few enough for the processor's cache."""
+MOST_TEXELS = 1 << 22
+"""Places that a texture may be looked up at: the tables have 32 bytes for each."""
 
 _FIELD = 21
 _SUBTEXELS = 256
-_HALF = np.uint64(sum(1 << (low + fraction - 1) for low, fraction in FIELDS))
+_HALF = sum(1 << (low + fraction - 1) for low, fraction in FIELDS)
 """Half a byte in each field: cutting off the fraction rounds."""
 _FARTHEST = 2.0**30
 """Positions in 1/256 of a texel that 32-bit numbers hold with room to spare."""
 
 
+@dataclass(frozen=True)
+class AxisPlaces:
+    """The different places that a lower left texel has along one axis, whatever the coordinate."""
+
+    size: int
+    """Texels."""
+    first: int
+    """Texel index of the first place."""
+    count: int
+    """Places; then they repeat, or the texture has ended."""
+    repeats: bool
+
+    def find(self, index: Wholes, place: Wholes) -> None:
+        """Write the ``place`` (F,) of texel indices (F,), 0 to count - 1."""
+        if not self.repeats:
+            np.subtract(index, self.first, out=place)
+            np.maximum(place, 0, out=place)
+            np.minimum(place, self.count - 1, out=place)
+        elif self.count & (self.count - 1):
+            np.remainder(index, self.count, out=place)
+        else:
+            np.bitwise_and(index, self.count - 1, out=place)
+
+
+PLACES = {
+    "repeat": lambda size: AxisPlaces(size, 0, size, True),
+    "mirror": lambda size: AxisPlaces(size, 0, 2 * size, True),
+    "clamp": lambda size: AxisPlaces(size, -1, size + 1, False),
+}
+"""By wrap: the places along an axis of so many texels."""
+
+
 @dataclass(frozen=True, eq=False)
 class PackedTexture:
-    """A texture of ``width`` columns and ``height`` rows, a word each texel."""
+    """What bilinear means are made of."""
 
-    texels: Fields
-    """(h * w,) uint64: red in bits 0 to 12, green from bit 21 on, blue from bit 42 on."""
-    width: int
-    height: int
+    words: Integers
+    """(4 * rows.count * columns.count,) int64: of every place 256 A, B - A, C - A, A - B - C + D, side by side so that
+    they come from memory together."""
+    columns: AxisPlaces
+    rows: AxisPlaces
 
 
 @lru_cache(maxsize=16)
-def is_packable(texture: Texture) -> bool:
-    """Return whether a texture has no alpha and nothing brighter than 1 or darker than 0."""
+def is_packable(texture: Texture, wrap: str) -> bool:
+    """Return whether a texture has no alpha, nothing brighter than 1 or darker than 0, and tables of bearable size."""
     pixels = texture.pixels
+    if (
+        wrap not in PLACES
+        or PLACES[wrap](pixels.shape[0]).count * PLACES[wrap](pixels.shape[1]).count > MOST_TEXELS
+    ):
+        return False
     return pixels.shape[2] < 4 and bool(pixels.min() >= 0 and pixels.max() <= 1)
 
 
@@ -75,26 +122,36 @@ def has_bytes(texture: Texture) -> bool:
     return bool((byte / np.float32(255) == texture.pixels).all())
 
 
-@lru_cache(maxsize=16)
-def pack_bytes(texture: Texture) -> PackedTexture:
-    """Return a texture of bytes packed so that sums of weights of 256 are words of ``core.byte_words``."""
-    height, width, channels = texture.pixels.shape
-    byte = np.rint(texture.pixels * np.float32(255)).astype(np.uint64)
-    texels = np.zeros((height, width), np.uint64)
-    for place, (low, fraction) in enumerate(FIELDS):
-        texels |= byte[:, :, place % channels] << np.uint64(low + fraction - 8)
-    return PackedTexture(read_only(texels.reshape(-1)), width, height)
+@lru_cache(maxsize=4)
+def pack_bytes(texture: Texture, wrap: str) -> PackedTexture:
+    """Return a texture of bytes packed so that means, half a byte more, are words of ``core.byte_words``."""
+    byte = np.rint(texture.pixels * np.float32(255)).astype(np.int64)
+    return _pack(byte, [low + fraction - 8 for low, fraction in FIELDS], _HALF, wrap)
 
 
-@lru_cache(maxsize=16)
-def pack(texture: Texture) -> PackedTexture:
-    """Return a texture packed; see `is_packable`."""
-    height, width, channels = texture.pixels.shape
-    level = np.rint(texture.pixels.astype(np.float64) * (LEVELS - 1)).astype(np.uint64)
-    texels = np.zeros((height, width), np.uint64)
-    for place in range(3):
-        texels |= level[:, :, place % channels] << np.uint64(_FIELD * place)
-    return PackedTexture(read_only(texels.reshape(-1)), width, height)
+@lru_cache(maxsize=4)
+def pack_levels(texture: Texture, wrap: str) -> PackedTexture:
+    """Return a texture packed: red in bits 0 to 12, green from bit 21 on, blue from bit 42 on, times 256 in means."""
+    level = np.rint(texture.pixels.astype(np.float64) * (LEVELS - 1)).astype(np.int64)
+    return _pack(level, [_FIELD * place for place in range(3)], 0, wrap)
+
+
+def _pack(values: Integers, shifts: list[int], offset: int, wrap: str) -> PackedTexture:
+    """Return the tables of texels (h, w, C) whose three channels go to ``shifts``; ``offset`` is added to all means."""
+    texels = np.zeros(values.shape[:2], np.int64)
+    for place, shift in enumerate(shifts):
+        texels |= values[:, :, place % values.shape[2]] << shift
+    rows, columns = (PLACES[wrap](size) for size in values.shape[:2])
+    wrapped = table.get("wrap", wrap).function
+
+    def lower_and_upper(places: AxisPlaces) -> tuple[Integers, Integers]:
+        index = places.first + np.arange(places.count)
+        return wrapped(index, places.size), wrapped(index + 1, places.size)
+
+    (bottom, top), (left, right) = lower_and_upper(rows), lower_and_upper(columns)
+    a, b, c, d = (texels[row][:, column] for row in (bottom, top) for column in (left, right))
+    words = np.stack((a * _SUBTEXELS + offset, b - a, c - a, a - b - c + d), axis=2)
+    return PackedTexture(read_only(words.reshape(-1)), columns, rows)
 
 
 def linear_levels() -> Singles:
@@ -125,17 +182,22 @@ class PackedSampler:
     """
 
     def __init__(self, texture: Texture, texture_filter: str, wrap: str, level_bytes: Bytes | None) -> None:
-        self._packed = pack_bytes(texture) if level_bytes is None else pack(texture)
-        self._write_means = {"bilinear": self._write_bilinear, "nearest": self._write_nearest}[texture_filter]
-        self._wrap: Callable[[Wholes, int], Wholes] = table.get("wrap", wrap).function
-        self._is_clamped, self._is_repeated = wrap == "clamp", wrap == "repeat"
+        self._packed = (pack_bytes if level_bytes is None else pack_levels)(texture, wrap)
+        self._is_bilinear = texture_filter == "bilinear"
+        self._is_clamped = wrap == "clamp"
         self._byte_words: list[Words] = []
         if level_bytes is not None:
             self._byte_words = [level_bytes.astype(np.uint32) << np.uint32(8 * place) for place in range(3)]
-        self._means, self._product, self._factor = np.empty((3, BLOCK), np.uint64)
-        self._index = np.empty(BLOCK, np.int64)
-        self._texel, self._weight = np.empty((2, BLOCK), np.int32)
-        self._byte = np.empty(BLOCK, np.uint32)
+        self._memory = {
+            np.dtype(kind): np.empty((count, BLOCK), kind)
+            for kind, count in (
+                (np.float64, 1),
+                (np.float32, 1),
+                (np.int32, 5),
+                (np.int64, 4),
+                (np.uint32, 1),
+            )
+        }
 
     def write_words(self, u: Coordinates, v: Coordinates, words: Words) -> None:
         """Write the colours at texture coordinates as the words of four bytes, 0xAABBGGRR; alpha is 255.
@@ -149,62 +211,63 @@ class PackedSampler:
         """
         for start in range(0, len(u), BLOCK):
             part = slice(start, start + BLOCK)
-            means = self._means[: len(u[part])]
-            self._write_means(u[part], v[part], means)
-            self._write_bytes(means, words[part])
+            self._write_bytes(self._means(u[part], v[part]), words[part])
 
-    def _write_nearest(self, u: Coordinates, v: Coordinates, means: Fields) -> None:
-        """Write the texels at (F,) coordinates, times 256 as all means are."""
-        column = self._wrap(self._subtexel(u, self._packed.width, 0.0) >> 8, self._packed.width)
-        row = self._wrap(self._subtexel(v, self._packed.height, 0.0) >> 8, self._packed.height)
-        self._read(row * self._packed.width, column, means)
-        means *= _SUBTEXELS
+    def _rows(self, kind: Any, count: int) -> NDArray[Any]:
+        """Return the memory for numbers of a type, cut to ``count``."""
+        return self._memory[np.dtype(kind)][:, :count]
 
-    def _write_bilinear(self, u: Coordinates, v: Coordinates, means: Fields) -> None:
-        """Write the weighted sums of the four texels around (F,) coordinates; the weights add up to 256."""
-        left, right, across = self._neighbours(u, self._packed.width)
-        bottom, top, up = self._neighbours(v, self._packed.height)
-        bottom, top = bottom * self._packed.width, top * self._packed.width
-        # The four weights follow from those of the axes and their product, which is rounded.
-        both = across * up
-        both += _SUBTEXELS // 2
-        both >>= 8
-        product, weight = self._product[: len(u)], self._weight[: len(u)]
-        self._read(top, right, means)
-        self._weigh(means, both)
-        self._read(bottom, right, product)
-        means += self._weigh(product, np.subtract(across, both, out=weight))
-        self._read(top, left, product)
-        means += self._weigh(product, np.subtract(up, both, out=weight))
-        self._read(bottom, left, product)
-        both -= across
-        both -= up
-        means += self._weigh(product, np.add(both, _SUBTEXELS, out=weight))
+    def _means(self, u: Coordinates, v: Coordinates) -> Integers:
+        """Return the means of the texels around (F,) coordinates, or the texels they lie in, times 256, as words."""
+        column, row, across, up, place = self._rows(np.int32, len(u))
+        mean: Integers
+        index, mean, part, factor = self._rows(np.int64, len(u))
+        packed = self._packed
+        self._find_subtexels(u, packed.columns.size, column)
+        self._find_subtexels(v, packed.rows.size, row)
+        if self._is_bilinear:
+            np.bitwise_and(column, _SUBTEXELS - 1, out=across)
+            np.bitwise_and(row, _SUBTEXELS - 1, out=up)
+        column >>= 8
+        row >>= 8
+        packed.rows.find(row, place)
+        place *= packed.columns.count
+        packed.columns.find(column, row)
+        place += row
+        place *= 4
+        np.copyto(index, place)
 
-    def _neighbours(self, coordinate: Coordinates, size: int) -> tuple[Wholes, Wholes, Wholes]:
-        """Return the texels before and behind (F,) coordinates of an axis, and the weight of the second, 0 to 255."""
-        # Half a texel back, from its border to its centre, and half a unit on, so that rounding down is to the nearest.
-        index = self._subtexel(coordinate, size, 0.5 - _SUBTEXELS / 2)
-        weight = index & (_SUBTEXELS - 1)
-        index >>= 8
-        following = index + 1
-        if self._is_repeated and size & (size - 1) == 0:
-            index &= size - 1
-            following &= size - 1
-            return index, following, weight
-        if index.min() >= 0 and index.max() < size - 1:
-            return index, following, weight
-        return self._wrap(index, size), self._wrap(following, size), weight
+        packed.words.take(index, out=mean, mode="clip")
+        if not self._is_bilinear:
+            return mean
+        for kind, weight in enumerate((across, up), start=1):
+            packed.words[kind:].take(index, out=part, mode="clip")
+            np.copyto(factor, weight)
+            part *= factor
+            mean += part
+        across *= up
+        across += _SUBTEXELS // 2
+        across >>= 8
+        packed.words[3:].take(index, out=part, mode="clip")
+        np.copyto(factor, across)
+        part *= factor
+        mean += part
+        return mean
 
-    def _subtexel(self, coordinate: Coordinates, size: int, offset: float) -> Wholes:
-        """Return (F,) coordinates of an axis in 1/256 of a texel, moved by ``offset`` of these and rounded down."""
+    def _find_subtexels(self, coordinate: Coordinates, size: int, subtexel: Wholes) -> None:
+        """Write (F,) coordinates of an axis in 1/256 of a texel, rounded down.
+
+        For means they count from the centre of the first texel, half a unit on: rounding down is to the nearest.
+        """
         limit = _FARTHEST / (size * _SUBTEXELS)
         if not (coordinate.min() >= -limit and coordinate.max() <= limit):
             coordinate = self._brought_near(coordinate, limit)
-        position = coordinate * (size * _SUBTEXELS)
-        position += offset
+        (position,) = self._rows(coordinate.dtype, len(coordinate))
+        np.multiply(coordinate, size * _SUBTEXELS, out=position)
+        if self._is_bilinear:
+            position += 0.5 - _SUBTEXELS / 2
         np.floor(position, out=position)
-        return position.astype(np.int32)
+        np.copyto(subtexel, position, casting="unsafe")
 
     def _brought_near(self, coordinate: Coordinates, limit: float) -> Coordinates:
         """Return (F,) coordinates of which those beyond ``limit`` are moved to where the texels are the same.
@@ -215,29 +278,14 @@ class PackedSampler:
         near = np.clip(defined, -1, 2) if self._is_clamped else np.remainder(defined, 2)
         return np.where(np.abs(defined) <= limit, defined, near)
 
-    def _read(self, row_start: Wholes, column: Wholes, texels: Fields) -> None:
-        """Write the words of ``texels`` (F,) at columns of rows that begin at ``row_start``."""
-        texel, index = self._texel[: len(column)], self._index[: len(column)]
-        np.add(row_start, column, out=texel)
-        np.copyto(index, texel)
-        self._packed.texels.take(index, out=texels, mode="clip")
-
-    def _weigh(self, texels: Fields, weight: Wholes) -> Fields:
-        """Multiply all fields of ``texels`` (F,) by their weights, and return them."""
-        factor = self._factor[: len(weight)]
-        np.copyto(factor, weight, casting="unsafe")
-        texels *= factor
-        return texels
-
-    def _write_bytes(self, means: Fields, words: Words) -> None:
+    def _write_bytes(self, means: Integers, words: Words) -> None:
         """Turn weighted sums (F,) into words of bytes."""
         if not self._byte_words:
-            means += _HALF
-            let_meet(means, means, words)
+            let_meet(means.view(np.uint64), means.view(np.uint64), words)
             return
-        byte, index = self._byte[: len(means)], self._index[: len(means)]
+        (byte,), index = self._rows(np.uint32, len(means)), self._rows(np.int64, len(means))[0]
         words[:] = OPAQUE
         for place, byte_word in enumerate(self._byte_words):
-            np.right_shift(means, _FIELD * place + 8, out=index.view(np.uint64))
+            np.right_shift(means.view(np.uint64), _FIELD * place + 8, out=index.view(np.uint64))
             index &= LEVELS - 1
             words |= byte_word.take(index, out=byte, mode="clip")

@@ -74,7 +74,7 @@ def texture_colors(job: Job) -> TextureColors | None:
     if settings.texture_filter not in ("bilinear", "nearest"):
         return None
     texture = _only_texture(job.scene)
-    if texture is None or not is_packable(texture):
+    if texture is None or not is_packable(texture, settings.wrap):
         return None
     values = primitives.values
     if not set(values.layout) <= {"uv", "color"} or not job.geometry.is_projected.all():

@@ -136,11 +136,17 @@ def test_every_block_alike():
 
 
 def test_what_can_be_packed():
-    assert is_packable(random_texture((3, 2)))
-    assert is_packable(random_texture((3, 2), 1))
-    assert not is_packable(random_texture((3, 2), 4))
-    assert not is_packable(Texture(np.full((1, 1, 3), 1.25, np.float32)))
-    assert not is_packable(Texture(np.full((1, 1, 1), -0.1, np.float32)))
+    assert is_packable(random_texture((3, 2)), "repeat")
+    assert is_packable(random_texture((3, 2), 1), "repeat")
+    assert not is_packable(random_texture((3, 2), 4), "repeat")
+    assert not is_packable(Texture(np.full((1, 1, 3), 1.25, np.float32)), "repeat")
+    assert not is_packable(Texture(np.full((1, 1, 1), -0.1, np.float32)), "repeat")
+
+
+def test_tables_of_too_many_places_are_not_made():
+    texture = Texture(np.zeros((1500, 1500, 1), np.float32))
+    assert is_packable(texture, "repeat")
+    assert not is_packable(texture, "mirror")  # four times as many places
 
 
 @pytest.mark.parametrize("wrap", WRAPS)
