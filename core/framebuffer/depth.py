@@ -165,9 +165,9 @@ def run_depth_tests(
     return DepthTests(before, passes)
 
 
-def depth_test(new: float, old: float, larger_is_nearer: bool) -> tuple[float, bool]:
-    """Listing of the depth test at one pixel."""
+def depth_test(new: float, old: float, larger_is_nearer: bool, writes: bool = True) -> tuple[float, bool]:
+    """Listing of the depth test at one pixel; ``writes`` is false for the pale pixels of lines."""
     nearer = new > old if larger_is_nearer else new < old  #: compare
     if not nearer:  #: decide
         return old, False  #: reject
-    return new, True  #: store
+    return new if writes else old, True  #: store

@@ -5,7 +5,9 @@ import pytest
 
 from core import ClipScene, Settings, draw_picture, draw_triangles, render, trace
 from core.blend_choice import blend_choice
+from core.framebuffer.depth import depth_test
 from core.framebuffer.display import to_display
+from core.framebuffer.packed_keys import rounded_depth_test
 from core.methods import table
 from core.raster.line_intensities import WRITTEN_INTENSITY, run_rightwards
 from core.raster.lines import draw_lines, has_intensities
@@ -159,6 +161,19 @@ def test_rows_give_the_picture_with_every_depth_and_blend_method(line, depth, bl
     depths, blends = (traced.stage(stage) for stage in ("depth", "blend"))
     assert depths.state(depths.steps.count)["depth"].tobytes() == frame.depth.tobytes()
     assert np.array_equal(depths.state(depths.steps.count)["primitive"], frame.primitive)
+    c = depths.columns
+    assert (c["passes"] & ~c["writes"]).any()
+    for row in range(depths.steps.row_count):
+        writes, passes = bool(c["writes"][row]), bool(c["passes"][row])
+        if "key" in c:
+            found = rounded_depth_test(
+                c["depth"][row], int(c["number"][row]), int(c["before_key"][row]), writes
+            )
+            assert found == (c["after_key"][row], passes)
+        else:
+            is_larger = bool(c["larger_is_nearer"][row])
+            found = depth_test(c["stored"][row], c["before"][row], is_larger, writes)
+            assert found == (c["after"][row], passes)
     assert blends.state(blends.steps.count)["color"].tobytes() == frame.color.tobytes()
     assert np.array_equal(
         blends.columns["source"][:, 3], blends.columns["color"][:, 3] * blends.columns["intensity"]
