@@ -18,6 +18,7 @@ from app.cli_arguments import (
 from app.file_writing import whole_file
 from core import Frame, render
 from core.arrays import Singles
+from core.blend_choice import blend_choice
 from core.framebuffer.display import Bytes, to_display
 
 DESCRIPTION = (
@@ -65,12 +66,13 @@ def run(options: argparse.Namespace) -> int:
     scene = opened.document.scene
     if options.size is not None:
         scene = replace(scene, size=options.size)
-    check_memory(scene.size, settings.blend)
+    blend, _ = blend_choice(settings)
+    check_memory(scene.size, blend)
     with overflow_told():
         frame = render(scene, settings)
 
     if options.output is not None:
-        write_picture(options.output, frame, settings.blend)
+        write_picture(options.output, frame, blend)
     if options.buffers is not None:
         with whole_file(options.buffers) as file:
             np.savez(file, color=frame.color, depth=frame.depth, primitive=frame.primitive)

@@ -66,6 +66,13 @@ def nearest(positions: Integers, position: int, direction: int) -> int | None:
     return int(found[0 if direction > 0 else -1]) if len(found) else None
 
 
+INSERTED_FOR = {
+    "clip": "corners in front of the eye",
+    "blend": 'pixels that are mixed with what is there: they are blended "over"',
+}
+"""What a method lacked that made the pipeline insert a stage."""
+
+
 class SteppingPresenter(QObject):
     """Shows where the cursor is and moves it."""
 
@@ -179,7 +186,7 @@ class SteppingPresenter(QObject):
             state = StageState.SKIPPED if state is StageState.DONE else state
         elif count.note:
             inserted = True
-            reason = f"Inserted because {count.note} needs corners in front of the eye."
+            reason = f"Inserted because {count.note} needs {INSERTED_FOR[stage]}."
         return StageEntry(
             SHORT_TITLES[stage],
             str((index + 1) % 10) if index < 10 else "",

@@ -17,6 +17,8 @@ from core.geometry.vertex_stage import VertexStage
 from core.methods import table
 from core.primitives import IndexedPrimitives, Primitives
 from core.raster.edge_functions import EdgeFunctions, set_up_edges
+from core.raster.line_intensities import run_rightwards
+from core.raster.lines import has_intensities
 from core.raster.snapping import CornerPositions, WindowVertices, place_corners
 from core.raster.wireframe import Outlines, set_up_outlines
 from core.settings import Settings
@@ -137,9 +139,10 @@ class Geometry:
         if not table.get("polygon_mode", self.settings.polygon_mode).function():
             return None
         with timed(self.count):
-            return set_up_outlines(
+            outlines = set_up_outlines(
                 self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size
             )
+            return run_rightwards(outlines) if has_intensities(self.settings.line) else outlines
 
     def _corner_shares(self) -> Floats | None:
         """Return the shares (P, 3, 3) of a triangle's corners in those of its pieces; ``None``: nothing is cut."""

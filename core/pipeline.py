@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
+from core.blend_choice import blend_choice
 from core.fragments.interpolation import Interpolator, interpolate, plane_value
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.blending import blend_stacks
@@ -20,8 +21,9 @@ from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
 from core.raster.binning import bound
-from core.raster.coverage import Fragments, cover
+from core.raster.coverage import Fragments, cover, join_fragments
 from core.raster.edge_functions import EdgeFunctions
+from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
     LineFragments,
@@ -196,6 +198,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
     nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
     kept: list[tuple[Fragments, Stored]] = []
+    blend, counts["blend"].note = blend_choice(settings)
 
     # Coverage and depth of every fragment, in batches.
     cover_primitives = covered if geometry.outlines is None else _outlined
@@ -206,9 +209,13 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
             np.add.at(cover_count, pixel, np.int32(1))
-            nearest.add(pixel, owner_of(fragments), stored)
+            writes = writes_depth(fragments)
+            if writes is None:
+                nearest.add(pixel, owner_of(fragments), stored)
+            else:
+                nearest.add(pixel[writes], owner_of(fragments)[writes], stored[writes])
             counts["depth"].incoming += len(pixel)
-            if settings.blend != "opaque":
+            if blend != "opaque":
                 kept.append((fragments, stored))
 
     # What is seen; attributes and colour once per visible pixel.
@@ -219,7 +226,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
-    if settings.blend == "opaque":
+    if blend == "opaque":
         color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
@@ -334,31 +341,28 @@ def _blend(
 ) -> None:
     """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    owner, column, row = (
-        _join([owner_of(f) for f, _ in kept]),
-        _join([f.column for f, _ in kept]),
-        _join([f.row for f, _ in kept]),
-    )
-    stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, depth_format.stored_type)
+    if not kept:
+        return
+    fragments = join_fragments([f for f, _ in kept])
+    stored = np.concatenate([s for _, s in kept])
+    owner = owner_of(fragments)
     if (owner[1:] < owner[:-1]).any():
         order = np.argsort(owner, kind="stable")
-        owner, column, row, stored = owner[order], column[order], row[order], stored[order]
-    fragments = fragments_of(geometry, owner, column, row)
+        fragments, stored = fragments.take(order), stored[order]
     with timed(counts["depth"]):
-        stacks = stack_fragments(raster.index(column, row))
+        stacks = stack_fragments(raster.index(fragments.column, fragments.row))
         cleared = np.full(len(color), depth_format.cleared, depth_format.stored_type)
-        passes = run_depth_tests(stored, stacks, cleared, depth_format, geometry.uses_depth_test).passes
+        passes = run_depth_tests(
+            stored, stacks, cleared, depth_format, geometry.uses_depth_test, writes_depth(fragments)
+        ).passes
         fragments = fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
     source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
     with timed(counts["blend"]):
-        rule = table.get("blend", settings.blend).function
+        source = weigh_alpha(source, fragments)
+        rule = table.get("blend", blend_choice(settings)[0]).function
         blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)
         counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
-
-
-def _join(parts: list[Integers]) -> Integers:
-    return np.concatenate(parts) if parts else np.empty(0, np.int64)
 
 
 CHUNK = 1 << 22

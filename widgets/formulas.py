@@ -3,7 +3,14 @@
 from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
-from widgets import formulas_frame, formulas_lines, formulas_pixel, formulas_raster, formulas_vertex
+from widgets import (
+    formulas_frame,
+    formulas_lines,
+    formulas_pixel,
+    formulas_raster,
+    formulas_smooth_lines,
+    formulas_vertex,
+)
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -13,6 +20,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_lines.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
+    **formulas_smooth_lines.BLEND_FORMULAS,
 }
 """``stage.kind.operation`` to the maker of its formula; all interpolated values share one, ``value``."""
 
@@ -31,6 +39,7 @@ WITHOUT_FORMULA = frozenset(
         "depth.store.write",
         "blend.opaque.write",
         "blend.over.write",
+        "blend.line-over.write",
     }
 )
 """Operations that hand on, keep or store what is there, and compute nothing."""

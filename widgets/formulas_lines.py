@@ -16,6 +16,7 @@ from widgets.equation import (
 )
 from widgets.formula import Formula
 from widgets.formulas_pixel import attribute
+from widgets.formulas_smooth_lines import GUPTA_SPROULL, RECTANGLE, WU, line_cosine, rectangle_length
 from widgets.sentences_lines import axes, line_method, major_direction, minor_direction, place_on_edge
 from widgets.step_values import StepValues
 
@@ -172,6 +173,7 @@ _LINE: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "round": rounded,
     "plot": plotted,
 }
+_LINE_AT: Mapping[str, Callable[[StepValues], Formula | None]] = {"evaluate": evaluated}
 _DIAMOND: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "round": nearest,
     "leaves": leaves,
@@ -188,8 +190,23 @@ _KINDS: Mapping[str, Mapping[str, Callable[[StepValues], Formula | None]]] = {
     "midpoint": _LINE,
     "dda-start": {**_START, **_LINE, "slope": slope},
     "dda": {"advance": advanced, "round": rounded, "plot": plotted},
+    "dda-float32-start": {**_START, **_LINE, "slope": slope},
+    "dda-float32": {"advance": advanced, "round": rounded, "plot": plotted},
     "diamond-exit-start": {**_START, **_DIAMOND},
     "diamond-exit": _DIAMOND,
+    "rectangle-start": {**_START, **RECTANGLE, "length": rectangle_length, "plot": plotted},
+    "rectangle": {**RECTANGLE, "plot": plotted},
+    "wu-start": {**_START, **_LINE_AT, **WU, "slope": slope, "plot": plotted},
+    "wu": {**_LINE_AT, **WU, "plot": plotted},
+    "gupta-sproull-start": {
+        **_START,
+        **_LINE_AT,
+        **GUPTA_SPROULL,
+        "slope": slope,
+        "cosine": line_cosine,
+        "plot": plotted,
+    },
+    "gupta-sproull": {**_LINE_AT, **GUPTA_SPROULL, "plot": plotted},
 }
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {

@@ -6,6 +6,7 @@ from core.trace.lines import PIXEL_METHODS
 from widgets.number_text import counted, spoken, vector_text
 from widgets.sentences_pixel import attribute
 from widgets.sentences_raster import pixel_name
+from widgets.sentences_smooth_lines import GUPTA_SPROULL, RECTANGLE, WU, line_cosine, rectangle_length
 from widgets.step_values import StepValues
 
 
@@ -160,11 +161,15 @@ def leaves(step: StepValues) -> str:
 def plotted(step: StepValues) -> str:
     """The pixel is drawn."""
     place, edge = place_on_edge(step), f"edge {step.whole('edge')}"
+    intensity = step.number("intensity")
+    drawn = "is drawn" if intensity == 1 else f"is drawn with intensity {spoken(intensity)}"
     if not 0 <= place <= 1:
         end = "first" if place < 0 else "second"
-        return f"{pixel_name(step)} is drawn: its centre lies beyond the {end} end of {edge} and counts as there."
+        return (
+            f"{pixel_name(step)} {drawn}: its centre lies beyond the {end} end of {edge} and counts as there."
+        )
     where = {0.0: "at the first end", 1.0: "at the second end"}.get(place, f"at t = {spoken(place)}")
-    return f"{pixel_name(step)} is drawn: its centre lies {where} of {edge}."
+    return f"{pixel_name(step)} {drawn}: its centre lies {where} of {edge}."
 
 
 def parts(step: StepValues) -> str:
@@ -196,6 +201,7 @@ def weight(step: StepValues) -> str:
 _BRESENHAM: Mapping[str, Callable[[StepValues], str]] = {"test": tested, "step": stepped, "plot": plotted}
 _START: Mapping[str, Callable[[StepValues], str]] = {"octant": octant, "plot": plotted}
 _LINE: Mapping[str, Callable[[StepValues], str]] = {"evaluate": evaluated, "round": rounded, "plot": plotted}
+_LINE_AT: Mapping[str, Callable[[StepValues], str]] = {"evaluate": evaluated}
 _DIAMOND: Mapping[str, Callable[[StepValues], str]] = {"round": nearest, "leaves": leaves, "plot": plotted}
 _KINDS: Mapping[str, Mapping[str, Callable[[StepValues], str]]] = {
     "bresenham-start": {**_START, "lengths": lengths},
@@ -208,8 +214,23 @@ _KINDS: Mapping[str, Mapping[str, Callable[[StepValues], str]]] = {
     "midpoint": _LINE,
     "dda-start": {**_START, **_LINE, "slope": line_slope},
     "dda": {"advance": advanced, "round": rounded, "plot": plotted},
+    "dda-float32-start": {**_START, **_LINE, "slope": line_slope},
+    "dda-float32": {"advance": advanced, "round": rounded, "plot": plotted},
     "diamond-exit-start": {**_START, **_DIAMOND},
     "diamond-exit": _DIAMOND,
+    "rectangle-start": {**_START, **RECTANGLE, "length": rectangle_length, "plot": plotted},
+    "rectangle": {**RECTANGLE, "plot": plotted},
+    "wu-start": {**_START, **_LINE_AT, **WU, "slope": line_slope, "plot": plotted},
+    "wu": {**_LINE_AT, **WU, "plot": plotted},
+    "gupta-sproull-start": {
+        **_START,
+        **_LINE_AT,
+        **GUPTA_SPROULL,
+        "slope": line_slope,
+        "cosine": line_cosine,
+        "plot": plotted,
+    },
+    "gupta-sproull": {**_LINE_AT, **GUPTA_SPROULL, "plot": plotted},
 }
 
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {

@@ -56,6 +56,11 @@ def _holder(key: int) -> str:
 def key_written(step: StepValues) -> str:
     """The key in the buffer after the test."""
     after = step.whole("after_key")
+    if step.flag("passes") and not step.flag("writes"):
+        return (
+            f"{pixel_name(step)}: the buffer keeps {key_text(after)}, of {_holder(after)}, as the line covers less "
+            "than half of this pixel."
+        )
     verb = "now holds" if step.flag("passes") else "keeps"
     return f"{pixel_name(step)}: the buffer {verb} the lesser key, {key_text(after)}, of {_holder(after)}."
 

@@ -195,9 +195,19 @@ def depth_written(step: StepValues) -> str:
     """What the depth buffer holds after the test."""
     after, before = pair_text(step.number("after"), step.number("before"))
     triangle = f"triangle {step.triangle}"
+    if step.flag("passes") and not step.flag("writes"):
+        return _let_through(step)
     if step.flag("passes"):
         return f"{pixel_name(step)}: the depth buffer now holds {after}, of {triangle}, instead of {before}."
     return f"{pixel_name(step)}: the depth buffer keeps {before}, and {triangle} is not seen here."
+
+
+def _let_through(step: StepValues) -> str:
+    """A pale pixel of a line, which is not stored."""
+    return (
+        f"{pixel_name(step)}: the depth buffer keeps {spoken(step.number('before'))}, as the line covers less than "
+        "half of this pixel and must not hide what is drawn there later."
+    )
 
 
 def out_of_range(step: StepValues) -> str:
@@ -213,6 +223,8 @@ def out_of_range(step: StepValues) -> str:
 
 def untested(step: StepValues) -> str:
     """A fragment written without a test."""
+    if not step.flag("writes"):
+        return _let_through(step)
     after, before = pair_text(step.number("after"), step.number("before"))
     return f"{pixel_name(step)}: without a depth test {after} simply replaces {before} in the depth buffer."
 

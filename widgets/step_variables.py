@@ -68,6 +68,17 @@ LINE_VARIABLES: Mapping[str, VariableText] = {
     "is_tie": VariableText("tie", "Whether the line passes exactly between two pixels."),
     "exit_start": VariableText("leaves at start", "Whether the line leaves the diamond of its first pixel."),
     "exit_end": VariableText("leaves at end", "Whether the line leaves the diamond of its last pixel."),
+    "length": VariableText("length", "Pixels of the span, or of the line."),
+    "along": VariableText("along", "How far along the line the pixel's centre lies, in pixels."),
+    "cosine": VariableText(
+        "cosine", "By what a distance along the minor axis shrinks to that from the line."
+    ),
+    "share": VariableText("share", "Part of the pixel's column or row that the line spans."),
+    "fraction": VariableText("fraction", "How far the line lies from the lower pixel to the upper one."),
+    "line_distance": VariableText("distance", "Of the pixel's centre from the line, in pixels."),
+    "entry": VariableText("entry", "Place in the filter's table: the distance in sixteenths of a pixel."),
+    "filtered": VariableText("table value", "What the filter sees of the line at this distance."),
+    "intensity": VariableText("intensity", "Share of the line's colour that the pixel gets."),
     "major": VariableText("major", "Coordinate along the major axis."),
     "minor": VariableText("minor", "Coordinate along the minor axis."),
     "index": VariableText("index", "Pixels of the line before this one."),
@@ -101,7 +112,6 @@ SPAN_VARIABLES: Mapping[str, VariableText] = {
         "right guard", "Keeps rounding from deciding, and ties to their owner.", "right"
     ),
     "stop": VariableText("stop", "Column after the last of the span."),
-    "length": VariableText("length", "Pixels of the span."),
     "place": VariableText("place", "Place of the span among all, the longest first; −1: none."),
     "span_count": VariableText("spans", "Spans of all triangles together.", "length"),
     "pass_number": VariableText(
@@ -266,6 +276,8 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "blend": {
         **_PIXEL,
+        "color": VariableText("shaded colour", "Linear red, green, blue and straight alpha, as shaded."),
+        "intensity": VariableText("intensity", "Share of the line's colour that the pixel gets."),
         "source": VariableText("fragment colour", "Linear red, green, blue and straight alpha."),
         "before": VariableText("buffer before", "What the colour buffer held."),
         "after": VariableText("colour buffer", "What the colour buffer holds.", previous="before"),

@@ -130,7 +130,12 @@ class DepthTests:
 
 
 def run_depth_tests(
-    stored: Stored, stacks: PixelStacks, initial: Stored, depth_format: DepthFormat, is_tested: bool
+    stored: Stored,
+    stacks: PixelStacks,
+    initial: Stored,
+    depth_format: DepthFormat,
+    is_tested: bool,
+    writes: Flags | None = None,
 ) -> DepthTests:
     """Test fragments one layer after another: the result is that of drawing them one by one.
 
@@ -142,7 +147,9 @@ def run_depth_tests(
     initial : (H*W,) like ``stored``, the buffer before
     depth_format : DepthFormat
     is_tested : bool
-        False: every fragment passes and is stored.
+        False: every fragment passes.
+    writes : (F,) bool, optional
+        Fragments that are stored if they pass; ``None``: all.
     """
     before, passes = np.empty_like(stored), np.ones(len(stored), bool)
     there = initial.take(stacks.pixel)
@@ -152,15 +159,15 @@ def run_depth_tests(
         if is_tested:
             nearer = depth_format.is_nearer(new, old)
             passes[fragment] = nearer
-            np.copyto(old, new, where=nearer)
+            np.copyto(old, new, where=nearer if writes is None else nearer & writes.take(fragment))
         else:
-            old[:] = new
+            np.copyto(old, new, where=True if writes is None else writes.take(fragment))
     return DepthTests(before, passes)
 
 
-def depth_test(new: float, old: float, larger_is_nearer: bool) -> tuple[float, bool]:
-    """Listing of the depth test at one pixel."""
+def depth_test(new: float, old: float, larger_is_nearer: bool, writes: bool = True) -> tuple[float, bool]:
+    """Listing of the depth test at one pixel; ``writes`` is false for the pale pixels of lines."""
     nearer = new > old if larger_is_nearer else new < old  #: compare
     if not nearer:  #: decide
         return old, False  #: reject
-    return new, True  #: store
+    return new if writes else old, True  #: store

@@ -18,9 +18,9 @@ def packed_depth_test(
     return new, new != old  #: store
 
 
-def rounded_depth_test(z: float, number: int, old: int) -> tuple[int, bool]:
-    """Listing of the test where a triangle has no such plane: z in [0, 1] is rounded at every pixel."""
+def rounded_depth_test(z: float, number: int, old: int, writes: bool = True) -> tuple[int, bool]:
+    """Listing of the test where a triangle or line has no such plane: z in [0, 1] is rounded at every pixel."""
     depth = round(z * SCALE)  #: depth
     key = ((depth + SLACK) << NUMBER_BITS) | (number + 1)  #: key
     new = min(key, old)  #: minimum
-    return new, new != old  #: store
+    return new if writes else old, new != old  #: store

@@ -1,7 +1,8 @@
 """Coverage: the inside decision at the pixels of a schedule."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -27,8 +28,20 @@ class Fragments:
 
     def select(self, keep: Flags) -> "Fragments":
         """Return the fragments where ``keep`` (F,) holds."""
-        index = np.flatnonzero(keep)
+        return self.take(np.flatnonzero(keep))
+
+    def take(self, index: Integers) -> "Fragments":
+        """Return the fragments ``index``, (G,) int64."""
         return Fragments(self.primitive.take(index), self.column.take(index), self.row.take(index))
+
+
+AnyFragments = TypeVar("AnyFragments", bound=Fragments)
+
+
+def join_fragments(parts: Sequence[AnyFragments]) -> AnyFragments:
+    """Return fragments of one kind, at least one part of them, as one."""
+    names = [name for name, values in vars(parts[0]).items() if values is not None]
+    return type(parts[0])(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in names})
 
 
 @dataclass(frozen=True, eq=False)

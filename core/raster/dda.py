@@ -1,8 +1,9 @@
-"""Two lines in floats: the line equation evaluated in every column, and the same by adding the slope (DDA).
+"""Lines in floats: the line equation evaluated in every column, and the same by adding the slope (DDA).
 
-Both take any ends: they draw the columns (steep: rows) whose centre lies between the ends, a centre at the
+They take any ends: they draw the columns (steep: rows) whose centre lies between the ends, a centre at the
 first end included, one at the second end only with ``last_pixel``. They differ by rounding only: the DDA adds
-the rounded slope again and again, so its error grows along the line.
+the rounded slope again and again, so its error grows along the line: by some 1e-12 pixels in float64, where only
+ties can tell, and by whole pixels in float32.
 
 References
 ----------
@@ -14,9 +15,10 @@ from math import ceil, floor
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.arrays import Flags, Floats, Integers, Singles
 from core.methods import method
 from core.raster.line_records import (
+    MINOR_MARGIN,
     LineRun,
     Segments,
     enumerate_steps,
@@ -30,6 +32,12 @@ BATCH = 2**20
 
 Listed = list[tuple[int, int, float]]
 """Column, row and minor coordinate of each pixel, from a listing."""
+
+
+STEP_LIMIT = 2**16
+"""Most steps that the DDA in float32 takes along one segment: its drift is bounded, and so is the work."""
+FLOAT32_ROUNDING = 2.0**-23
+"""Most that one sum in float32 is off by, as a share of it, with room for the sums before it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +62,7 @@ def _columns(segments: Segments, last_pixel: bool) -> _Columns:
     length = np.abs(ends[:, 1] - ends[:, 0])
     is_steep = length[:, 1] > length[:, 0]
     ends = major_first(ends, is_steep)
-    u, v, u_end, v_end = ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1]
+    u, u_end = ends[:, 0, 0], ends[:, 1, 0]
     is_backward = u_end < u
     start = np.where(is_backward, np.floor(u), np.ceil(u))
     if last_pixel:
@@ -63,9 +71,15 @@ def _columns(segments: Segments, last_pixel: bool) -> _Columns:
         stop = np.where(is_backward, np.floor(u_end) + 1, np.ceil(u_end) - 1)
     step = np.where(is_backward, -1, 1)
     count = np.maximum(step * (stop - start).astype(np.int64) + 1, 0)
+    return _Columns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
+
+
+def line_coefficients(ends: Floats) -> tuple[Floats, Floats]:
+    """Return m and b (L,) of v = m u + b through the ends (L, 2, 2) u, v; m is 0 where they coincide."""
+    u, v, u_end, v_end = ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1]
     du = u_end - u
     slope = (v_end - v) / np.where(du == 0, 1.0, du)
-    return _Columns(is_steep, start.astype(np.int64), step, count, slope, v - slope * u)
+    return slope, v - slope * u
 
 
 def _run(columns: _Columns, owner: Integers, k: Integers, v: Floats, v_before: Floats) -> LineRun:
@@ -140,8 +154,66 @@ def dda(segments: Segments, last_pixel: bool) -> LineRun:
     return _run(columns, owner, k, sums, sums_before)
 
 
-def _running_sums(first: Integers, last: Integers, v: Floats, v_step: Floats) -> tuple[Floats, Floats]:
-    """Add ``v_step`` to ``v`` k times: (P,) sums at the steps first <= k < last, and one step before each."""
+@method(
+    "line",
+    "dda-float32",
+    "DDA, slope added in float32",
+    source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization, in 32 bits",
+    exact_for="short lines near the origin, but for ties",
+    breaks_where="long lines: all sums of one binade are rounded alike, so the line drifts by whole pixels over "
+    f"thousands of columns, and the more the farther it is from the origin; more than {STEP_LIMIT} steps are refused",
+)
+def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
+    """Add the slope in float32 and round; ``decision`` is the sum so far (centres whole).
+
+    Raises
+    ------
+    ValueError
+        If a segment needs more than `STEP_LIMIT` steps before it leaves the raster.
+
+    Notes
+    -----
+    The first sum and the slope are those of ``dda``, rounded once to float32.
+    """
+    columns = _columns(segments, last_pixel)
+    v = line_equation(columns.start, columns.slope, columns.intercept).astype(np.float32)
+    v_step = (columns.step * columns.slope).astype(np.float32)
+    # How far the sums can be off where the line leaves the raster, at the latest.
+    size = np.where(columns.is_steep, segments.height, segments.width)
+    leaves = np.where(columns.step > 0, size - columns.start, columns.start + 1)
+    steps = np.clip(leaves, 0, columns.count)
+    reach = np.abs(v) + steps * np.abs(v_step) + 1.0
+    margin = MINOR_MARGIN + (np.minimum(steps, STEP_LIMIT) + 1) * reach * FLOAT32_ROUNDING
+    first, last = visible_range(
+        segments,
+        columns.is_steep,
+        columns.start,
+        columns.step,
+        v.astype(float),
+        v_step.astype(float),
+        columns.count,
+        margin,
+    )
+    last = np.where(first < last, last, first)
+    longest = np.where(first < last, last, 0)
+    if longest.max(initial=0) > STEP_LIMIT:
+        segment = int(np.argmax(longest))
+        raise ValueError(
+            f"dda-float32 takes at most {STEP_LIMIT} steps, got {int(longest[segment])} up to the end of the raster "
+            f"(segment {segment}): clip it first"
+        )
+    owner, k = enumerate_steps(first, last)
+    sums, sums_before = _running_sums(first, last, v, v_step)
+    return _run(columns, owner, k, sums, sums_before)
+
+
+def _running_sums(
+    first: Integers, last: Integers, v: Floats | Singles, v_step: Floats | Singles
+) -> tuple[Floats, Floats]:
+    """Add ``v_step`` to ``v`` k times: (P,) sums at the steps first <= k < last, and one step before each.
+
+    They are added in the type of ``v`` and returned as float64.
+    """
     counts = last - first
     place = np.cumsum(counts) - counts
     sums, sums_before = np.empty(counts.sum()), np.empty(counts.sum())
@@ -195,5 +267,24 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
         row = floor(y) + (y - floor(y) >= 0.5)  #: round
         pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
         y += m * x_step  #: advance
+        x += x_step  #: next
+    return pixels
+
+
+def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``dda-float32`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    y, y_step = np.float32(m * x + b), np.float32(m * x_step)  #: evaluate
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, float(y)) if is_steep else (x, row, float(y)))  #: draw
+        y = np.float32(y + y_step)  #: advance
         x += x_step  #: next
     return pixels

@@ -19,6 +19,8 @@ COORDINATE_LIMIT = 2.0**20
 """Farthest end of a segment, in pixels from the window's origin: all integer decisions then fit 64 bits."""
 PIXEL_CENTERS = {"half": 0.5, "integer": 0.0}
 """Where the centre of pixel (0, 0) lies, for each value of the setting ``pixel_center``."""
+BLENDING = "blending"
+"""What methods need whose pixels have intensities: they are mixed with what is there."""
 MINOR_MARGIN = 2.0
 """Pixels beyond the raster that `visible_range` keeps, more than any rounding of a minor coordinate."""
 
@@ -28,14 +30,14 @@ class LineSteps:
     """Every number that took part in choosing the P pixels, in drawing order."""
 
     index: Integers
-    """(P,) int64, number of the pixel along its whole line, from 0; pixels outside the raster are counted."""
+    """(P,) int64, number of the pixel along its whole line, from 0; pixels outside the raster are counted. Methods
+    with n pixels in a column count n for every column."""
     t: Floats
     """(P,) float64, place of the pixel's centre on the segment: 0 at the first end, 1 at the second. See
     `core.raster.lines.segment_parameter`."""
     decision: Floats
     """(P,) float64, the value that chose this pixel (D, e + m, minor coordinate ...; each method says which);
-    NaN
-    where nothing had to be decided."""
+    NaN where nothing had to be decided."""
     has_stepped: Flags
     """(P,) bool, whether the minor coordinate changed since the pixel before on this line."""
     is_tie: Flags
@@ -44,6 +46,15 @@ class LineSteps:
     """(P,) float64, diamond-exit only (else NaN): how far the first end is through the pixel's diamond."""
     exit_end: Floats
     """(P,) float64, the same of the second end. Drawn if ``exit_start`` < 1/2 <= ``exit_end``."""
+    along: Floats
+    """(P,) float64, rectangle only (else NaN): how far along the segment the centre lies, in pixels."""
+    line_distance: Floats
+    """(P,) float64, gupta-sproull only (else NaN): distance of the centre from the line, in pixels, 0 or more."""
+    share: Floats
+    """(P,) float64, part of the pixel's column (steep: row) that the segment spans, from 0 to 1; 1 for methods
+    without intensities."""
+    intensity: Floats
+    """(P,) float64, share of the line's colour that the pixel gets, above 0 to 1."""
 
     def select(self, index: Integers) -> "LineSteps":
         """Return the numbers of the pixels ``index``, (Q,) int64."""
@@ -112,6 +123,11 @@ class LineRun:
     is_tie: Flags
     exit_start: Floats | None = None
     exit_end: Floats | None = None
+    along: Floats | None = None
+    line_distance: Floats | None = None
+    share: Floats | None = None
+    intensity: Floats | None = None
+    """(P,) float64 above 0; ``None``: 1 everywhere."""
 
     def seen(self, segments: Segments) -> Integers:
         """Return which of the pixels are on the raster, (Q,) int64."""
@@ -166,6 +182,7 @@ def visible_range(
     v: Floats,
     v_step: Floats,
     count: Integers,
+    margin: Floats | float = MINOR_MARGIN,
 ) -> tuple[Integers, Integers]:
     """Find the steps k at which pixel ``u + k u_step``, ``v + k v_step`` is on the raster or just beside it.
 
@@ -176,9 +193,11 @@ def visible_range(
     u, u_step : (L,) int64
         First major pixel, and 1 or -1.
     v, v_step : (L,) float64
-        First minor coordinate, and its change per step; may be off by less than `MINOR_MARGIN`.
+        First minor coordinate, and its change per step; may be off by less than ``margin``.
     count : (L,) int64
         Steps of the whole line.
+    margin : (L,) float64 or float
+        Pixels beyond the raster that are kept, 2 by default.
 
     Returns
     -------
@@ -193,9 +212,9 @@ def visible_range(
     # Where the minor coordinate enters and leaves; a level line is inside for all steps or for none.
     is_level = v_step == 0
     slope = np.where(is_level, 1.0, v_step)
-    low, high = (-MINOR_MARGIN - v) / slope, (v_size + MINOR_MARGIN - v) / slope
+    low, high = (-margin - v) / slope, (v_size + margin - v) / slope
     low, high = np.minimum(low, high), np.maximum(low, high)
-    is_outside = is_level & ((v < -MINOR_MARGIN) | (v > v_size + MINOR_MARGIN))
+    is_outside = is_level & ((v < -margin) | (v > v_size + margin))
     low = np.where(is_level, 0.0, np.clip(np.floor(low), 0, count))
     high = np.where(is_level, count, np.clip(np.ceil(high) + 1, 0, count))
 

@@ -15,9 +15,11 @@ from numpy.typing import ArrayLike
 from core.arrays import Floats, Integers, checked, read_only
 from core.methods import table
 from core.raster.bresenham import bresenham_float_listing, bresenham_lecture_listing, bresenham_listing
-from core.raster.dda import dda_listing, midpoint_listing
+from core.raster.dda import dda_float32_listing, dda_listing, midpoint_listing
 from core.raster.diamond_exit import diamond_exit_listing
-from core.raster.line_records import LinePixels, LineRun, LineSteps, Segments, check_segments
+from core.raster.line_records import BLENDING, LinePixels, LineRun, LineSteps, Segments, check_segments
+from core.raster.rectangle_lines import rectangle_listing
+from core.raster.smooth_lines import gupta_sproull_listing, wu_listing
 from core.raster.spans.lines import find_line_pixels
 
 LISTINGS: dict[str, Callable[..., Any]] = {
@@ -27,9 +29,18 @@ LISTINGS: dict[str, Callable[..., Any]] = {
     "midpoint": midpoint_listing,
     "dda": dda_listing,
     "diamond-exit": diamond_exit_listing,
+    "dda-float32": dda_float32_listing,
+    "rectangle": rectangle_listing,
+    "wu": wu_listing,
+    "gupta-sproull": gupta_sproull_listing,
 }
 """The scalar listing of each method. Bresenham's take pixels, the others positions with centres on whole
-numbers."""
+numbers. Each pixel is its column, row and decision, and of methods with intensities its intensity."""
+
+
+def has_intensities(line: str) -> bool:
+    """Tell whether a method of the family ``line`` gives its pixels shares of the line's colour."""
+    return BLENDING in table.get("line", line).needs
 
 
 def draw_lines(
@@ -51,14 +62,15 @@ def draw_lines(
     line : str
         A method of the family ``line``.
     last_pixel : bool
-        Whether the pixel of the second end is drawn too. ``bresenham-lecture`` always draws it.
+        Whether the pixel of the second end is drawn too. ``bresenham-lecture`` always draws it; methods with
+        intensities draw both ends as far as the segment reaches.
     pixel_center : {"half", "integer"}
         Whether the centre of pixel (i, j) is (i + 0.5, j + 0.5) or (i, j).
 
     Returns
     -------
     LinePixels
-        Unpacks as ``pixels`` (P, 2) int64 columns and rows, ``intensities`` (P,) float64, ``owner`` (P,)
+        Unpacks as ``pixels`` (P, 2) int64 columns and rows, ``intensities`` (P,) float64 above 0 to 1, ``owner`` (P,)
         int64; its ``steps`` are the numbers that decided, found when asked for. The same pixels as on an
         unlimited raster, restricted to this one.
 
@@ -72,7 +84,7 @@ def draw_lines(
     -----
     The Bresenham methods move each end to the pixel it lies in (floor of the position where centres are at
     halves; nearest, half up, where they are whole). A segment without length draws nothing, or one pixel with
-    ``last_pixel``.
+    ``last_pixel``; methods with intensities draw nothing.
 
     Examples
     --------
@@ -90,13 +102,16 @@ def draw_lines(
         ends, bounds = checked_segments.pixel_indices.reshape(-1, 4), (0, 0, width, height)
         column, row, owner = find_line_pixels(ends, bounds, last_pixel)
         find_steps = partial(_run_steps, rule, checked_segments, last_pixel)
+        intensities = None
     else:
         run = rule(checked_segments, last_pixel)
         seen = run.seen(checked_segments)
         column, row, owner = run.column.take(seen), run.row.take(seen), run.owner.take(seen)
         find_steps = partial(_steps_of, checked_segments, run, seen)
-    ones = np.broadcast_to(np.float64(1.0), owner.shape)
-    return LinePixels(read_only(np.stack([column, row]).T), ones, read_only(owner), find_steps)
+        intensities = None if run.intensity is None else read_only(run.intensity.take(seen))
+    if intensities is None:
+        intensities = np.broadcast_to(np.float64(1.0), owner.shape)
+    return LinePixels(read_only(np.stack([column, row]).T), intensities, read_only(owner), find_steps)
 
 
 def _run_steps(rule: Callable[..., LineRun], segments: Segments, last_pixel: bool) -> LineSteps:
@@ -107,15 +122,23 @@ def _run_steps(rule: Callable[..., LineRun], segments: Segments, last_pixel: boo
 
 def _steps_of(segments: Segments, run: LineRun, seen: Integers) -> LineSteps:
     """Return the numbers that chose the pixels ``seen`` (Q,) of a run."""
-    none = np.broadcast_to(np.nan, run.owner.shape)
+    count = run.owner.shape
+
+    def known(values: Floats | None, missing: float) -> Floats:
+        return np.broadcast_to(np.float64(missing), count) if values is None else values
+
     every = LineSteps(
         index=run.index,
         t=segment_parameter(run.column, run.row, run.owner, segments.ends, segments.center),
         decision=run.decision,
         has_stepped=run.has_stepped,
         is_tie=run.is_tie,
-        exit_start=none if run.exit_start is None else run.exit_start,
-        exit_end=none if run.exit_end is None else run.exit_end,
+        exit_start=known(run.exit_start, np.nan),
+        exit_end=known(run.exit_end, np.nan),
+        along=known(run.along, np.nan),
+        line_distance=known(run.line_distance, np.nan),
+        share=known(run.share, 1.0),
+        intensity=known(run.intensity, 1.0),
     )
     return every.select(seen)
 

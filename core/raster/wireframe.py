@@ -4,6 +4,8 @@ An outline is made of line segments, drawn by any method of the family ``line`` 
 loops are. Edges that clipping made, and the diagonals of its fans, are no part of it. Two triangles that share an edge
 both draw it.
 
+Where the line method has intensities, its fragments have them: see `core.raster.line_intensities`.
+
 A segment that leaves the neighbourhood of the window is cut there, in homogeneous coordinates, so that corners may lie
 anywhere in front of the eye. Depth is linear along the segment; a pixel whose centre lies beyond an end takes
 the end's depth and values.
@@ -12,16 +14,15 @@ the end's depth and values.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.methods import method
 from core.primitives import Primitives
-from core.raster.coverage import Fragments
+from core.raster.coverage import Fragments, join_fragments
 from core.raster.line_records import PIXEL_CENTERS, LinePixels, LineSteps
-from core.raster.lines import draw_lines, interpolate_line, segment_parameter
+from core.raster.lines import draw_lines, has_intensities, interpolate_line, segment_parameter
 from core.raster.schedule import Raster
 from core.raster.snapping import CornerPositions
 
@@ -86,12 +87,14 @@ class LineFragments(Fragments):
 
     segment: Integers
     """(F,) int64, index of the segment."""
+    intensity: Floats | None = None
+    """(F,) float64, share of the line's colour, above 0 to 1; ``None``: 1 for all, by a method without intensities."""
 
-    def select(self, keep: Flags) -> "LineFragments":
-        """Return the fragments where ``keep`` (F,) holds."""
-        index = np.flatnonzero(keep)
-        columns = (self.primitive, self.column, self.row, self.segment)
-        return LineFragments(*(values.take(index) for values in columns))
+    def take(self, index: Integers) -> "LineFragments":
+        """Return the fragments ``index``, (G,) int64."""
+        primitive, column, row = (values.take(index) for values in (self.primitive, self.column, self.row))
+        intensity = None if self.intensity is None else self.intensity.take(index)
+        return LineFragments(primitive, column, row, self.segment.take(index), intensity)
 
 
 def trace_sides(shares: Floats, triangle: Integers) -> tuple[Flags, Integers]:
@@ -237,10 +240,11 @@ def draw_outlines(
             outlines.window[first:end], raster.width, raster.height, line, pixel_center=pixel_center
         )
         (column, row), segment = drawn.pixels.T, drawn.owner + first
+        intensity = drawn.intensities if has_intensities(line) else None
+        fragments = LineFragments(outlines.primitive.take(segment), column, row, segment, intensity)
         inside = np.flatnonzero((column >= left) & (column < right) & (row >= bottom) & (row < top))
         if len(inside) < len(segment):
-            column, row, segment = column.take(inside), row.take(inside), segment.take(inside)
-        fragments = LineFragments(outlines.primitive.take(segment), column, row, segment)
+            fragments = fragments.take(inside)
         yield fragments, partial(_steps_inside, drawn, inside)
 
 
@@ -254,11 +258,10 @@ def join_batches(
 ) -> tuple[LineFragments, LineSteps]:
     """Return the batches of ``draw_outlines`` as one, with the numbers that chose the pixels."""
     fragments, finders = zip(*batches, strict=True)
-
-    def join(records: tuple[LineFragments, ...] | tuple[LineSteps, ...]) -> list[Any]:
-        return [np.concatenate([getattr(r, name) for r in records]) for name in vars(records[0])]
-
-    return LineFragments(*join(fragments)), LineSteps(*join(tuple(find() for find in finders)))
+    steps = tuple(find() for find in finders)
+    names = vars(steps[0])
+    joined = LineSteps(**{name: np.concatenate([getattr(s, name) for s in steps]) for name in names})
+    return join_fragments(fragments), joined
 
 
 def line_parameter(outlines: Outlines, fragments: LineFragments, center: float) -> Floats:

@@ -2,11 +2,13 @@
 
 import numpy as np
 
+from core.blend_choice import blend_choice
 from core.framebuffer.blending import over_pixel
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.stacks import stack_fragments
 from core.listing import listing
 from core.methods import table
+from core.raster.line_intensities import intensities_of, weigh_alpha, weighed_color
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -17,8 +19,9 @@ def trace_blend(source: TraceSource) -> StageTrace:
     passes = source.depth_tests.passes
     fragments = source.fragments.select(passes)
     place, triangle = source.place[passes], source.triangle_of_fragment[passes]
-    colors = source.surface.color[passes]
-    mode = source.settings.blend
+    shaded = source.surface.color[passes]
+    colors, intensity = weigh_alpha(shaded, fragments), intensities_of(fragments)
+    mode, _ = blend_choice(source.settings)
     rule = table.get("blend", mode).function
 
     # The colours before and after, one layer after another.
@@ -37,11 +40,17 @@ def trace_blend(source: TraceSource) -> StageTrace:
             Operation("write", "store", ("after",)),
         ),
     }
+    name, weighed, listings = mode, {}, {"over": listing(over_pixel)}
+    if intensity is not None:
+        # The fragment of a line is weighed before it is blended.
+        name, weighed = f"line-{mode}", {"color": shaded, "intensity": intensity}
+        operations[name] = (Operation("weigh", "weigh", ("color", "intensity", "source")), *operations[mode])
+        listings = {name: listings[mode], f"{name}.weigh": listing(weighed_color)}
     return StageTrace(
         stage="blend",
         method=f"blend={mode}",
         steps=Steps(
-            (mode,), kind, operations, ends_of(triangle), ends_of(fragments.primitive, fragments.row)
+            (name,), kind, operations, ends_of(triangle), ends_of(fragments.primitive, fragments.row)
         ),
         columns={
             "column": fragments.column,
@@ -50,10 +59,11 @@ def trace_blend(source: TraceSource) -> StageTrace:
             "before": before,
             "after": after,
             "primitive": fragments.primitive,
+            **weighed,
         },
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings={"over": listing(over_pixel)},
+        listings=listings,
         marks={"covered": np.ones(len(fragments), bool), "nan": np.any(np.isnan(after), axis=1)},
         buffers=(
             BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),

@@ -30,7 +30,9 @@ def trace_depth(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
     fragments, tests = source.fragments, source.depth_tests
     depth, keeps, stored = source.depths
-    after = np.where(tests.passes, stored, tests.before)
+    writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
+    is_stored = tests.passes & writes
+    after = np.where(is_stored, stored, tests.before)
     tested = source.geometry.uses_depth_test
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
@@ -41,6 +43,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
         "before": tests.before,
         "after": after,
         "passes": tests.passes,
+        "writes": writes,
         "larger_is_nearer": np.full(len(fragments), source.depth_format.larger_is_nearer),
         "primitive": fragments.primitive,
     }
@@ -58,7 +61,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(fragments.primitive, fragments.row),
     )
-    passed = np.flatnonzero(tests.passes)
+    kept = np.flatnonzero(is_stored)
     place = source.place
     identity = source.start.primitive
     every = np.arange(len(fragments))
@@ -74,10 +77,8 @@ def trace_depth(source: TraceSource) -> StageTrace:
         constants={"quantity": source.depth_format.quantity},
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
-            BufferTrack(
-                "depth", source.start.depth, passed, place[passed], stored[passed], starts_known=True
-            ),
-            BufferTrack("primitive", identity, passed, place[passed], triangle[passed], "ids", True),
+            BufferTrack("depth", source.start.depth, kept, place[kept], stored[kept], starts_known=True),
+            BufferTrack("primitive", identity, kept, place[kept], triangle[kept], "ids", True),
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )

@@ -64,6 +64,7 @@ def key_columns(source: TraceSource) -> dict[str, np.ndarray]:
     for count, place in stacks.layers():
         fragment = kept.take(place)
         before[fragment] = there[:count]
-        np.minimum(there[:count], key[fragment], out=there[:count])
+        keeps_key = True if source.writes_depth is None else source.writes_depth[fragment]
+        np.minimum(there[:count], key[fragment], out=there[:count], where=keeps_key)
         after[fragment] = there[:count]
     return {"number": number, "key": key, "before_key": before, "after_key": after}

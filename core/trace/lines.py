@@ -4,8 +4,11 @@ import numpy as np
 
 from core.arrays import Flags, Floats
 from core.listing import listing
-from core.raster.line_records import Segments, check_segments
+from core.raster.dda import line_coefficients
+from core.raster.line_records import Segments, check_segments, major_first
 from core.raster.lines import LISTINGS
+from core.raster.rectangle_lines import SUBPIXELS, snapped_ends
+from core.raster.smooth_lines import FILTER_TABLE, filter_entry, line_cosine
 from core.steps import Steps, ends_of
 from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
 from core.trace.source import TraceSource
@@ -20,7 +23,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
     geometry, raster, line = source.geometry, source.raster, source.settings.line
     outlines, (fragments, steps) = geometry.outlines, source.lines
     assert outlines is not None
-    segment = fragments.segment
+    segment, is_smooth = fragments.segment, fragments.intensity is not None
     count = len(fragments)
     pixel = np.stack([fragments.column, fragments.row], axis=1)
     columns: dict[str, np.ndarray] = {
@@ -33,9 +36,13 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "window_end": outlines.window[segment, 1],
         "covered": np.ones(count, bool),
         **{name: values for name, values in vars(steps).items() if name != "t"},
+        "fraction": steps.decision - np.floor(steps.decision),
         "t": np.clip(steps.t, 0.0, 1.0),
         "previous": _previous(steps.decision, segment),
     }
+    if line == "gupta-sproull":
+        columns["entry"] = filter_entry(steps.line_distance)
+        columns["filtered"] = FILTER_TABLE.take(columns["entry"])
     segments = check_segments(
         outlines.window, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
     )
@@ -73,7 +80,9 @@ def trace_lines(source: TraceSource) -> StageTrace:
             "nan": np.zeros(count, bool),
         },
         buffers=(
-            BufferTrack("coverage", unknown, every, place, np.ones(count), "flags"),
+            BufferTrack(
+                "coverage", unknown, every, place, steps.intensity, "scalar" if is_smooth else "flags"
+            ),
             BufferTrack("edge", np.full(raster.shape, -1), every, place, columns["edge"], "ids"),
             BufferTrack("t", unknown, every, place, columns["t"]),
             BufferTrack("decision", unknown, every, place, steps.decision, "signed"),
@@ -99,10 +108,13 @@ def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
         ``first_end``, ``second_end`` (L, 2): what the listing is called with; pixels, or positions where centres
         are whole. ``is_steep`` (L,): the longer axis is y. ``run``, ``rise`` (L,): lengths along the longer
         (major) and the other (minor) axis. ``slope``, ``intercept`` (L,): the minor coordinate is slope times the major
-        one plus intercept, NaN where the method has none.
+        one plus intercept, NaN where the method has none. ``cosine`` (L,): by what a distance along the minor axis
+        shrinks to that from the line. ``length`` (L,): of the segment, in pixels.
     """
     by_pixels = line in PIXEL_METHODS
     ends: Floats = segments.pixel_indices.astype(float) if by_pixels else segments.centered_ends
+    if line == "rectangle":
+        ends = snapped_ends(segments) / SUBPIXELS
     length = ends[:, 1] - ends[:, 0]
     size = np.abs(length)
     is_steep: Flags = size[:, 1] > size[:, 0]
@@ -113,10 +125,9 @@ def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
     if line == "bresenham-float":
         slope = rise / np.maximum(run, 1)
     elif not by_pixels:
-        along = np.where(is_steep[:, None, None], ends[..., ::-1], ends)
-        across = along[:, 1] - along[:, 0]
-        slope = across[:, 1] / np.where(across[:, 0] == 0, 1.0, across[:, 0])
-        intercept = along[:, 0, 1] - slope * along[:, 0, 0]
+        slope, intercept = line_coefficients(major_first(ends, is_steep))
+    if line == "dda-float32":
+        slope = slope.astype(np.float32).astype(float)
     return {
         "first_end": ends[:, 0],
         "second_end": ends[:, 1],
@@ -125,6 +136,8 @@ def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
         "rise": rise,
         "slope": slope,
         "intercept": intercept,
+        "cosine": line_cosine(slope),
+        "length": np.hypot(run, rise),
     }
 
 

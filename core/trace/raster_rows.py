@@ -59,6 +59,25 @@ _EXIT = (
     Operation("leaves", "leaves", ("exit_start", "exit_end")),
     _PLOT,
 )
+_INSIDE = (
+    Operation("across", "inside", ("decision", "is_tie", "has_stepped")),
+    Operation("along", "along", ("along",)),
+    _PLOT,
+)
+_SHARE = Operation("share", "share", ("share",))
+_DIVIDE = (
+    _EVALUATE,
+    _SHARE,
+    Operation("divide", "intensity", ("fraction", "intensity", "is_tie", "has_stepped")),
+    _PLOT,
+)
+_FILTER = (
+    _EVALUATE,
+    _SHARE,
+    Operation("distance", "distance", ("line_distance", "is_tie", "has_stepped")),
+    Operation("filter", "intensity", ("entry", "filtered", "intensity")),
+    _PLOT,
+)
 LINE_OPERATIONS: dict[str, tuple[tuple[Operation, ...], tuple[Operation, ...]]] = {
     "bresenham": ((_OCTANT, Operation("lengths", "lengths", ("run", "rise")), _PLOT), _TEST),
     "bresenham-lecture": ((_OCTANT, Operation("lengths", "lengths", ("run", "rise")), _PLOT), _TEST),
@@ -68,7 +87,20 @@ LINE_OPERATIONS: dict[str, tuple[tuple[Operation, ...], tuple[Operation, ...]]] 
         (_OCTANT, _SLOPE, _EVALUATE, _ROUND, _PLOT),
         (Operation("advance", "advance", ("decision",)), _ROUND, _PLOT),
     ),
+    "dda-float32": (
+        (_OCTANT, _SLOPE, _EVALUATE, _ROUND, _PLOT),
+        (Operation("advance", "advance", ("decision",)), _ROUND, _PLOT),
+    ),
     "diamond-exit": ((_OCTANT, *_EXIT), _EXIT),
+    "rectangle": (
+        (_OCTANT, Operation("length", "width", ("run", "rise", "length")), *_INSIDE),
+        _INSIDE,
+    ),
+    "wu": ((_OCTANT, _SLOPE, *_DIVIDE), _DIVIDE),
+    "gupta-sproull": (
+        (_OCTANT, _SLOPE, Operation("cosine", "cosine", ("cosine",)), *_FILTER),
+        _FILTER,
+    ),
 }
 """Line method to what its first pixel does, and every other one."""
 

@@ -14,6 +14,7 @@ from core.geometry_stages import Geometry, drawing_order, process_geometry
 from core.methods import table
 from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
+from core.raster.line_intensities import writes_depth
 from core.raster.line_records import LineSteps
 from core.raster.schedule import Boxes, Raster, Runs, make_raster
 from core.raster.wireframe import LineFragments, draw_outlines, join_batches
@@ -137,6 +138,11 @@ class TraceSource:
         return fragment_depth(self.geometry, self.fragments, self.raster, self.depth_format)
 
     @cached_property
+    def writes_depth(self) -> Flags | None:
+        """(F,) bool, fragments that are stored if they pass the depth test; ``None``: all."""
+        return writes_depth(self.fragments)
+
+    @cached_property
     def depth_tests(self) -> DepthTests:
         """Depth test of every fragment; one out of range leaves the buffer alone and fails."""
         _, keeps, stored = self.depths
@@ -147,6 +153,7 @@ class TraceSource:
             self.start.depth.ravel(),
             self.depth_format,
             self.geometry.uses_depth_test,
+            None if self.writes_depth is None else self.writes_depth[index],
         )
         before = np.full(len(stored), np.nan, stored.dtype)
         passes = np.zeros(len(stored), bool)

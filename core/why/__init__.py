@@ -4,6 +4,7 @@ The rules of the picture are applied to this one pixel, as a raster of its own; 
 Triangles whose box does not contain the pixel are only counted.
 """
 
+from core.blend_choice import blend_choice
 from core.framebuffer.depth import DepthFormat
 from core.methods import table
 from core.trace.source import TraceSource
@@ -51,7 +52,7 @@ def why(source: TraceSource, column: int, row: int, triangle: int | None = None)
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
     events, counts, cover_count = list_events(candidates, depth_format)
     if triangle is None:
-        verdict = pixel_verdict(events, counts, settings.blend)
+        verdict = pixel_verdict(events, counts, blend_choice(settings)[0])
     else:
         verdict = triangle_verdict(events, triangle)
     return PixelHistory(column, row, triangle, verdict, events, counts, cover_count)

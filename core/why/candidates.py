@@ -1,6 +1,6 @@
 """Which triangles could matter at a pixel: those whose box contains it; the others are only counted."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
@@ -12,11 +12,11 @@ from core.geometry_stages import Geometry, process_geometry
 from core.methods import table
 from core.pipeline import schedule
 from core.raster.binning import bound
-from core.raster.coverage import Fragments, PixelTests, examine_pixels
+from core.raster.coverage import Fragments, PixelTests, examine_pixels, join_fragments
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
 from core.raster.schedule import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.raster.snapping import CornerPositions, place_corners
-from core.raster.wireframe import LineFragments, Outlines, draw_outlines
+from core.raster.wireframe import Outlines, draw_outlines
 from core.scene import AnyScene
 from core.settings import Settings
 from core.trace.source import TraceSource
@@ -167,8 +167,9 @@ class PixelCandidates:
                 found
                 for found, _ in draw_outlines(take_outlines(outlines, near), self.raster, self.settings.line)
             ]
-            segment = near[np.concatenate([found.segment for found in drawn] or [np.empty(0, np.int64)])]
-            return LineFragments(outlines.primitive[segment], *self._here(len(segment)), segment)
+            found = join_fragments(drawn)
+            segment = near[found.segment]
+            return replace(found, primitive=outlines.primitive[segment], segment=segment)
         tests = self.pixel_tests
         primitive = self.primitive[tests.primitive[tests.covered]]
         return Fragments(primitive, *self._here(len(primitive)))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from core.arrays import Integers
+from core.blend_choice import blend_choice
 from core.framebuffer.depth import DepthFormat
 from core.geometry.culling import REASONS
 from core.why.candidates import PixelCandidates
@@ -58,7 +59,8 @@ def _fragment_events(
     candidates: PixelCandidates, fragments: PixelFragments, passages: list[Passage]
 ) -> list[PixelEvent]:
     """Return one event for every covered primitive."""
-    hidden_by = overwriters(fragments, candidates.settings.blend)
+    blend, _ = blend_choice(candidates.settings)
+    hidden_by = overwriters(fragments, blend)
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
         if candidates.geometry.outlines is None:
@@ -71,9 +73,9 @@ def _fragment_events(
         chain.append(Link("shade", "color", {"color": fragments.color[k]}))
         chain.append(passage.depth_link)
         if passage.passes:
-            values = {"by": hidden_by[k], "alpha": float(fragments.color[k, 3])}
+            values = {"by": hidden_by[k], "alpha": float(fragments.source[k, 3])}
             key = "overwritten" if hidden_by[k] >= 0 else "written"
-            if key == "written" and candidates.settings.blend != "opaque":
+            if key == "written" and blend != "opaque":
                 key = "blended"
             chain.append(Link("blend", key, values))
         event = PixelEvent(

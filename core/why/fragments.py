@@ -5,10 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
+from core.blend_choice import blend_choice
 from core.framebuffer.depth import DepthFormat, run_depth_tests
 from core.framebuffer.stacks import stack_fragments
 from core.methods import table
 from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
+from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.surface import shade_fragments
 from core.why.candidates import PixelCandidates
 from core.why.records import Link, PixelState
@@ -38,6 +40,10 @@ class PixelFragments:
     """(F,) float32, what the depth buffer held; NaN where there was no test."""
     passes: Flags
     """(F,) bool."""
+    source: Floats
+    """(F, 4) float64, the colours that are blended: alpha scaled by the intensity, where a line has one."""
+    writes: Flags
+    """(F,) bool, stored in the depth buffer if it passes."""
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -54,7 +60,15 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     index = np.flatnonzero(keeps)
     cleared = np.full(1, depth_format.cleared, depth_format.stored_type)
     here = stack_fragments(np.zeros(len(index), np.int64))
-    tests = run_depth_tests(stored[index], here, cleared, depth_format, geometry.uses_depth_test)
+    writes = writes_depth(fragments)
+    tests = run_depth_tests(
+        stored[index],
+        here,
+        cleared,
+        depth_format,
+        geometry.uses_depth_test,
+        None if writes is None else writes[index],
+    )
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
     return PixelFragments(
@@ -68,6 +82,8 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         stored,
         before,
         passes,
+        weigh_alpha(surface.color, fragments),
+        np.ones(count, bool) if writes is None else writes,
     )
 
 
@@ -90,19 +106,20 @@ class Passage:
 
 def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
     """Lay the fragments into the buffers one by one."""
-    rule = table.get("blend", candidates.settings.blend).function
+    rule = table.get("blend", blend_choice(candidates.settings)[0]).function
     tested = candidates.geometry.uses_depth_test
     state = start
     passages = []
     for k in range(len(fragments.primitive)):
-        offered = fragments.color[k : k + 1]
+        offered = fragments.source[k : k + 1]
         with np.errstate(over="ignore", invalid="ignore"):
             shown = read_only(offered[0].astype(np.float32))
         out = PixelState(shown, float(fragments.stored[k]), int(fragments.triangle[k]))
         after = state
         if fragments.passes[k]:
             blended = rule(offered, state.color[None])
-            after = PixelState(read_only(blended[0]), out.depth, out.triangle)
+            kept = out if fragments.writes[k] else state
+            after = PixelState(read_only(blended[0]), kept.depth, kept.triangle)
         link = _depth_link(fragments, k, state.triangle, tested)
         passages.append(Passage(state, out, after, link, bool(fragments.passes[k])))
         state = after
@@ -137,7 +154,7 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
     -----
     Opaque hides always; a blended fragment hides what is below it where its alpha is 1.
     """
-    hides = fragments.passes & ((blend == "opaque") | (fragments.color[:, 3] == 1))
+    hides = fragments.passes & ((blend == "opaque") | (fragments.source[:, 3] == 1))
     found = []
     for k in range(len(hides)):
         later = np.flatnonzero(hides[k + 1 :])

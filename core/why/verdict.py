@@ -59,8 +59,9 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
     fragments = [event for event in own if event.kind == "fragment"]
     passed = [event for event in fragments if not event.is_rejected]
     event = (passed or fragments or own)[-1]
-    final = next(e.after for e in reversed(events) if e.after is not None)
-    values: dict[str, Any] = {"triangle": triangle, "reason": event.reason, "seen": final.triangle}
+    drawn = [e.triangle for e in events if e.kind == "fragment" and not e.is_rejected]
+    seen = drawn[-1] if drawn else -1
+    values: dict[str, Any] = {"triangle": triangle, "reason": event.reason, "seen": seen}
     if not fragments:
         key = "triangle-absent"
     elif not passed:
@@ -68,7 +69,7 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
     elif event.reason.key == "overwritten":
         key = "triangle-overwritten"
     else:
-        key = "triangle-seen" if final.triangle == triangle else "triangle-blended"
+        key = "triangle-seen" if seen == triangle else "triangle-blended"
     return Link("verdict", key, values)
 
 

@@ -114,6 +114,18 @@ def test_the_rail_shows_every_stage_and_its_counts(window: MainWindow, qtbot: Qt
         assert session.cursor.stage == stage
 
 
+def test_the_rail_says_which_lines_asked_for_blending(window: MainWindow) -> None:
+    def blend_tip() -> str:
+        return window.page.rail.buttons()[STAGES.index("blend")].toolTip()
+
+    window.session.set_setting("polygon_mode", "wireframe")
+    assert "nserted" not in blend_tip()
+    window.session.set_setting("line", "wu")
+    assert "Inserted because wu needs pixels that are mixed with what is there" in blend_tip()
+    window.session.set_setting("blend", "over")
+    assert "nserted" not in blend_tip()
+
+
 def test_levels_are_named_as_the_stage_has_them(window: MainWindow) -> None:
     buttons = window.page.timeline.level_buttons
     window.session.set_stage("clip")

@@ -98,6 +98,7 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
         *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
         Settings(polygon_mode="wireframe", interpolation="affine"),
+        *[Settings(polygon_mode="wireframe", line="wu", blend=blend) for blend in table.names("blend")],
         Settings(fill="spans", depth="fixed-38"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]

@@ -148,6 +148,47 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
         ),
         ("dda", ".advance", 0, "The slope 0.25 is added for x = 2, which makes y = 1.25."),
         (
+            "wu",
+            ".share",
+            0,
+            "The line ends in this column and spans 0.5 of it: the intensities are scaled by that.",
+        ),
+        ("wu", ".share", 1, "The line spans the whole column."),
+        (
+            "wu",
+            ".divide",
+            1,
+            "The line passes 0.25 of the way from y = 1 to y = 2, so pixel (2, 1) gets the intensity "
+            "1 − 0.25 = 0.75.",
+        ),
+        (
+            "gupta-sproull",
+            ".distance",
+            2,
+            "The centre of pixel (2, 1) is 0.25 from the line along y, which makes a distance of 0.2425 px.",
+        ),
+        (
+            "gupta-sproull",
+            ".filter",
+            2,
+            "The table has 0.7032 for the nearest distance in it, 4 sixteenths of a pixel: this is the intensity of "
+            "pixel (2, 1).",
+        ),
+        (
+            "rectangle",
+            "-start.length",
+            0,
+            "The ends, snapped to 1/256 pixel, are 8 and 2 apart along the axes, so the rectangle is 8.246 px long and "
+            "reaches half a pixel to either side.",
+        ),
+        (
+            "rectangle",
+            ".across",
+            0,
+            "The centre of pixel (2, 1) is 0.2425 px to the right of the line, not more than 0.5, so it is between the "
+            "rectangle's long sides.",
+        ),
+        (
             "diamond-exit",
             ".round",
             0,

@@ -303,6 +303,7 @@ def depth_step(operation: str, **values: object) -> str:
         "before": 1.0,
         "after": 0.25,
         "passes": True,
+        "writes": True,
         "larger_is_nearer": False,
         **values,
     }
@@ -339,6 +340,11 @@ def test_the_depth_test_says_what_was_compared() -> None:
         depth_step("store.write")
         == "Pixel (5, 6): without a depth test 0.25 simply replaces 1 in the depth buffer."
     )
+    for kind in ("test", "store"):
+        assert depth_step(f"{kind}.write", after=1.0, writes=False) == (
+            "Pixel (5, 6): the depth buffer keeps 1, as the line covers less than half of this pixel and must not hide "
+            "what is drawn there later."
+        )
 
 
 def test_a_tie_of_keys_names_the_triangle_that_came_first() -> None:

@@ -8,11 +8,14 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from core.listing import listing
-from core.raster.lines import LISTINGS, draw_lines
+from core.raster.lines import LISTINGS, draw_lines, has_intensities
 
 ON_PIXELS = ["bresenham", "bresenham-lecture", "bresenham-float"]
-ANY_ENDS = ["midpoint", "dda", "diamond-exit"]
+ANY_ENDS = ["midpoint", "dda", "dda-float32", "diamond-exit"]
 METHODS = ON_PIXELS + ANY_ENDS
+"""Methods with one pixel in a column."""
+SEVERAL = ["rectangle", "wu", "gupta-sproull"]
+"""Methods with more."""
 
 PIXEL = st.integers(-20, 40)
 COORDINATE = st.one_of(
@@ -24,6 +27,10 @@ COORDINATE = st.one_of(
 )
 PIXEL_SEGMENTS = st.lists(st.tuples(PIXEL, PIXEL, PIXEL, PIXEL), min_size=1, max_size=6)
 SEGMENTS = st.lists(st.tuples(*[COORDINATE] * 4), min_size=1, max_size=6)
+SLACK = dict.fromkeys(("bresenham-float", "midpoint", "dda"), Fraction(1, 10**9)) | {
+    "dda-float32": Fraction(1, 1000)
+}
+"""Pixels by which methods in floats may miss the nearest pixel: their rounding."""
 BIG = 128
 """A raster of this size, moved by SHIFT, holds every segment of the strategies whole."""
 SHIFT = 32
@@ -43,7 +50,7 @@ def line_by_line(pixels, owner, count) -> list[np.ndarray]:
     return [pixels[owner == segment] for segment in range(count)]
 
 
-@pytest.mark.parametrize("line", METHODS)
+@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS, last_pixel=st.booleans())
 @example(ends=[(0.0, 0.0, 0.3, 29.7)], last_pixel=True)
 def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
@@ -56,17 +63,20 @@ def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
             x0, y0, x1, y1 = (int(np.floor(end)) + (end - np.floor(end) >= 0.5) for end in (x0, y0, x1, y1))
         listed = LISTINGS[line](x0, y0, x1, y1, last_pixel)
         mine = drawn.owner == segment
-        assert [(column, row) for column, row, _ in listed] == list(map(tuple, drawn.pixels[mine].tolist()))
-        np.testing.assert_array_equal([value for _, _, value in listed], drawn.steps.decision[mine])
-        assert drawn.steps.index[mine].tolist() == list(range(len(listed)))
+        assert [pixel[:2] for pixel in listed] == list(map(tuple, drawn.pixels[mine].tolist()))
+        np.testing.assert_array_equal([pixel[2] for pixel in listed], drawn.steps.decision[mine])
+        if has_intensities(line):
+            assert [pixel[3] for pixel in listed] == drawn.intensities[mine].tolist()
+        if line in METHODS:
+            assert drawn.steps.index[mine].tolist() == list(range(len(listed)))
 
 
-@pytest.mark.parametrize("line", METHODS)
+@pytest.mark.parametrize("line", METHODS + SEVERAL)
 def test_every_listing_names_the_line_that_draws(line):
     assert {"octant", "draw"} <= listing(LISTINGS[line]).lines.keys()
 
 
-@pytest.mark.parametrize("line", METHODS)
+@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS, last_pixel=st.booleans(), size=st.tuples(st.integers(1, 24), st.integers(1, 24)))
 @example(ends=[(0.0, 0.0, 0.0, 2.225073858507e-311)], last_pixel=True, size=(1, 1))
 def test_clipping_is_restriction(line, ends, last_pixel, size):
@@ -77,11 +87,14 @@ def test_clipping_is_restriction(line, ends, last_pixel, size):
     inside = (complete.pixels < size).all(axis=1)
     np.testing.assert_array_equal(clipped.pixels, complete.pixels[inside])
     np.testing.assert_array_equal(clipped.owner, complete.owner[inside])
+    np.testing.assert_array_equal(clipped.intensities, complete.intensities[inside])
     for name, values in vars(clipped.steps).items():
         np.testing.assert_array_equal(values, getattr(complete.steps, name)[inside])
 
 
-@pytest.mark.parametrize("line", ["bresenham", "bresenham-lecture", "bresenham-float", "diamond-exit"])
+@pytest.mark.parametrize(
+    "line", ["bresenham", "bresenham-lecture", "bresenham-float", "diamond-exit", "rectangle"]
+)
 @given(ends=SEGMENTS, last_pixel=st.booleans())
 def test_what_lies_left_and_below_is_cut_off_too(line, ends, last_pixel):
     # Moved by whole pixels, ends on the lattice are decided the same: the whole line can be seen.
@@ -114,7 +127,7 @@ def test_one_pixel_per_major_step_connected_and_nearest(line, ends):
             direction = Fraction((x1 - x0, y1 - y0)[1 - major], (x1 - x0, y1 - y0)[major])
             for pixel in mine.tolist():
                 exact = (x0, y0)[1 - major] + (pixel[major] - (x0, y0)[major]) * direction
-                slack = Fraction(1, 10**9) if line in ("bresenham-float", "midpoint", "dda") else 0
+                slack = SLACK.get(line, 0)
                 assert abs(exact - pixel[1 - major]) <= Fraction(1, 2) + slack
 
 
@@ -141,6 +154,7 @@ def test_these_methods_keep_every_symmetry_of_the_square(line, name, move, ends)
         ("bresenham-lecture", (-1, 1)),
         ("midpoint", (1, -1)),
         ("dda", (1, -1)),
+        ("dda-float32", (1, -1)),
         ("diamond-exit", (-1, -1)),
     ],
 )
@@ -243,7 +257,7 @@ def test_a_line_drawn_in_pieces_draws_each_pixel_once(start, step):
     np.testing.assert_array_equal(together, at_once)
 
 
-@pytest.mark.parametrize("line", METHODS)
+@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS)
 def test_segments_do_not_depend_on_their_company(line, ends):
     segments = as_segments(ends)

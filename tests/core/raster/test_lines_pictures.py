@@ -2,12 +2,23 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from core.methods import table
 from core.raster.line_records import COORDINATE_LIMIT, round_half_up
 from core.raster.lines import LISTINGS, draw_lines, interpolate_line, segment_parameter
 
-METHODS = ["bresenham", "bresenham-lecture", "bresenham-float", "midpoint", "dda", "diamond-exit"]
+METHODS = [
+    "bresenham",
+    "bresenham-lecture",
+    "bresenham-float",
+    "midpoint",
+    "dda",
+    "dda-float32",
+    "diamond-exit",
+]
+"""Methods with one pixel in a column; the others are in test_smooth_lines.py and test_rectangle_lines.py."""
 
 
 def centers(*segments) -> np.ndarray:
@@ -25,8 +36,9 @@ def picture(segments, width, height, **options) -> list[str]:
 
 
 def test_the_family_has_its_methods_in_order():
-    assert list(table.names("line"))[:6] == METHODS
-    assert set(LISTINGS) == set(METHODS)
+    names = list(table.names("line"))
+    assert names == [*METHODS, "rectangle", "wu", "gupta-sproull"]
+    assert set(LISTINGS) == set(names)
 
 
 SLOPE_2_OF_5 = {
@@ -35,6 +47,7 @@ SLOPE_2_OF_5 = {
     "bresenham-float": ["....0.", "..00..", "00...."],
     "midpoint": ["....0.", "..00..", "00...."],
     "dda": ["....0.", "..00..", "00...."],
+    "dda-float32": ["....0.", "..00..", "00...."],
     "diamond-exit": ["....0.", "..00..", "00...."],
 }
 
@@ -82,6 +95,13 @@ TIES = [
     ),
     (
         "dda",
+        ["...0.", ".00..", "0...."],
+        ["...00", ".00..", "....."],
+        ["00...", "..00.", "....."],
+        [".0...", "..00.", "....0"],
+    ),
+    (
+        "dda-float32",
         ["...0.", ".00..", "0...."],
         ["...00", ".00..", "....."],
         ["00...", "..00.", "....."],
@@ -213,6 +233,31 @@ def test_the_dda_drifts_from_the_line_and_midpoint_does_not():
     assert 1e-12 < np.abs(drifted - exact).max() < 1e-9
 
 
+def test_the_dda_in_float32_leaves_the_line_by_whole_pixels():
+    # Rows near 10,000 have a spacing of 2**-10: every sum is rounded to it, always the same way.
+    segments = centers([0, 10_000, 4000, 10_400])
+    drawn = draw_lines(segments, 4001, 10_500, line="dda-float32")
+    exact = 10_000 + np.arange(4000) / 10
+    away = np.abs(drawn.steps.decision - exact)
+    assert away[-1] > 1
+    assert (np.abs(drawn.pixels[:, 1] - exact) > 1).sum() > 1000
+    # It gets worse from column to column, and near the origin, where no tie tells, it is the same line.
+    assert away[400] < away[2000] < away[3999]
+    near = draw_lines(centers([0, 0, 41, 4]), 41, 5, line="dda-float32").pixels
+    np.testing.assert_array_equal(near, draw_lines(centers([0, 0, 41, 4]), 41, 5, line="midpoint").pixels)
+
+
+@given(st.tuples(st.integers(-3000, 3000), st.integers(-9000, 9000), st.integers(-300, 300)))
+def test_the_pixels_of_a_drifting_line_are_found_where_it_drifts_to(case):
+    # The raster is a window on a long line; what it shows are the pixels of all the line that lie in it.
+    x, y, rise = case
+    segment = np.array([[[x - 4000, y - rise], [x + 4000.0, y + rise]]])
+    everything = draw_lines(segment, 16000, 16000, line="dda-float32", pixel_center="integer").pixels
+    part = draw_lines(segment, 200, 100, line="dda-float32", pixel_center="integer").pixels
+    inside = (everything < (200, 100)).all(axis=1)
+    np.testing.assert_array_equal(part, everything[inside])
+
+
 @pytest.mark.parametrize("line", METHODS)
 def test_centers_on_integers_shift_everything_by_half(line):
     segments = np.array([[[0.25, 0.5], [9.0, 4.75]], [[7.0, 1.0], [2.5, 8.0]]])
@@ -265,6 +310,12 @@ def test_the_parameter_is_measured_along_the_longer_axis_between_the_given_ends(
             {"line": "bresenham-float"},
             r"at most 65536 steps, got 500008 .*\(segment 0\)",
         ),
+        ([[[0, 0], [5e5, 0]]], {"line": "dda-float32"}, None),
+        (
+            [[[-5e5, 0], [5e5, 0]]],
+            {"line": "dda-float32"},
+            r"at most 65536 steps, got 500008 .*\(segment 0\)",
+        ),
     ],
 )
 def test_what_is_refused(segments, options, message):
@@ -289,7 +340,7 @@ def test_what_interpolation_refuses(values, w, message):
         interpolate_line(np.array([0]), np.array([0.5]), values, w)
 
 
-@pytest.mark.parametrize("line", [name for name in METHODS if name != "bresenham-float"])
+@pytest.mark.parametrize("line", [name for name in METHODS if name not in ("bresenham-float", "dda-float32")])
 def test_far_ends_need_no_far_loops(line):
     # Through the raster from one corner of the allowed square to the other, and a thousand that miss it.
     far = COORDINATE_LIMIT

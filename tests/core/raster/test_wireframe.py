@@ -283,11 +283,13 @@ def test_segments_are_cut_at_the_neighbourhood_of_the_window():
 def test_far_corners_change_nothing_near_the_window(line, distance):
     # Two edges from (2.5, 2.5) to the right and upwards, however far they go.
     clip = clip_of_window([[(2.5, 2.5), (distance, 2.5), (2.5, distance)]], (8, 6))
+    # At the corner Gupta and Sproull's edges have half of 0.78 each: too pale to be stored.
+    corner = "." if line == "gupta-sproull" else "#"
     assert text(outlined(clip, (8, 6), line=line).primitive == 0) == [
         "..#.....",
         "..#.....",
         "..#.....",
-        "..######",
+        f"..{corner}#####",
         "........",
         "........",
     ]

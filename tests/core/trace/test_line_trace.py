@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.methods import table
-from core.raster.lines import LISTINGS
+from core.raster.lines import LISTINGS, has_intensities
+from core.raster.smooth_lines import FILTER_TABLE
 from core.raster.wireframe import interpolate_affine_along, interpolate_along
 from core.steps import Level
 from core.trace import StageTrace
@@ -20,6 +21,8 @@ from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.trace_cases import SCENES, settings_of, small_region
 
 LINES = list(table.names("line"))
+SEVERAL = ("rectangle", "wu", "gupta-sproull")
+"""Methods that draw more than one pixel in a column."""
 FOLDED = {"depth": ("depth", "depth"), "primitive": ("depth", "primitive"), "color": ("blend", "color")}
 CHOICES = [
     {},
@@ -81,12 +84,15 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
         if max(np.abs(ends)) > 2000:
             continue
         listed = LISTINGS[line](*ends, False)
-        inside = [left <= x < right and bottom <= y < top for x, y, _ in listed]
+        inside = [left <= x < right and bottom <= y < top for x, y, *_ in listed]
         index = np.flatnonzero(inside)
         listed = [listed[k] for k in index]
-        assert [(x, y) for x, y, _ in listed] == list(zip(c["column"][rows], c["row"][rows], strict=True))
-        assert np.array_equal([d for _, _, d in listed], c["decision"][rows], equal_nan=True)
-        assert np.array_equal(index, c["index"][rows])
+        assert [(x, y) for x, y, *_ in listed] == list(zip(c["column"][rows], c["row"][rows], strict=True))
+        assert np.array_equal([d for _, _, d, *_ in listed], c["decision"][rows], equal_nan=True)
+        if has_intensities(line):
+            assert np.array_equal([shown for *_, shown in listed], c["intensity"][rows])
+        if line not in SEVERAL:
+            assert np.array_equal(index, c["index"][rows])
 
 
 @pytest.mark.parametrize("pixel_center", table.names("pixel_center"))
@@ -120,10 +126,49 @@ def test_the_columns_show_where_a_decision_comes_from(line):
         second = c["index"] == 1
         assert second.any()
         assert np.array_equal(c["decision"][second], c["slope"][second])
+    elif line == "dda-float32":
+        follows = ~np.isnan(c["previous"])
+        signed = np.where(step < 0, -1, 1) * c["slope"]
+        added = c["previous"].astype(np.float32) + signed.astype(np.float32)
+        assert np.array_equal(c["decision"][follows], added[follows])
+    elif line == "rectangle":
+        check_rectangle(c)
+    elif has_intensities(line):
+        assert np.array_equal(c["decision"], c["slope"] * c["major"] + c["intercept"])
+        assert np.array_equal(c["fraction"], c["decision"] - np.floor(c["decision"]))
+        check_intensities(c, line)
     else:
         assert (c["exit_start"] <= 0.5).all()
         assert (c["exit_end"] >= 0.5).all()
         assert (np.abs(c["decision"]) <= 0.5).all()
+
+
+def check_rectangle(c) -> None:
+    """The distances along and across are those of the pixel's centre, and within the rectangle."""
+    way = c["second_end"] - c["first_end"]
+    x, y = c["column"] - c["first_end"][:, 0], c["row"] - c["first_end"][:, 1]
+    assert np.allclose(c["length"], np.hypot(*way.T))
+    assert np.allclose(c["decision"], (way[:, 0] * y - way[:, 1] * x) / c["length"], atol=1e-9)
+    assert np.allclose(c["along"], (way[:, 0] * x + way[:, 1] * y) / c["length"], atol=1e-9)
+    assert (np.abs(c["decision"]) <= 0.5).all()
+    assert ((c["along"] >= 0) & (c["along"] <= c["length"])).all()
+
+
+def check_intensities(c, line: str) -> None:
+    """The intensity follows from the fraction, or from the distance by the table; times the share of the column."""
+    is_lower = c["minor"] <= c["decision"]
+    if line == "wu":
+        part = np.where(is_lower, 1 - c["fraction"], c["fraction"])
+    else:
+        away = np.abs(c["minor"] - c["decision"])
+        assert np.array_equal(c["line_distance"], away * c["cosine"])
+        part = FILTER_TABLE[c["entry"]]
+        assert np.array_equal(part, c["filtered"])
+        assert (np.abs(c["entry"] / 16 - c["line_distance"]) <= 1 / 32).all()
+    assert np.array_equal(c["intensity"], part * c["share"])
+    assert ((c["intensity"] > 0) & (c["intensity"] <= 1)).all()
+    assert (c["share"] < 1).any()
+    assert (c["share"] == 1).any()
 
 
 def stepped_before(c) -> np.ndarray:
@@ -179,10 +224,18 @@ def test_rows_are_the_pixels_of_the_edges_in_order(line):
     others = np.setdiff1d(np.arange(steps.row_count), starts)
     assert {found.kind_of(int(row)) for row in others} == {line}
     for group, (first, end) in enumerate(zip(starts, steps.group_ends, strict=True)):
-        assert c["index"][first:end].tolist() == list(range(end - first))
-        assert (np.diff(c["t"][first:end]) * (-1 if c["t"][first] > 0.5 else 1) > 0).all()
-        assert np.allclose(c["window_start"][first], corners[group])
-        assert np.allclose(c["window_end"][first], corners[(group + 1) % 3])
+        index, t = c["index"][first:end], c["t"][first:end]
+        assert index[0] == 0
+        if line in SEVERAL:
+            assert (np.diff(index) > 0).all()
+            assert (np.diff(t) >= 0).all()
+        else:
+            assert index.tolist() == list(range(end - first))
+            assert (np.diff(t) * (-1 if t[0] > 0.5 else 1) > 0).all()
+        ends = [corners[group], corners[(group + 1) % 3]]
+        ends = sorted(ends) if has_intensities(line) else ends
+        assert np.allclose(c["window_start"][first], ends[0])
+        assert np.allclose(c["window_end"][first], ends[1])
     assert steps.forward(0, Level.GROUP) == steps.starts[steps.group_ends[0]]
     assert steps.back(steps.count, Level.GROUP) == steps.starts[steps.group_ends[1]]
 
