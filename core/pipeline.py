@@ -34,6 +34,7 @@ from core.raster.wireframe import (
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
 from core.surface import shade_fragments
+from core.texture_slopes import texture_slopes
 
 Batch = TypeVar("Batch")
 
@@ -165,7 +166,8 @@ def fragment_values(
     if isinstance(fragments, LineFragments) and mode != "flat":
         return interpolate_outlines(outlines_of(geometry), varyings, fragments, raster.center, mode)
     x, y = raster.centers(fragments.column, fragments.row)
-    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, settings.provoking)
+    how = mode, settings.provoking, settings.correction_interval
+    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, *how)
 
 
 def outlines_of(geometry: Geometry) -> Outlines:
@@ -220,7 +222,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
     if settings.blend == "opaque":
-        color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
+        color[pixel] = _shade(scene, geometry, settings, raster, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
         _blend(color, scene, geometry, settings, raster, kept, counts)
@@ -303,8 +305,8 @@ def _interpolate(
         count.incoming = count.outgoing = len(fragments)
         if isinstance(fragments, LineFragments):
             return fragment_values(geometry, settings, fragments, raster)[1]
-        values, mode = geometry.primitives.values, settings.interpolation
-        interpolator = Interpolator(geometry.planes, values, mode, settings.provoking)
+        how = settings.interpolation, settings.provoking, settings.correction_interval
+        interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
         return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
 
 
@@ -312,6 +314,7 @@ def _shade(
     scene: AnyScene,
     geometry: Geometry,
     settings: Settings,
+    raster: Raster,
     fragments: Fragments,
     values: Floats,
     count: StageCount,
@@ -320,7 +323,8 @@ def _shade(
     with timed(count):
         count.incoming = count.outgoing = len(fragments)
         mesh = geometry.primitives.mesh[fragments.primitive]
-        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values).color
+        slopes = texture_slopes(geometry, settings, raster, fragments, values)
+        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values, slopes).color
 
 
 def _blend(
@@ -350,7 +354,7 @@ def _blend(
         passes = run_depth_tests(stored, stacks, cleared, depth_format, geometry.uses_depth_test).passes
         fragments = fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
-    source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
+    source = _shade(scene, geometry, settings, raster, fragments, values, counts["shade"])
     with timed(counts["blend"]):
         rule = table.get("blend", settings.blend).function
         blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)

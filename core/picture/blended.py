@@ -22,6 +22,7 @@ from core.pipeline import covered, fragment_depth
 from core.raster.coverage import Fragments
 from core.raster.spans.packed import list_words, word_spans
 from core.surface import shade_fragments
+from core.texture_slopes import texture_slopes
 
 STRIP_FRAGMENTS = 1 << 17
 """Fragments of a strip of rows, about: sorting them stays in the processor's cache."""
@@ -120,16 +121,17 @@ def _colors(job: Job, fragments: Fragments) -> Floats:
     """Return the colours (F, 4) float64 of fragments."""
     primitives, settings = job.geometry.primitives, job.settings
     source = np.empty((4, len(fragments))).T
-    interpolator = Interpolator(
-        job.geometry.planes, primitives.values, settings.interpolation, settings.provoking
-    )
+    how = settings.interpolation, settings.provoking, settings.correction_interval
+    interpolator = Interpolator(job.geometry.planes, primitives.values, *how)
     for first in range(0, len(fragments), BLOCK):
         part = slice(first, first + BLOCK)
-        primitive = fragments.primitive[part]
+        of_part = Fragments(fragments.primitive[part], fragments.column[part], fragments.row[part])
         with job.timed("interpolate"):
-            x, y = job.raster.centers(fragments.column[part], fragments.row[part])
-            values = interpolator.values(primitive, x, y)
+            x, y = job.raster.centers(of_part.column, of_part.row)
+            values = interpolator.values(of_part.primitive, x, y)
         with job.timed("shade"):
-            mesh = primitives.mesh.take(primitive)
-            source[part] = shade_fragments(job.scene, settings, primitives.layout, mesh, values).color
+            mesh = primitives.mesh.take(of_part.primitive)
+            slopes = texture_slopes(job.geometry, settings, job.raster, of_part, values)
+            surface = shade_fragments(job.scene, settings, primitives.layout, mesh, values, slopes)
+            source[part] = surface.color
     return source
