@@ -28,19 +28,20 @@ def row(step: StepValues) -> Formula:
 
 
 def anchors(step: StepValues) -> Formula:
-    """The columns of the grid, moved to the ends of the row, never past the pixel."""
+    """The columns of the grid, moved to the ends of the row; a pixel beyond these is its own anchor."""
     left, right = step.vector("anchor_x")
-    x = number_latex(step.number("x"))
+    if left == right:
+        return equation(("l", left), "=", ("r", right), "=", ("x", step.number("x")))
     before, behind = map(number_latex, step.vector("grid"))
     row_left, row_right = map(number_latex, step.vector("row_ends"))
     return equation(
         ("l", left),
         "=",
-        (r"\min(\max(g, x_{\mathrm{left}}), x)", rf"\min(\max({before}, {row_left}), {x})"),
+        (r"\max(g, x_{\mathrm{left}})", rf"\max({before}, {row_left})"),
         r"\quad",
         ("r", right),
         "=",
-        (r"\max(\min(g + n, x_{\mathrm{right}}), x)", rf"\max(\min({behind}, {row_right}), {x})"),
+        (r"\min(g + n, x_{\mathrm{right}})", rf"\min({behind}, {row_right})"),
     )
 
 

@@ -29,7 +29,7 @@ def anchors(step: StepValues) -> str:
     )
     if left == right:
         return (
-            f"{pixel_name(step)}: {columns}, but the centre is at or beyond the end of the triangle's row, "
+            f"{pixel_name(step)}: {columns}, but the centre is not between the ends of the triangle's row, "
             f"so it is its own anchor, x = {spoken(x)}."
         )
     text = f"{pixel_name(step)}: {columns}, so its anchors are x = {spoken(left)} and x = {spoken(right)}"

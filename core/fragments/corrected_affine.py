@@ -3,8 +3,8 @@
 The weights are perspective-correct at two anchors of a row and linear between them. Anchors stand at columns whose
 number is a multiple of n, so a pixel's anchors depend on nothing but the triangle and the pixel, whatever is drawn
 first and in however many batches. Where a row of the triangle begins or ends between two of these columns, the anchor
-moves to that end: beyond it 1/w need not be positive. An anchor never moves past the pixel itself: a centre that
-snapping put a hair outside of the triangle stands on its own anchor, and gets what perspective gives it.
+moves to that end: beyond it 1/w need not be positive. A centre that lies outside of its row, as snapping may have it
+by a hair, is its own anchor, and gets what perspective gives it.
 
 References
 ----------
@@ -60,8 +60,9 @@ def place_anchors(planes: Planes, primitive: Integers, x: Floats, y: Floats, int
         row_right = np.where(is_right & (crossing < row_right), crossing, row_right)
     column = np.floor(x)
     grid = np.floor(column / interval) * interval + (x - column)
-    left = np.minimum(np.maximum(grid, row_left), x)
-    right = np.maximum(np.minimum(grid + interval, row_right), x)
+    is_inside = (row_left <= x) & (x <= row_right)
+    left = np.where(is_inside, np.where(row_left > grid, row_left, grid), x)
+    right = np.where(is_inside, np.where(row_right < grid + interval, row_right, grid + interval), x)
     fraction = np.where(right > left, (x - left) / (right - left), 0.0)
     return Anchors(row_left, row_right, grid, left, right, fraction)
 
@@ -129,8 +130,9 @@ def interpolate_corrected_at(
             row_right = min(row_right, -(b[k] * y + c[k]) / a[k])
     column = floor(x)
     grid = floor(column / interval) * interval + (x - column)  #: grid
-    left = min(max(grid, row_left), x)  #: anchors
-    right = max(min(grid + interval, row_right), x)
+    left, right = max(grid, row_left), min(grid + interval, row_right)  #: anchors
+    if not row_left <= x <= row_right:
+        left = right = x
     t = (x - left) / (right - left) if right > left else 0.0  #: fraction
     weights = []
     at_left = [a[k] * left + (b[k] * y + c[k]) for k in range(3)]  #: corrected
