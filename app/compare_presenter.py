@@ -14,6 +14,7 @@ from app.tracing import QUICK_SECONDS
 from app.workers import Job, Progress
 from core import Frame, Settings
 from core.methods import table
+from core.settings import WHOLE_NUMBERS
 from core.trace import TraceSource
 from widgets.compare_view import CompareView, Comparison
 from widgets.grid_buffer import BufferKind, GridBuffer, number_text
@@ -126,7 +127,7 @@ class ComparePresenter(QObject):
 
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
-        chosen: str | int = int(value) if family == "block_size" else value
+        chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
         self.set_differences({**self._differences, family: chosen})
 
     @Slot(str)

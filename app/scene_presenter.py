@@ -9,12 +9,16 @@ from app.scene_edits import outline, set_value
 from app.session import Session
 from core.methods import table
 from core.scene import ClipScene, Scene
-from core.settings import families
+from core.settings import WHOLE_NUMBERS, families
 from widgets.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.settings_panel import Setting, SettingChoice, SettingsPanel
 from widgets.stage_texts import FAMILY_TITLES
 
-BLOCK_SIZES = (1, 2, 4, 8, 16, 32)
+NUMBERS_OFFERED = {
+    "block_size": ((1, 2, 4, 8, 16, 32), "{0} × {0} pixels"),
+    "correction_interval": ((1, 2, 4, 8, 16, 32, 64), "every {0} pixels"),
+}
+"""Settings that are numbers: the ones to choose from, and how they are called."""
 
 
 class ScenePresenter(QObject):
@@ -71,7 +75,7 @@ class ScenePresenter(QObject):
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
         try:
-            self._session.set_setting(family, int(value) if family == "block_size" else value)
+            self._session.set_setting(family, int(value) if family in WHOLE_NUMBERS else value)
         except ValueError as error:
             self.edit_refused.emit(str(error))
             self.refresh()
@@ -93,20 +97,26 @@ def settings_records(document: Document) -> list[Setting]:
     """Return one record per family, with what does not matter now and why."""
     records = []
     last_group = ""
-    for family in (*families()[:5], "block_size", *families()[5:]):
+    for family in _in_order():
         title, group = FAMILY_TITLES[family]
         heading = group if group != last_group else ""
         last_group = group
-        if family == "block_size":
-            choices = tuple(SettingChoice(str(n), f"{n} × {n} pixels") for n in BLOCK_SIZES)
-            current = str(document.settings.block_size)
-            if current not in {choice.value for choice in choices}:
-                choices = (*choices, SettingChoice(current, f"{current} × {current} pixels"))
+        current = str(getattr(document.settings, family))
+        if family in WHOLE_NUMBERS:
+            offered, unit = NUMBERS_OFFERED[family]
+            numbers = [str(number) for number in offered]
+            numbers += [] if current in numbers else [current]
+            choices = tuple(SettingChoice(number, unit.format(number)) for number in numbers)
         else:
             choices = tuple(_choice(document, family, name) for name in table.names(family))
-            current = getattr(document.settings, family)
         records.append(Setting(family, title, choices, current, _no_effect(document, family), heading))
     return records
+
+
+def _in_order() -> list[str]:
+    """Return families and numbers as the panel lists them: a number behind the family that it belongs to."""
+    number_of = {"fill": "block_size", "interpolation": "correction_interval"}
+    return [name for family in families() for name in (family, number_of.get(family, "")) if name]
 
 
 def _choice(document: Document, family: str, name: str) -> SettingChoice:
@@ -127,6 +137,10 @@ def _no_effect(document: Document, family: str) -> str:
     wireframe = settings.polygon_mode == "wireframe"
     if family == "block_size" and settings.fill not in ("hierarchy", "blocks"):
         return "Only fills by blocks have a block size."
+    if family == "correction_interval" and settings.interpolation != "affine-n":
+        return "Only affine interpolation that is corrected has an interval."
+    if family == "correction_interval" and wireframe:
+        return "Lines are interpolated with perspective at every pixel."
     if family in ("fill", "fill_rule", "block_size") and wireframe:
         return "Wireframes are not filled."
     if family == "line" and not wireframe:

@@ -13,6 +13,7 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 * Colours are linear in the core, sRGB only for display and in files; alpha is straight in inputs.
 """
 
+from core.fragments import corrected_affine  # noqa: F401  (it registers)
 from core.frame import STAGES, Frame
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render

@@ -36,6 +36,7 @@ from core.raster.wireframe import (
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
 from core.surface import shade_fragments
+from core.texture_slopes import texture_slopes
 
 Batch = TypeVar("Batch")
 
@@ -167,7 +168,8 @@ def fragment_values(
     if isinstance(fragments, LineFragments) and mode != "flat":
         return interpolate_outlines(outlines_of(geometry), varyings, fragments, raster.center, mode)
     x, y = raster.centers(fragments.column, fragments.row)
-    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, settings.provoking)
+    how = mode, settings.provoking, settings.correction_interval
+    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, *how)
 
 
 def outlines_of(geometry: Geometry) -> Outlines:
@@ -227,7 +229,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
     if blend == "opaque":
-        color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
+        color[pixel] = _shade(scene, geometry, settings, raster, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
         _blend(color, scene, geometry, settings, raster, kept, counts)
@@ -310,8 +312,8 @@ def _interpolate(
         count.incoming = count.outgoing = len(fragments)
         if isinstance(fragments, LineFragments):
             return fragment_values(geometry, settings, fragments, raster)[1]
-        values, mode = geometry.primitives.values, settings.interpolation
-        interpolator = Interpolator(geometry.planes, values, mode, settings.provoking)
+        how = settings.interpolation, settings.provoking, settings.correction_interval
+        interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
         return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
 
 
@@ -319,6 +321,7 @@ def _shade(
     scene: AnyScene,
     geometry: Geometry,
     settings: Settings,
+    raster: Raster,
     fragments: Fragments,
     values: Floats,
     count: StageCount,
@@ -327,7 +330,8 @@ def _shade(
     with timed(count):
         count.incoming = count.outgoing = len(fragments)
         mesh = geometry.primitives.mesh[fragments.primitive]
-        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values).color
+        slopes = texture_slopes(geometry, settings, raster, fragments, values)
+        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values, slopes).color
 
 
 def _blend(
@@ -357,7 +361,7 @@ def _blend(
         ).passes
         fragments = fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
-    source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
+    source = _shade(scene, geometry, settings, raster, fragments, values, counts["shade"])
     with timed(counts["blend"]):
         source = weigh_alpha(source, fragments)
         rule = table.get("blend", blend_choice(settings)[0]).function

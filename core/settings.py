@@ -4,7 +4,8 @@ from dataclasses import dataclass, fields
 
 from core.methods import table
 
-BLOCK_SIZE_LIMIT = 256
+WHOLE_NUMBERS = {"block_size": 256, "correction_interval": 256}
+"""Settings that are whole numbers from 1 on, and the largest that each may be."""
 
 
 @dataclass(frozen=True)
@@ -35,14 +36,16 @@ class Settings:
     blend: str = "opaque"
     block_size: int = 8
     """Pixels on a side of a block (fills by blocks), 1 to 256."""
+    correction_interval: int = 16
+    """Columns between corrections (interpolation ``affine-n``), 1 to 256."""
 
     def __post_init__(self) -> None:
         for family in families():
             table.get(family, str(getattr(self, family)))
-        if type(self.block_size) is not int or not 1 <= self.block_size <= BLOCK_SIZE_LIMIT:
-            raise ValueError(
-                f"block_size must be a whole number from 1 to {BLOCK_SIZE_LIMIT}, got {self.block_size!r}"
-            )
+        for name, limit in WHOLE_NUMBERS.items():
+            value = getattr(self, name)
+            if type(value) is not int or not 1 <= value <= limit:
+                raise ValueError(f"{name} must be a whole number from 1 to {limit}, got {value!r}")
 
 
 def families() -> tuple[str, ...]:
@@ -57,9 +60,9 @@ def settings_from_texts(pairs: dict[str, str]) -> Settings:
         if name not in known:
             raise ValueError(f"setting must be one of {', '.join(sorted(known))}, got {name}")
     values: dict[str, str | int] = dict(pairs)
-    if "block_size" in pairs:
+    for name in WHOLE_NUMBERS.keys() & pairs.keys():
         try:
-            values["block_size"] = int(pairs["block_size"])
+            values[name] = int(pairs[name])
         except ValueError:
-            raise ValueError(f"block_size must be a whole number, got {pairs['block_size']}") from None
+            raise ValueError(f"{name} must be a whole number, got {pairs[name]}") from None
     return Settings(**values)  # type: ignore[arg-type]

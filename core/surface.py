@@ -12,13 +12,14 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers, read_only
 from core.fragments.lighting import Reflectance, dot, light_surface, planes, reflectance
+from core.fragments.mipmap_samples import mipmap_colors
 from core.fragments.shading import centroids, face_normals, shade
-from core.fragments.textures import texture_colors
+from core.fragments.textures import texture_colors, uses_mipmaps
 from core.geometry.matrices import camera_axes
 from core.geometry.vertex_stage import VertexStage, place_meshes
 from core.methods import table
 from core.primitives import CornerValues, own_corners
-from core.scene import AnyScene, Camera, ClipScene, Light, Material, Mesh, Scene
+from core.scene import AnyScene, Camera, ClipScene, Light, Material, Mesh, Scene, Texture
 from core.settings import Settings
 
 ANY_CAMERA = Camera(np.array([0.0, 0.0, 1.0]), np.zeros(3))
@@ -206,7 +207,12 @@ def material_of(scene: Scene, mesh: Integers) -> Material | Reflectance:
 
 
 def shade_fragments(
-    scene: AnyScene, settings: Settings, layout: dict[str, slice], mesh: Integers, values: Floats
+    scene: AnyScene,
+    settings: Settings,
+    layout: dict[str, slice],
+    mesh: Integers,
+    values: Floats,
+    slopes: Floats | None = None,
 ) -> Surface:
     """Return the colours of fragments.
 
@@ -216,8 +222,9 @@ def shade_fragments(
         Which of the K values are what, see ``Primitives``.
     mesh : (F,) int64
     values : (F, K) float64, interpolated
+    slopes : (4, F) float64, see ``core.texture_slopes``; ``None``: the texture filter needs none
     """
-    albedo = _albedo(scene, settings, layout, mesh, values)
+    albedo = _albedo(scene, settings, layout, mesh, values, slopes)
     if "normal" in layout:
         assert isinstance(scene, Scene)
         diffuse, specular = light(scene, mesh, values[:, layout["position"]], values[:, layout["normal"]])
@@ -229,11 +236,16 @@ def shade_fragments(
 
 
 def _albedo(
-    scene: AnyScene, settings: Settings, layout: dict[str, slice], mesh: Integers, values: Floats
+    scene: AnyScene,
+    settings: Settings,
+    layout: dict[str, slice],
+    mesh: Integers,
+    values: Floats,
+    slopes: Floats | None,
 ) -> Floats:
     """Return the colours (F, 4) of fragments before they are lit; see `shade_fragments`."""
     if isinstance(scene, ClipScene) and scene.texture is not None:
-        return texture_colors(scene.texture, values[:, layout["uv"]], settings.texture_filter, settings.wrap)
+        return _texture_color(scene.texture, settings, values[:, layout["uv"]], slopes)
     albedo = _vertex_color(layout, values)
     if isinstance(scene, ClipScene) or not any(of_scene.texture for of_scene in scene.meshes):
         return albedo
@@ -242,8 +254,17 @@ def _albedo(
         if of_scene.texture is not None:
             chosen = slice(None) if len(scene.meshes) == 1 else np.flatnonzero(mesh == index)
             uv = values[:, layout["uv"]][chosen]
-            rows[:, chosen] *= texture_colors(of_scene.texture, uv, settings.texture_filter, settings.wrap).T
+            of_mesh = None if slopes is None else slopes[:, chosen]
+            rows[:, chosen] *= _texture_color(of_scene.texture, settings, uv, of_mesh).T
     return rows.T
+
+
+def _texture_color(texture: Texture, settings: Settings, uv: Floats, slopes: Floats | None) -> Floats:
+    """Return the colours (F, 4) of a texture at ``uv`` (F, 2)."""
+    if not uses_mipmaps(settings.texture_filter):
+        return texture_colors(texture, uv, settings.texture_filter, settings.wrap)
+    assert slopes is not None
+    return mipmap_colors(texture, uv, slopes, settings.texture_filter, settings.wrap)
 
 
 def _vertex_color(layout: dict[str, slice], values: Floats) -> Floats:

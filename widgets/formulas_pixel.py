@@ -5,7 +5,7 @@ Vectors are shown in the component that matters most; their other components fol
 
 from collections.abc import Callable, Mapping, Sequence
 
-from widgets import formulas_packed
+from widgets import formulas_corrected, formulas_mipmaps, formulas_packed
 from widgets.equation import (
     DIGITS,
     Part,
@@ -251,7 +251,9 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **{f"interpolate.{kind}.numerators": numerators for kind in _MIXES},
     **{f"interpolate.{kind}.total": total for kind in _MIXES},
     **{f"interpolate.{kind}.weights": weights for kind in (*_MIXES, "flat")},
-    **{f"interpolate.{kind}.value": attribute for kind in (*_MIXES, "flat")},
+    **{f"interpolate.{kind}.value": attribute for kind in (*_MIXES, "affine-n", "flat")},
+    **formulas_corrected.FORMULAS,
+    **formulas_mipmaps.FORMULAS,
     **{
         f"shade.{kind}.{name}": make
         for kind in ("textured", "textured-lit")

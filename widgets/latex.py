@@ -90,6 +90,8 @@ _PLAIN = {
         r"\Delta": "\u0394",
         r"\delta": "\u03b4",
         r"\epsilon": "\u03b5",
+        r"\rho": "\u03c1",
+        r"\log": "log",
     },
     **{r"\infty": "\u221e", r"\pm": "\u00b1", r"\sqrt": "\u221a", r"\sum": "\u03a3", r"\in": "\u2208"},
     **{r"\land": "and", r"\wedge": "and", r"\lor": "or", r"\vee": "or", r"\max": "max", r"\min": "min"},

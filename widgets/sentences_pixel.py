@@ -3,10 +3,10 @@
 import math
 from collections.abc import Callable, Mapping
 
-from widgets import sentences_packed
+from widgets import sentences_corrected, sentences_mipmaps, sentences_packed
 from widgets.number_text import joined, pair_text, spoken, vector_text
 from widgets.sentences_raster import pixel_name
-from widgets.step_values import StepValues
+from widgets.step_values import TEXEL_NAMES, StepValues
 
 ATTRIBUTE_NAMES = {
     "color": "colour",
@@ -16,7 +16,6 @@ ATTRIBUTE_NAMES = {
     "diffuse_light": "diffuse light",
     "specular_light": "specular light",
 }
-TEXEL_NAMES = ("bottom left", "bottom right", "top left", "top right")
 
 
 def _listed(step: StepValues, name: str) -> str:
@@ -298,7 +297,9 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **{f"interpolate.{kind}.numerators": numerators for kind in ("perspective", "affine")},
     **{f"interpolate.{kind}.total": total for kind in ("perspective", "affine")},
     **{f"interpolate.{kind}.weights": weights for kind in ("perspective", "affine", "flat")},
-    **{f"interpolate.{kind}.value": attribute for kind in ("perspective", "affine", "flat")},
+    **{f"interpolate.{kind}.value": attribute for kind in ("perspective", "affine", "affine-n", "flat")},
+    **sentences_corrected.SENTENCES,
+    **sentences_mipmaps.SENTENCES,
     "shade.plain.color": plain,
     "shade.textured.color": shaded,
     **{

@@ -114,6 +114,7 @@ FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
     "line": ("Lines", "Raster"),
     "pixel_center": ("Pixel centres", "Raster"),
     "interpolation": ("Interpolation", "Fragments"),
+    "correction_interval": ("Corrected", "Fragments"),
     "provoking": ("Flat takes", "Fragments"),
     "texture_filter": ("Texture filter", "Fragments"),
     "wrap": ("Texture wrap", "Fragments"),

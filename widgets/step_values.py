@@ -10,6 +10,8 @@ AXES = ("x", "y", "z", "w")
 CHANNELS = ("red", "green", "blue", "alpha")
 ATTRIBUTES = ("color", "uv", "position", "normal", "diffuse_light", "specular_light")
 """What may be interpolated, by the names of core."""
+TEXEL_NAMES = ("bottom left", "bottom right", "top left", "top right")
+"""The four texels of bilinear filtering, in order."""
 PLANE_SIGNS = {
     "near": ("z", 1),
     "far": ("z", -1),

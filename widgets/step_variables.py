@@ -1,36 +1,15 @@
 """The variables of a step as rows of the table: in the order of the algorithm, internals left out."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from core.trace import Explanation
+from widgets.fragment_variables import CORRECTED_VARIABLES, MIPMAP_VARIABLES
 from widgets.step_values import ATTRIBUTES, key_fields
+from widgets.variable_text import GIVEN, VariableText
 from widgets.variables import Value, Variable
-
-GIVEN = ""
-"""Marks variables that are there before the first operation."""
-
-
-@dataclass(frozen=True)
-class VariableText:
-    """How one variable of a trace is shown."""
-
-    label: str
-    """What it is called; ``#`` stands for the number of an element or edge."""
-    meaning: str
-    after: str = "itself"
-    """The variable that must be known before this one is shown; `GIVEN`: none."""
-    spread: str = ""
-    """Elements of an array that get rows of their own: ``edges`` (0, 1, 2, coloured) or ``parts``."""
-    edge: int | None = None
-    """0, 1 or 2 where the variable belongs to that edge."""
-    previous: str = ""
-    """The variable that holds its value before the step, where there was one."""
-    is_key: bool = False
-    """Whether it is a packed key, to be shown in hexadecimal."""
 
 
 def _given(label: str, meaning: str, spread: str = "") -> VariableText:
@@ -233,6 +212,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "end_w": _given("w of the ends", "w of the line's first and second end."),
         "parts": VariableText("parts", "Share of each end over its w."),
         "s": VariableText("s", "Share of the second end in the value."),
+        **CORRECTED_VARIABLES,
     },
     "shade": {
         **_PIXEL,
@@ -243,6 +223,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "texel_colors": VariableText("texel colour #", "Linear red, green, blue, alpha.", spread="parts"),
         "mix": VariableText("fractions", "How far towards the right and the upper texels the place is."),
         "shares": VariableText("share #", "Share of the texel in the colour.", spread="parts"),
+        **MIPMAP_VARIABLES,
         "texture_color": VariableText("texture colour", "Linear red, green, blue, alpha."),
         "albedo": VariableText("albedo", "Colour before lighting: linear red, green, blue, alpha."),
         "normal": VariableText("N", "Unit normal, in world space."),

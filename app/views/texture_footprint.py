@@ -50,6 +50,7 @@ def uv_at(source: TraceSource, primitive: int, x: Floats, y: Floats) -> Floats:
         y,
         settings.interpolation,
         settings.provoking,
+        settings.correction_interval,
     )
     return values
 

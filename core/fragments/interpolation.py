@@ -22,6 +22,9 @@ from core.primitives import CornerValues, own_corners
 DETERMINANT_ERROR = 2.0**-50
 """Rounding error of a determinant, as a part of the sum of the sizes of its terms."""
 
+CORRECTION_INTERVAL = 16
+"""Columns between corrections, as Quake has them."""
+
 FEW_PRIMITIVES = 1024
 """So many primitives fit the processor's nearest cache without being picked out."""
 
@@ -128,7 +131,9 @@ def _over_their_sum(parts: Floats) -> Floats:
     source="Zwicker 2016, Perspective correct interpolation; Olano and Greer 1997",
     exact_for="every triangle",
 )
-def perspective(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
+def perspective(
+    planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
+) -> Floats:
     """Return weights (F, 3): alpha/w, beta/w, gamma/w over their sum 1/w."""
     return _over_their_sum(_numerator_rows(planes, primitive, x, y))
 
@@ -142,7 +147,9 @@ def perspective(planes: Planes, primitive: Integers, x: Floats, y: Floats, provo
     breaks_where="w differs between corners: the error grows to (sqrt r - 1)/(sqrt r + 1) of the edge",
     needs=("positive-w",),
 )
-def affine(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
+def affine(
+    planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
+) -> Floats:
     """Return weights (F, 3) that are linear in the window: alpha_k/w times w_k."""
     parts = _numerator_rows(planes, primitive, x, y)
     for corner, part in enumerate(parts):
@@ -157,7 +164,7 @@ def affine(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking:
     source="OpenGL 4.6, 13.4 Flatshading",
     exact_for="values of one corner",
 )
-def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int) -> Floats:
+def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int) -> Floats:
     """Return weights (F, 3): 1 for the provoking corner, 0 for the others."""
     weights = np.zeros((3, len(primitive)))
     weights[provoking] = 1
@@ -184,13 +191,15 @@ def interpolate(
     y: Floats,
     interpolation: str,
     provoking: str,
+    interval: int = CORRECTION_INTERVAL,
 ) -> tuple[Floats, Floats]:
     """Return weights (F, 3) and values (F, K) of varyings (P, 3, K) at pixel centres, views of rows.
 
     A picture, which needs only the values, has them sooner from an `Interpolator`.
     """
     weights, values = np.empty((3, len(primitive))), np.empty((varyings.shape[2], len(primitive)))
-    Interpolator(planes, varyings, interpolation, provoking).write_values(primitive, x, y, values, weights)
+    interpolator = Interpolator(planes, varyings, interpolation, provoking, interval)
+    interpolator.write_values(primitive, x, y, values, weights)
     return weights.T, values.T
 
 
@@ -205,6 +214,8 @@ class Interpolator:
         Values at their corners; with rows that corners share less is looked at.
     interpolation, provoking : str
         Names of methods of these families.
+    interval : int
+        Columns between corrections, for interpolation that is corrected.
 
     Notes
     -----
@@ -212,7 +223,12 @@ class Interpolator:
     """
 
     def __init__(
-        self, planes: Planes, varyings: CornerValues | Floats, interpolation: str, provoking: str
+        self,
+        planes: Planes,
+        varyings: CornerValues | Floats,
+        interpolation: str,
+        provoking: str,
+        interval: int = CORRECTION_INTERVAL,
     ) -> None:
         values = varyings if isinstance(varyings, CornerValues) else _each_its_own(varyings)
         self.value_count = values.rows.shape[1]
@@ -224,6 +240,7 @@ class Interpolator:
         self._all = self._tables_of(np.arange(count)) if count <= FEW_PRIMITIVES else None
         self._rule = table.get("interpolation", interpolation).function
         self._provoking = table.get("provoking", provoking).function()
+        self._interval = interval
 
     def values(self, primitive: Integers, x: Floats, y: Floats, out: Floats | None = None) -> Floats:
         """Return the values of fragments, bit for bit those of `interpolate`.
@@ -252,7 +269,7 @@ class Interpolator:
         for start in range(0, len(primitive), BLOCK):
             part = slice(start, start + BLOCK)
             planes, tables, local = self._close_at_hand(primitive[part])
-            shares = self._rule(planes, local, x[part], y[part], self._provoking).T
+            shares = self._rule(planes, local, x[part], y[part], self._provoking, self._interval).T
             self._mixer.write_mixed(tables, shares, local, values[:, part])
             if weights is not None:
                 weights[:, part] = shares

@@ -11,8 +11,8 @@ M. Segal, K. Akeley, The OpenGL Graphics System 4.6, 2022, section 8.14 (wrap mo
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from math import floor
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,6 +134,11 @@ def nearest(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     return Footprint(columns, rows, np.zeros_like(position))
 
 
+def uses_mipmaps(texture_filter: str) -> bool:
+    """Return whether a texture filter reads mipmaps, and needs to know how u and v change from pixel to pixel."""
+    return "mipmaps" in table.get("texture_filter", texture_filter).needs
+
+
 def _wrapped(index: Integers, size: int, wrap: Wrap) -> Integers:
     """Wrap ``index``; indices that are all inside need no work, whatever the wrap."""
     if index.size and index.min() >= 0 and index.max() < size:
@@ -180,12 +185,12 @@ def sample_texture(
     uv : (F, 2) float64 array
         Texture coordinates: (0, 0) is the bottom left corner, (1, 1) the top right one.
     texture_filter, wrap : str
-        Names of methods of these families.
+        Names of methods of these families; what reads mipmaps is in ``core.fragments.mipmap_samples``.
 
     Raises
     ------
     ValueError
-        If ``uv`` is not (F, 2), or a name is not in the table.
+        If ``uv`` is not (F, 2), or a name is not in the table, or a filter of mipmaps.
 
     Notes
     -----
@@ -247,6 +252,8 @@ def _position(uv: Floats, texture: Texture) -> Floats:
 
 def _footprint(position: Floats, texture: Texture, texture_filter: str, wrap: str) -> Footprint:
     height, width, _ = texture.pixels.shape
+    if uses_mipmaps(texture_filter):
+        raise ValueError(f"texture_filter must be one that reads the texture itself, got {texture_filter}")
     footprint: Footprint = table.get("texture_filter", texture_filter).function(
         position, (width, height), table.get("wrap", wrap).function
     )
@@ -284,15 +291,24 @@ def _mix_pair(first: Floats, second: Floats, share: Floats, rest: Floats, mixed:
     np.add(first, second, out=mixed)
 
 
-@lru_cache(maxsize=16)
+_records: WeakKeyDictionary[Texture, NDArray[np.generic]] = WeakKeyDictionary()
+"""The texels of each texture as `_texel_records` gives them; they go when the texture goes."""
+
+
 def _texel_records(texture: Texture) -> NDArray[np.generic]:
     """Return the texels (h * w,), each one number of 4 or 16 bytes: these are looked up soonest."""
+    known = _records.get(texture)
+    if known is not None:
+        return known
     height, width, channels = texture.pixels.shape
     if channels == 1:
-        return texture.pixels.reshape(-1)
-    padded = np.zeros((height * width, 4), np.float32)
-    padded[:, :channels] = texture.pixels.reshape(-1, channels)
-    return padded.view(np.complex128).reshape(-1)
+        found: NDArray[np.generic] = texture.pixels.reshape(-1)
+    else:
+        padded = np.zeros((height * width, 4), np.float32)
+        padded[:, :channels] = texture.pixels.reshape(-1, channels)
+        found = padded.view(np.complex128).reshape(-1)
+    _records[texture] = found
+    return found
 
 
 def _pairs(footprint: Footprint) -> list[tuple[Integers, Integers]]:

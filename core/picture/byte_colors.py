@@ -153,7 +153,7 @@ def byte_colors(job: Job) -> ByteColors | None:
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":
         error += chord_error(low, spread)
-    if interpolation == "perspective":
+    if interpolation != "affine":
         error += perspective_error(geometry, spread.max(axis=0))
     drift = drift_error(geometry)
     error += drift

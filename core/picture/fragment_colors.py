@@ -5,7 +5,9 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.fragments.interpolation import Interpolator
 from core.picture.job import Job
+from core.raster.coverage import Fragments
 from core.surface import shade_fragments
+from core.texture_slopes import texture_slopes
 
 
 class FragmentColors:
@@ -14,10 +16,9 @@ class FragmentColors:
     def __init__(self, job: Job) -> None:
         self._job = job
         values, settings = job.geometry.primitives.values, job.settings
+        how = settings.interpolation, settings.provoking, settings.correction_interval
         with job.timed("interpolate"):
-            self._interpolator = Interpolator(
-                job.geometry.planes, values, settings.interpolation, settings.provoking
-            )
+            self._interpolator = Interpolator(job.geometry.planes, values, *how)
 
     def at(self, primitive: Integers, column: Integers, row: Integers) -> Floats:
         """Return the linear colours (F, 4) float64 of primitives (F,) at pixels (F,)."""
@@ -28,5 +29,7 @@ class FragmentColors:
             values = self._interpolator.values(primitive, x, y, rows)
         with job.timed("shade"):
             mesh = primitives.mesh.take(primitive)
-            shaded = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values)
+            fragments = Fragments(primitive, column, row)
+            slopes = texture_slopes(job.geometry, job.settings, job.raster, fragments, values)
+            shaded = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values, slopes)
             return np.asarray(shaded.color)

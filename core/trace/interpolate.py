@@ -2,10 +2,13 @@
 
 import numpy as np
 
+from core.arrays import Floats
+from core.fragments.corrected_affine import interpolate_corrected_at, place_anchors
 from core.fragments.interpolation import (
     interpolate_affine_at,
     interpolate_at,
     numerators,
+    perspective,
     take_provoking_value,
 )
 from core.listing import listing
@@ -24,6 +27,7 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 LISTINGS = {
     "perspective": interpolate_at,
     "affine": interpolate_affine_at,
+    "affine-n": interpolate_corrected_at,
     "flat": take_provoking_value,
     "line-perspective": interpolate_along,
     "line-affine": interpolate_affine_along,
@@ -36,6 +40,13 @@ SUMMED = (
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "perspective": SUMMED,
     "affine": SUMMED,
+    "affine-n": (
+        Operation("row", "row", ("row_ends",)),
+        Operation("anchors", "anchors", ("grid", "anchor_x")),
+        Operation("fraction", "fraction", ("fraction",)),
+        Operation("corrected", "corrected", ("anchor_weights",)),
+        Operation("weights", "weights", ("inverse_w", "weights")),
+    ),
     "flat": (Operation("weights", "weights", ("weights",)),),
     "line-perspective": (
         Operation("parts", "parts", ("t", "end_w", "parts")),
@@ -70,14 +81,17 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
         "values": values,
         "primitive": fragments.primitive,
     }
-    columns |= _along_lines(source) if along_lines else _over_areas(source)
+    if along_lines:
+        columns |= _along_lines(source)
+    else:
+        columns |= _between_anchors(source) if mode == "affine-n" else _over_areas(source)
     values_of_layout = tuple(
         Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
     )
     for name, part in geometry.primitives.layout.items():
         columns[name] = values[:, part]
     triangle = source.triangle_of_fragment
-    kinds = (mode, f"line-{mode}") if along_lines else (mode,)
+    kinds = (mode, f"line-{_along(mode)}") if along_lines else (mode,)
     steps = Steps(
         kinds=kinds,
         kind=np.full(len(fragments), int(along_lines)),
@@ -99,6 +113,33 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     )
 
 
+def _along(interpolation: str) -> str:
+    """Return how values are interpolated along the lines of a wireframe: there are no rows to be corrected along."""
+    return "affine" if interpolation == "affine" else "perspective"
+
+
+def _between_anchors(source: TraceSource) -> dict[str, np.ndarray]:
+    """Return the anchors of fragments (F,) in their rows, and the weights there."""
+    planes, primitive = source.geometry.planes, source.fragments.primitive
+    interval = source.settings.correction_interval
+    x, y = source.centers
+    anchors = place_anchors(planes, primitive, x, y, interval)
+
+    def weights_at(anchor_x: Floats) -> Floats:
+        weights: Floats = perspective(planes, primitive, anchor_x, y, 0, interval)
+        return weights
+
+    return {
+        "row_ends": np.stack([anchors.row_left, anchors.row_right], axis=1),
+        "grid": np.stack([anchors.grid, anchors.grid + interval], axis=1),
+        "anchor_x": np.stack([anchors.left, anchors.right], axis=1),
+        "fraction": anchors.fraction,
+        "anchor_weights": np.stack([weights_at(anchors.left), weights_at(anchors.right)], axis=1),
+        "interval": np.full(len(x), interval),
+        "determinant": planes.determinant[primitive],
+    }
+
+
 def _over_areas(source: TraceSource) -> dict[str, np.ndarray]:
     """Return the numbers from which the weights of fragments (F,) are made."""
     planes, primitive = source.geometry.planes, source.fragments.primitive
@@ -113,7 +154,7 @@ def _along_lines(source: TraceSource) -> dict[str, np.ndarray]:
     outlines, fragments = source.geometry.outlines, source.fragments
     assert outlines is not None
     assert isinstance(fragments, LineFragments)
-    mode, center = source.settings.interpolation, source.raster.center
+    mode, center = _along(source.settings.interpolation), source.raster.center
     t = line_parameter(outlines, fragments, center)
     start, end = inverse_w_parts(outlines, fragments, center)
     at_ends = values_at_ends(outlines, source.geometry.primitives.varyings, mode)

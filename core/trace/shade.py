@@ -6,17 +6,25 @@ from typing import Any
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
+from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
 from core.fragments.shading import shaded_color
-from core.fragments.textures import TextureSamples, bilinear_color, nearest_color, sample_texture
+from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.listing import Listing, listing
 from core.scene import ClipScene, Scene, Texture
 from core.steps import Operation, Steps, ends_of
 from core.surface import material_of, viewpoint
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
+from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
 
-TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {"nearest": nearest_color, "bilinear": bilinear_color}
+TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {
+    "nearest": nearest_color,
+    "bilinear": bilinear_color,
+    "trilinear": mipmap_color,
+    "mipmap-nearest": nearest_mipmap_color,
+}
 
 
 def trace_shade(source: TraceSource) -> StageTrace:
@@ -39,7 +47,8 @@ def trace_shade(source: TraceSource) -> StageTrace:
         if texture is not None:
             chosen = np.flatnonzero(mesh == index)
             textured[chosen] = True
-            _add_samples(columns, chosen, _samples(source, texture, chosen))
+            uv = values[chosen, layout["uv"]]
+            _add_columns(columns, chosen, sample_columns(source, texture, uv, chosen))
             height, width, _ = texture.pixels.shape
             columns.setdefault("texture_size", np.zeros((count, 2), np.int64))[chosen] = width, height
             columns["uv"] = values[:, layout["uv"]]
@@ -97,23 +106,10 @@ def _textures(source: TraceSource) -> list[Texture | None]:
     return [mesh.texture for mesh in source.scene.meshes]
 
 
-def _samples(source: TraceSource, texture: Texture, chosen: Integers) -> TextureSamples:
-    uv = source.interpolated[1][chosen, source.geometry.primitives.layout["uv"]]
-    return sample_texture(texture, uv, source.settings.texture_filter, source.settings.wrap)
-
-
-def _add_samples(columns: dict[str, np.ndarray], chosen: Integers, samples: TextureSamples) -> None:
-    """Put what fragments ``chosen`` read into columns of all fragments."""
+def _add_columns(columns: dict[str, np.ndarray], chosen: Integers, found: dict[str, np.ndarray]) -> None:
+    """Put what is known of fragments ``chosen`` (C,) into columns of all fragments."""
     count = len(columns["column"])
-    of_samples = {
-        "texel_position": samples.position,
-        "texels": samples.texels,
-        "texel_colors": samples.texel_colors,
-        "mix": samples.weights,
-        "shares": samples.shares,
-        "texture_color": samples.color,
-    }
-    for name, values in of_samples.items():
+    for name, values in found.items():
         missing: Any = -1 if values.dtype.kind == "i" else np.nan
         columns.setdefault(name, np.full((count, *values.shape[1:]), missing, values.dtype))
         columns[name][chosen] = values
@@ -135,11 +131,8 @@ def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
 def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
     plain = (Operation("color", "color", ("albedo", "color")),)
-    nearest = source.settings.texture_filter == "nearest"
     texture = (
-        Operation("position", "position", ("texel_position",)),
-        Operation("texels", "column" if nearest else "columns", ("texels", "texel_colors")),
-        Operation("filter", "color", ("mix", "shares", "texture_color")),
+        *texture_operations(source.settings.texture_filter),
         Operation("albedo", "color", ("albedo",)),
     )
     light: tuple[Operation, ...] = (Operation("interpolated", "color", ("diffuse_light", "specular_light")),)
@@ -160,7 +153,8 @@ def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tup
 
 def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listing]:
     """Return the texture's listing, the light's and the product's, by kind of row and operation."""
-    texture, product = listing(TEXTURE_LISTINGS[source.settings.texture_filter]), listing(shaded_color)
+    texture_filter = source.settings.texture_filter
+    texture, product = listing(TEXTURE_LISTINGS[texture_filter]), listing(shaded_color)
     light = listing(blinn_phong) if lighting is not None else product
     of_operation = {
         "normal": light,
@@ -170,6 +164,10 @@ def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listi
         "product": product,
     }
     found = {"plain": product, "textured": texture, "lit": product, "textured-lit": texture}
+    if uses_mipmaps(texture_filter):
+        for kind in ("textured", "textured-lit"):
+            found[f"{kind}.slopes"] = listing(SLOPE_LISTINGS[slope_kind(source)])
+            found[f"{kind}.lod"] = listing(level_of_detail)
     for kind in ("lit", "textured-lit"):
         found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}
     return found
@@ -191,6 +189,8 @@ def _buffers(
     if textured.any():
         tracks.append(track("texel column", columns["texel_position"][:, 0], "scalar"))
         tracks.append(track("texel row", columns["texel_position"][:, 1], "scalar"))
+    if "level" in columns:
+        tracks.append(track("mipmap level", columns["level"], "scalar"))
     if "diffuse_light" in columns:
         tracks.append(track("diffuse light", columns["diffuse_light"]))
         tracks.append(track("specular light", columns["specular_light"]))

@@ -21,6 +21,7 @@ from core.raster.wireframe import LineFragments, draw_outlines, join_batches
 from core.scene import AnyScene
 from core.settings import Settings
 from core.surface import Surface, shade_fragments
+from core.texture_slopes import texture_slopes
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +116,11 @@ class TraceSource:
         return fragment_values(self.geometry, self.settings, self.fragments, self.raster)
 
     @cached_property
+    def uv_slopes(self) -> Floats | None:
+        """(4, F) float64 du/dx, dv/dx, du/dy, dv/dy of the fragments; ``None``: the texture filter needs none."""
+        return texture_slopes(self.geometry, self.settings, self.raster, self.fragments, self.interpolated[1])
+
+    @cached_property
     def inverse_w(self) -> Floats:
         """(F,) float64, 1/w at the fragments."""
         return fragment_inverse_w(self.geometry, self.fragments, self.raster)
@@ -124,7 +130,7 @@ class TraceSource:
         """The fragments' colours."""
         mesh = self.geometry.primitives.mesh[self.fragments.primitive]
         layout = self.geometry.primitives.layout
-        return shade_fragments(self.scene, self.settings, layout, mesh, self.interpolated[1])
+        return shade_fragments(self.scene, self.settings, layout, mesh, self.interpolated[1], self.uv_slopes)
 
     @cached_property
     def depth_format(self) -> DepthFormat:

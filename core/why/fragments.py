@@ -12,6 +12,7 @@ from core.methods import table
 from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.surface import shade_fragments
+from core.texture_slopes import texture_slopes
 from core.why.candidates import PixelCandidates
 from core.why.records import Link, PixelState
 
@@ -53,7 +54,8 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     primitive, count = fragments.primitive, len(fragments)
     weights, values = fragment_values(geometry, settings, fragments, raster)
     mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
-    surface = shade_fragments(candidates.scene, settings, layout, mesh, values)
+    slopes = texture_slopes(geometry, settings, raster, fragments, values)
+    surface = shade_fragments(candidates.scene, settings, layout, mesh, values, slopes)
 
     # Only what is in range gets to the depth test.
     depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)

@@ -60,6 +60,12 @@ def every_choice() -> list[Settings]:
     found.append(Settings(fill="blocks", block_size=2, interpolation="affine", texture_filter="nearest"))
     found.append(Settings(fill="scanline", fill_rule="exclusive", blend="over", depth="inverse-w"))
     found.append(Settings(clipping="sutherland-hodgman", coverage="float64", shading="flat", wrap="mirror"))
+    for texture_filter, interpolation in (("trilinear", "affine"), ("mipmap-nearest", "flat")):
+        mipmapped = {"texture_filter": texture_filter, "interpolation": interpolation}
+        found.append(Settings(shading="unlit", **mipmapped))
+        found.append(Settings(shading="unlit", polygon_mode="wireframe", **mipmapped))
+    found.append(Settings(texture_filter="trilinear", polygon_mode="wireframe", shading="unlit"))
+    found.append(Settings(interpolation="affine-n", correction_interval=1))
     return found
 
 
@@ -99,6 +105,7 @@ def rare_steps() -> tuple[Step, ...]:
         *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
         Settings(polygon_mode="wireframe", interpolation="affine"),
         *[Settings(polygon_mode="wireframe", line="wu", blend=blend) for blend in table.names("blend")],
+        Settings(interpolation="affine-n", correction_interval=3),
         Settings(fill="spans", depth="fixed-38"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]

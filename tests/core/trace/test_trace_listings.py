@@ -9,10 +9,15 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, trace
+from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
+from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import blinn_phong
+from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
+from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color
-from core.fragments.textures import bilinear_color, nearest_color
+from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
+from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
 from core.framebuffer.blending import over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
@@ -22,6 +27,7 @@ from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
 from core.raster.binning import block_verdict
 from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
+from core.raster.line_slopes import affine_line_slopes_at, line_slopes_at
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle, round_half_up
 from core.raster.snapping import snap_one
@@ -30,6 +36,7 @@ from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_tri
 from core.surface import viewpoint
 from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box
+from core.trace.texture_columns import slope_kind
 from core.trace.transform import divide_and_map
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
@@ -228,6 +235,11 @@ def check_interpolate(traced: Trace) -> None:
                         *plane, w, c["x"][row], c["y"][row], corners
                     )
                     assert equal(total, c["total"][row])
+                elif settings.interpolation == "affine-n":
+                    center, interval = (c["x"][row], c["y"][row]), settings.correction_interval
+                    weights, value = interpolate_corrected_at(
+                        *plane, planes.determinant[p], *center, interval, corners
+                    )
                 else:
                     weights, total, value = interpolate_at(*plane, c["x"][row], c["y"][row], corners)
                     assert equal(total, c["total"][row])
@@ -245,7 +257,10 @@ def check_shade(traced: Trace) -> None:
         for row in rows_of_kind(found, kind):
             pixels = textures[mesh[row]].pixels.astype(np.float64).tolist()
             u, v = values[row, layout["uv"]].tolist()
-            color = filters[source.settings.texture_filter](pixels, u, v, source.settings.wrap)
+            if uses_mipmaps(source.settings.texture_filter):
+                color = check_mipmaps(traced, found, row)
+            else:
+                color = filters[source.settings.texture_filter](pixels, u, v, source.settings.wrap)
             assert equal(color, c["texture_color"][row][: len(color)])
             assert c["texture_color"][row][3] == 1 or len(color) == 4
     for kind in ("lit", "textured-lit"):
@@ -257,6 +272,42 @@ def check_shade(traced: Trace) -> None:
         assert equal(c["albedo"][rows], c["color"][rows])
     if "normal" in layout:
         check_light(traced, found)
+
+
+def slopes_of(traced: Trace, c, row: int):
+    """Return what the listing of the slopes gives for a row."""
+    kind, uv = slope_kind(traced.source), c["uv"][row].tolist()
+    if kind == "flat":
+        return slopes_of_one_value()
+    if kind == "area":
+        rises = (c[name][row] for name in ("slope_a", "slope_b", "slope_n"))
+        return slopes_at(*rises, *uv, *c["corner_uv"][row].T)
+    ends, length = c["end_uv"][row], c["length"][row]
+    if kind == "affine-line":
+        slope = affine_line_slopes_at(length, *ends)
+    else:
+        _, slope = line_slopes_at(c["t"][row], *c["end_w"][row], length, *ends)
+    none = [0.0, 0.0]
+    return [*none, *slope] if c["is_steep"][row] else [*slope, *none]
+
+
+def check_mipmaps(traced: Trace, found: StageTrace, row: int) -> tuple[float, ...]:
+    """Execute the listings of slopes and level of detail; return what that of the filter gives."""
+    settings, c = traced.source.settings, found.columns
+    texture = found.extra["textures"][found.extra["mesh"][row]]
+    with np.errstate(all="ignore"):
+        slopes = slopes_of(traced, c, row)
+        assert equal(slopes, c["uv_slopes"][row])
+        *lengths, lod = level_of_detail(*map(float, slopes), *c["texture_size"][row].tolist())
+    assert equal(lengths, c["lengths"][row])
+    assert equal(lod, c["lod"][row])
+    levels = [level.pixels.astype(np.float64).tolist() for level in mipmap_levels(texture)]
+    mix = {"trilinear": mipmap_color, "mipmap-nearest": nearest_mipmap_color}[settings.texture_filter]
+    for name, number in zip(("near", "far"), c["levels"][row].tolist(), strict=True):
+        if name == "near" or settings.texture_filter == "trilinear":
+            color = bilinear_color(levels[number], *c["uv"][row].tolist(), settings.wrap)
+            assert equal(color, c[f"{name}_color"][row][: len(color)])
+    return mix(levels, *c["uv"][row].tolist(), lod, settings.wrap)
 
 
 def check_light(traced: Trace, found: StageTrace) -> None:

@@ -128,6 +128,12 @@ MIXES = [
         "shading": "gouraud",
         "wrap": "clamp",
     },
+    {"interpolation": "affine-n", "correction_interval": 3, "texture_filter": "trilinear", "blend": "over"},
+    {"interpolation": "affine", "texture_filter": "trilinear", "wrap": "mirror"},
+    {"interpolation": "flat", "texture_filter": "mipmap-nearest"},
+    {"polygon_mode": "wireframe", "texture_filter": "trilinear"},
+    {"polygon_mode": "wireframe", "interpolation": "affine", "texture_filter": "mipmap-nearest"},
+    {"polygon_mode": "wireframe", "interpolation": "affine-n", "texture_filter": "trilinear"},
 ]
 """Choices that meet each other."""
 

@@ -1,0 +1,133 @@
+"""The level of detail: how many texels a step of one pixel is long, and which mipmap levels that calls for.
+
+References
+----------
+L. Williams, *Pyramidal parametrics*, SIGGRAPH 1983.
+M. Segal, K. Akeley, *The OpenGL Graphics System 4.6*, 2022, sections 8.14.1 (level of detail) and 8.14.3 (filters).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+from numpy import log2
+
+from core.arrays import Floats, Integers
+from core.fragments.textures import uses_mipmaps
+from core.methods import method, table
+
+
+@dataclass(frozen=True, eq=False)
+class LevelChoice:
+    """The mipmap levels that F fragments read."""
+
+    lengths: Floats
+    """(2, F) float64 texels of level 0: how far a pixel to the right, and one up, leads in the texture."""
+    lod: Floats
+    """(F,) float64, lambda = log2 of the longer one; -inf where both are 0, NaN where they are not defined."""
+    level: Floats
+    """(F,) float64, lambda within the levels that there are: from 0 to the number of the last."""
+    near: Integers
+    """(F,) int64, the finer of the two levels."""
+    far: Integers
+    """(F,) int64, the coarser one; the same at the top, and for filters that read one level."""
+    fraction: Floats
+    """(F,) float64, share of the coarser one, below 1."""
+
+
+@method(
+    "texture_filter",
+    "trilinear",
+    "Trilinear (two mipmap levels)",
+    source="Williams 1983, Pyramidal parametrics; OpenGL 4.6, LINEAR_MIPMAP_LINEAR",
+    exact_for="a pixel that sees an even colour; square footprints, about",
+    breaks_where="footprints that are long and narrow: the longer side decides, and the picture is blurred",
+    needs=("mipmaps",),
+)
+def trilinear(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
+    """Choose the two levels around each level of detail, and mix them by nearness.
+
+    Parameters
+    ----------
+    level : (F,) float64 array
+        From 0 to ``top``.
+    top : int
+        Number of the level that is a single texel.
+
+    Returns
+    -------
+    near, far : (F,) int64
+    fraction : (F,) float64
+    """
+    near = np.floor(level)
+    whole = near.astype(np.int64)
+    return whole, np.minimum(whole + 1, top), level - near
+
+
+@method(
+    "texture_filter",
+    "mipmap-nearest",
+    "Bilinear in the nearest mipmap level",
+    source="Williams 1983, Pyramidal parametrics; OpenGL 4.6, LINEAR_MIPMAP_NEAREST",
+    exact_for="a pixel that sees an even colour; square footprints, about",
+    breaks_where="the level changes: a line is seen; and as trilinear",
+    needs=("mipmaps",),
+)
+def mipmap_nearest(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
+    """Choose the level nearest to each level of detail, halfway the finer one; see `trilinear`."""
+    near = (np.ceil(level + 0.5) - 1).astype(np.int64)
+    return near, near, np.zeros_like(level)
+
+
+@np.errstate(divide="ignore", invalid="ignore", over="ignore")
+def choose_levels(
+    slopes: Floats, size: tuple[int, int], level_count: int, texture_filter: str
+) -> LevelChoice:
+    """Return the levels to be read.
+
+    Parameters
+    ----------
+    slopes : (4, F) float64 array
+        du/dx, dv/dx, du/dy, dv/dy, see ``core.fragments.uv_slopes``.
+    size : tuple of int
+        Width and height of level 0.
+    level_count : int
+        How many levels there are.
+    texture_filter : str
+        A filter that uses mipmaps.
+
+    Raises
+    ------
+    ValueError
+        For another filter.
+
+    Notes
+    -----
+    Magnified (lambda at or below 0), and where the slopes are not defined, level 0 is read; endlessly long slopes read
+    the top.
+    """
+    if not uses_mipmaps(texture_filter):
+        raise ValueError(f"texture_filter must be one that reads mipmaps, got {texture_filter}")
+    width, height = np.float64(size[0]), np.float64(size[1])
+    right_u, right_v = slopes[0] * width, slopes[1] * height
+    up_u, up_v = slopes[2] * width, slopes[3] * height
+    right = np.sqrt(right_u * right_u + right_v * right_v)
+    up = np.sqrt(up_u * up_u + up_v * up_v)
+    lod = np.log2(np.where(up > right, up, right))
+    top = level_count - 1
+    choose: Callable[[Floats, int], tuple[Integers, Integers, Floats]]
+    choose = table.get("texture_filter", texture_filter).function
+    level = np.where(lod > 0, np.minimum(lod, top), 0.0)
+    return LevelChoice(np.stack([right, up]), lod, level, *choose(level, top))
+
+
+def level_of_detail(
+    du_dx: float, dv_dx: float, du_dy: float, dv_dy: float, width: int, height: int
+) -> tuple[float, float, float]:
+    """Listing of the level of detail: how far a pixel to the right and one up lead, in texels, and lambda."""
+    right_u, right_v = du_dx * width, dv_dx * height
+    up_u, up_v = du_dy * width, dv_dy * height
+    right = sqrt(right_u * right_u + right_v * right_v)  #: lengths
+    up = sqrt(up_u * up_u + up_v * up_v)
+    return right, up, log2(max(right, up))  #: lod
