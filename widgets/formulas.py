@@ -31,6 +31,7 @@ WITHOUT_FORMULA = frozenset(
         "depth.store.write",
         "blend.opaque.write",
         "blend.over.write",
+        "blend.additive.write",
     }
 )
 """Operations that hand on, keep or store what is there, and compute nothing."""

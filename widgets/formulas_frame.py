@@ -87,6 +87,34 @@ def over_color(step: StepValues) -> Formula:
     )
 
 
+def additive_source(step: StepValues) -> Formula:
+    """What the fragment adds, in the channel that is strongest."""
+    source = step.vector("source")
+    channel = outstanding(source[:3])
+    return equation(
+        ("s", source[channel] * source[3]),
+        "=",
+        (channel_symbol("source", channel), source[channel]),
+        r"\cdot",
+        (r"a_{\mathrm{source}}", source[3]),
+    )
+
+
+def additive_color(step: StepValues) -> Formula:
+    """Fragment plus buffer, in the channel that changes most."""
+    source, before, after = (step.vector(name) for name in ("source", "before", "after"))
+    channel = outstanding([after[k] - before[k] for k in range(3)])
+    return equation(
+        (channel_symbol("new", channel), after[channel]),
+        "=",
+        (channel_symbol("source", channel), source[channel]),
+        r"\cdot",
+        (r"a_{\mathrm{source}}", source[3]),
+        "+",
+        (channel_symbol("buffer", channel), before[channel]),
+    )
+
+
 def _display_channel(step: StepValues) -> int:
     return outstanding(step.vector("clipped"))
 
@@ -133,6 +161,8 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "depth.store.depth": depth_stored,
     "blend.over.source": over_source,
     "blend.over.color": over_color,
+    "blend.additive.source": additive_source,
+    "blend.additive.color": additive_color,
     "resolve.encode.clip": display_clipped,
     "resolve.encode.encode": encoded,
     "resolve.encode.round": rounded,

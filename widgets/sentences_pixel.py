@@ -244,6 +244,22 @@ def over_written(step: StepValues) -> str:
     return f"{pixel_name(step)}: the colour buffer now holds {after} instead of {before}."
 
 
+def additive_source(step: StepValues) -> str:
+    """The light that a fragment adds."""
+    alpha, before = spoken(step.vector("source")[3]), vector_text(step.vector("before"))
+    return (
+        f"{pixel_name(step)}: the fragment's colour counts by its alpha, {alpha}, "
+        f"and all of what is there, {before}, stays."
+    )
+
+
+def additive_color(step: StepValues) -> str:
+    """The sum of fragment and buffer."""
+    after = step.vector("after")
+    above = ", more than the display can show" if max(after[:3]) > 1 else ""
+    return f"{pixel_name(step)}: fragment plus buffer gives {vector_text(after)}{above}."
+
+
 def display_clipped(step: StepValues) -> str:
     """Colours cut off at 0 and 1."""
     linear, clipped = step.vector("linear"), vector_text(step.vector("clipped"))
@@ -305,6 +321,9 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "blend.over.source": over_source,
     "blend.over.color": over_color,
     "blend.over.write": over_written,
+    "blend.additive.source": additive_source,
+    "blend.additive.color": additive_color,
+    "blend.additive.write": over_written,
     "resolve.encode.clip": display_clipped,
     "resolve.encode.encode": encoded,
     "resolve.encode.round": rounded,

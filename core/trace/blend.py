@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.framebuffer.blending import over_pixel
+from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.stacks import stack_fragments
 from core.listing import listing
@@ -36,6 +36,11 @@ def trace_blend(source: TraceSource) -> StageTrace:
             Operation("color", "color", ("after",)),
             Operation("write", "store", ("after",)),
         ),
+        "additive": (
+            Operation("source", "color", ("source", "before")),
+            Operation("color", "color", ("after",)),
+            Operation("write", "store", ("after",)),
+        ),
     }
     return StageTrace(
         stage="blend",
@@ -53,7 +58,7 @@ def trace_blend(source: TraceSource) -> StageTrace:
         },
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings={"over": listing(over_pixel)},
+        listings={"over": listing(over_pixel), "additive": listing(additive_pixel)},
         marks={"covered": np.ones(len(fragments), bool), "nan": np.any(np.isnan(after), axis=1)},
         buffers=(
             BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),

@@ -135,9 +135,9 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
 
     Notes
     -----
-    Opaque hides always; a blended fragment hides what is below it where its alpha is 1.
+    Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing.
     """
-    hides = fragments.passes & ((blend == "opaque") | (fragments.color[:, 3] == 1))
+    hides = fragments.passes & ((blend == "opaque") | ((blend == "over") & (fragments.color[:, 3] == 1)))
     found = []
     for k in range(len(hides)):
         later = np.flatnonzero(hides[k + 1 :])

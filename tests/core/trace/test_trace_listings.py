@@ -13,7 +13,7 @@ from core.fragments.interpolation import interpolate_affine_at, interpolate_at, 
 from core.fragments.lighting import blinn_phong
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color
-from core.framebuffer.blending import over_pixel
+from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
@@ -314,8 +314,9 @@ def check_blend(traced: Trace) -> None:
     found = traced.stage("blend")
     c = found.columns
     for row in rows_of_kind(found, traced.source.settings.blend):
-        if traced.source.settings.blend == "over":
-            assert equal(over_pixel(c["source"][row], c["before"][row]), c["after"][row])
+        scalar = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
+        if scalar is not None:
+            assert equal(scalar(c["source"][row], c["before"][row]), c["after"][row])
         else:
             assert equal(c["source"][row].astype(np.float32), c["after"][row])
 
