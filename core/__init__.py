@@ -14,6 +14,7 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 """
 
 from core.frame import STAGES, Frame
+from core.framebuffer import depth_formats  # noqa: F401  (it registers)
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
 from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)

@@ -12,6 +12,7 @@ from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
 from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.sutherland_hodgman import Clipped, clip_primitives
 from core.geometry.vertex_stage import VertexStage
 from core.methods import table
@@ -121,6 +122,14 @@ class Geometry:
         """(P,) float64 each: 1/w as a linear function of the pixel."""
         with timed(self.count):
             return value_plane(self.planes, np.ones((len(self.primitives), 3)))
+
+    @cached_property
+    def reversed_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: reversed depth as a linear function of the pixel."""
+        with timed(self.count):
+            clip = self.primitives.clip
+            at_corners = reversed_clip_depth(clip[..., 2], clip[..., 3], self.vertices.view_range)
+            return value_plane(self.planes, at_corners)
 
     @cached_property
     def fixed_planes(self) -> FixedPlanes:

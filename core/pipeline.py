@@ -10,11 +10,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Flags, Floats, Integers, Singles, read_only
-from core.fragments.interpolation import Interpolator, interpolate, plane_value
+from core.arrays import Floats, Integers, Singles, read_only
+from core.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
+from core.fragments.interpolation import Interpolator, interpolate
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, Stored, clamp_depth, run_depth_tests
+from core.framebuffer.depth import DepthFormat, Stored, run_depth_tests
 from core.framebuffer.nearest import NearestFragments
 from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
@@ -25,11 +26,8 @@ from core.raster.edge_functions import EdgeFunctions
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
     LineFragments,
-    Outlines,
     draw_outlines,
     interpolate_outlines,
-    inverse_w_parts,
-    line_depth,
 )
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
@@ -117,46 +115,6 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
 
-def fragment_depth(
-    geometry: Geometry, fragments: Fragments, raster: Raster, depth_format: DepthFormat
-) -> tuple[Floats, Flags, Stored]:
-    """Return the window depth of fragments, whether it is in range, and what would be stored.
-
-    Returns
-    -------
-    depth : (F,) float64, clamped where the triangle is in range as a whole
-    keeps : (F,) bool, False too where 1/w is stored and shows a point behind the eye
-    stored : (F,) of the format's ``stored_type``
-    """
-    if isinstance(fragments, LineFragments):
-        outlines = outlines_of(geometry)
-        depth = line_depth(outlines, fragments, raster.center)
-        is_in_range = outlines.is_in_range.take(fragments.segment)
-    else:
-        x, y = raster.centers(fragments.column, fragments.row)
-        depth = plane_value(geometry.depth_plane, fragments.primitive, x, y)
-        is_in_range = geometry.is_in_range.take(fragments.primitive)
-    depth, keeps = clamp_depth(depth, is_in_range)
-    if depth_format.quantity == "z":
-        stored = depth_format.store(depth)
-        if depth_format.is_planar and not isinstance(fragments, LineFragments):
-            fixed = geometry.fixed_planes
-            on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
-            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
-        return depth, keeps, stored
-    inverse_w = fragment_inverse_w(geometry, fragments, raster)
-    return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
-
-
-def fragment_inverse_w(geometry: Geometry, fragments: Fragments, raster: Raster) -> Floats:
-    """Return 1/w at fragments, (F,) float64."""
-    if isinstance(fragments, LineFragments):
-        start, end = inverse_w_parts(outlines_of(geometry), fragments, raster.center)
-        return start + end
-    x, y = raster.centers(fragments.column, fragments.row)
-    return plane_value(geometry.inverse_w_plane, fragments.primitive, x, y)
-
-
 def fragment_values(
     geometry: Geometry, settings: Settings, fragments: Fragments, raster: Raster
 ) -> tuple[Floats, Floats]:
@@ -166,12 +124,6 @@ def fragment_values(
         return interpolate_outlines(outlines_of(geometry), varyings, fragments, raster.center, mode)
     x, y = raster.centers(fragments.column, fragments.row)
     return interpolate(geometry.planes, varyings, fragments.primitive, x, y, mode, settings.provoking)
-
-
-def outlines_of(geometry: Geometry) -> Outlines:
-    """Return the outlines of a geometry that is drawn as a wireframe."""
-    assert geometry.outlines is not None
-    return geometry.outlines
 
 
 def owner_of(fragments: Fragments) -> Integers:

@@ -249,6 +249,10 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     "depth": {
         **_PIXEL,
         "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
+        "scale": _given("steps", "What depth 1 is stored as, in whole numbers."),
+        "near": _given("near", "w at which the logarithmic depth is 0."),
+        "far": _given("far", "w at which the logarithmic depth is 1."),
+        "value": VariableText("value", "What is stored in the place of z, before it is rounded."),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText("new value", "What the depth method stores of the fragment."),
         "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
@@ -263,6 +267,15 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
         "across": VariableText("across", "Change of the depth with a column, in units of 2⁻³⁸.", "stored"),
         "up": VariableText("up", "Change of the depth with a row, in units of 2⁻³⁸.", "stored"),
+        "x": VariableText("x", "x of the pixel's centre, in pixels.", "value"),
+        "y": VariableText("y", "y of the pixel's centre, in pixels.", "value"),
+        "a": VariableText("a", "Change of the reversed z with a pixel to the right.", "value"),
+        "b": VariableText("b", "Change of the reversed z with a pixel upwards.", "value"),
+        "c": VariableText("c", "Reversed z at the window's origin.", "value"),
+        "t": VariableText(
+            "t", "How far the pixel lies along the line: 0 at the first end, 1 at the second.", "value"
+        ),
+        "ends": VariableText("at the ends", "Reversed z at both ends of the line.", "value"),
     },
     "blend": {
         **_PIXEL,

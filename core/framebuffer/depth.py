@@ -31,12 +31,14 @@ class DepthFormat:
     """How a depth is kept: as a float32 that is 0 or more."""
 
     quantity: str
-    """``z`` (window depth) or ``inverse-w``."""
+    """``z`` (window depth), ``inverse-w``, ``reversed-z`` or ``logarithm`` (of w)."""
     cleared: float
     """Value of the empty buffer: nothing is farther."""
     larger_is_nearer: bool
     store: Callable[[Floats], Stored]
     """Depth of a fragment (F,) float64 to the stored value (F,) of ``stored_type``."""
+    scale: float = 1.0
+    """What depth 1 is stored as where whole numbers are; 1: it stays a fraction."""
 
     stored_type: ClassVar[type[np.floating[Any]]] = np.float32
     nearness_bits: ClassVar[int] = 31

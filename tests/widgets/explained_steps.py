@@ -98,6 +98,8 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
         *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
         Settings(polygon_mode="wireframe", interpolation="affine"),
+        *[Settings(depth=depth, visibility="last-drawn") for depth in ("z-24", "reversed-z", "logarithmic")],
+        Settings(polygon_mode="wireframe", depth="reversed-z"),
         Settings(fill="spans", depth="fixed-38"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]

@@ -20,6 +20,7 @@ from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
+from core.methods import table
 from core.raster.binning import block_verdict
 from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
 from core.raster.scanline import span
@@ -286,6 +287,8 @@ def check_depth(traced: Trace) -> None:
     # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
     if "key" in c and traced.source.settings.fill != "scanline-lecture":
         check_keys(found)
+    for kind in ("test", "store"):
+        check_stored(found, kind)
     for row in rows_of_kind(found, "test"):
         after, passes = depth_test(c["stored"][row], c["before"][row], bool(c["larger_is_nearer"][row]))
         assert passes == c["passes"][row]
@@ -297,6 +300,25 @@ def check_depth(traced: Trace) -> None:
     for row in rows_of_kind(found, "store"):
         assert c["after"][row] == c["stored"][row]
         assert c["passes"][row]
+
+
+def check_stored(found: StageTrace, kind: str) -> None:
+    """Execute what makes the value that the depth buffer gets."""
+    c, constants = found.columns, found.constants
+    making = found.listings.get(f"{kind}.value")
+    rounding = found.listings.get(f"{kind}.depth")
+    for row in rows_of_kind(found, kind):
+        if constants["quantity"] == "logarithm":
+            value = making.function(float(c["inverse_w"][row]), constants["near"], constants["far"])
+            assert value == c["value"][row]
+        elif making is not None:
+            names = ("t",) if "t" in c else ("a", "b", "c", "x", "y")
+            ends = c["ends"][row].tolist() if "t" in c else []
+            assert making.function(*(c[name][row] for name in names), *ends) == c["value"][row]
+        if making is not None:
+            assert rounding.function(c["value"][row]) == c["stored"][row]
+        elif rounding is not None:
+            assert rounding.function(float(c["depth"][row]), constants["scale"]) == c["stored"][row]
 
 
 def check_keys(found: StageTrace) -> None:
@@ -370,7 +392,7 @@ FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", 
     FILLS,
     st.sampled_from(["homogeneous", "sutherland-hodgman"]),
     st.sampled_from(["snapped", "float64"]),
-    st.sampled_from(["z-float32", "fixed-38"]),
+    st.sampled_from(table.names("depth")),
 )
 def test_listings_on_any_triangles(case, fill, clipping, coverage, depth):
     clip, size = case
