@@ -22,6 +22,7 @@ from core.raster.snapping import CornerPositions, WindowVertices, place_corners
 from core.raster.wireframe import Outlines, set_up_outlines
 from core.settings import Settings
 from core.timing import timed
+from core.visibility.ray_planes import RayPlanes, set_up_ray_planes
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +51,8 @@ class Geometry:
     doubled_area: Floats
     """(P,) float64: twice the signed snapped area where all corners are projected, else the 3x3 determinant."""
     uses_depth_test: bool
+    casts_rays: bool
+    """Whether fragments are compared exactly (``ray_planes``), not by the depth buffer."""
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
@@ -139,6 +142,14 @@ class Geometry:
             return set_up_fixed_planes(
                 self.window_x, self.window_y, self.depth, self.doubled_area, self.is_in_range, center
             )
+
+    @cached_property
+    def ray_planes(self) -> RayPlanes:
+        """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
+        with timed(self.count):
+            vertices = self.vertices
+            clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
+            return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None)
 
     @cached_property
     def outlines(self) -> Outlines | None:

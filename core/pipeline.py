@@ -15,10 +15,10 @@ from core.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
 from core.fragments.interpolation import Interpolator, interpolate
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, Stored, run_depth_tests
+from core.framebuffer.depth import DepthFormat, Stored
 from core.framebuffer.nearest import NearestFragments
-from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
+from core.hidden_surfaces import DecidedFragments, decide_fragments
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
@@ -148,6 +148,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
     nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
     kept: list[tuple[Fragments, Stored]] = []
+    keeps_all = geometry.casts_rays or settings.blend != "opaque"
 
     # Coverage and depth of every fragment, in batches.
     cover_primitives = covered if geometry.outlines is None else _outlined
@@ -158,24 +159,29 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
             np.add.at(cover_count, pixel, np.int32(1))
-            nearest.add(pixel, owner_of(fragments), stored)
             counts["depth"].incoming += len(pixel)
-            if settings.blend != "opaque":
+            if keeps_all:
                 kept.append((fragments, stored))
+            if not geometry.casts_rays:
+                nearest.add(pixel, owner_of(fragments), stored)
 
     # What is seen; attributes and colour once per visible pixel.
     with timed(counts["depth"]):
+        decided = _decide(kept, geometry, raster, depth_format) if keeps_all else None
         pixel, owner, depth = nearest.resolve()
+        if geometry.casts_rays and decided is not None:
+            pixel, last = decided.last_passing(raster)
+            owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
         counts["depth"].outgoing = len(pixel)
     seen = fragments_of(geometry, owner, *raster.position(pixel))
     values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
-    if settings.blend == "opaque":
+    if decided is None or settings.blend == "opaque":
         color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
-        _blend(color, scene, geometry, settings, raster, kept, counts)
+        _blend(color, scene, geometry, settings, raster, decided, counts)
 
     # Buffers of the frame.
     with timed(counts["resolve"]):
@@ -275,17 +281,10 @@ def _shade(
         return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values).color
 
 
-def _blend(
-    color: Singles,
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    kept: list[tuple[Fragments, Stored]],
-    counts: dict[str, StageCount],
-) -> None:
-    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+def _decide(
+    kept: list[tuple[Fragments, Stored]], geometry: Geometry, raster: Raster, depth_format: DepthFormat
+) -> DecidedFragments:
+    """Put the fragments of all batches in drawing order, and find out which of them pass."""
     owner, column, row = (
         _join([owner_of(f) for f, _ in kept]),
         _join([f.column for f, _ in kept]),
@@ -296,16 +295,26 @@ def _blend(
         order = np.argsort(owner, kind="stable")
         owner, column, row, stored = owner[order], column[order], row[order], stored[order]
     fragments = fragments_of(geometry, owner, column, row)
-    with timed(counts["depth"]):
-        stacks = stack_fragments(raster.index(column, row))
-        cleared = np.full(len(color), depth_format.cleared, depth_format.stored_type)
-        passes = run_depth_tests(stored, stacks, cleared, depth_format, geometry.uses_depth_test).passes
-        fragments = fragments.select(passes)
+    return decide_fragments(geometry, fragments, stored, raster, depth_format)
+
+
+def _blend(
+    color: Singles,
+    scene: AnyScene,
+    geometry: Geometry,
+    settings: Settings,
+    raster: Raster,
+    decided: DecidedFragments,
+    counts: dict[str, StageCount],
+) -> None:
+    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
+    passes = decided.passes
+    fragments = decided.fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
     source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
     with timed(counts["blend"]):
         rule = table.get("blend", settings.blend).function
-        blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)
+        blend_stacks(color, source, np.cumsum(passes) - 1, decided.stacks, passes, rule)
         counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
+from widgets import formulas_rays
 from widgets.equation import all_of, comparison, conclusion, equation, linear, number_latex, relation
 from widgets.formula import Formula
 from widgets.step_values import StepValues
@@ -85,4 +86,5 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "depth.out-of-range.range": out_of_range,
     "depth.store.value": value_made,
     "depth.store.depth": depth_stored,
+    **formulas_rays.FORMULAS,
 }

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 
+from widgets import sentences_rays
 from widgets.number_text import pair_text, spoken
 from widgets.sentences_raster import pixel_name
 from widgets.step_values import StepValues
@@ -88,4 +89,5 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "depth.store.value": value_made,
     "depth.store.depth": depth_stored,
     "depth.store.write": untested,
+    **sentences_rays.SENTENCES,
 }

@@ -267,11 +267,24 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
         "across": VariableText("across", "Change of the depth with a column, in units of 2⁻³⁸.", "stored"),
         "up": VariableText("up", "Change of the depth with a row, in units of 2⁻³⁸.", "stored"),
+        "nearness": VariableText(
+            "nearness", "Where the ray meets the triangle: 1/w or −z/w, larger is nearer."
+        ),
+        "error": VariableText("error", "Bound of its rounding error."),
+        "nearest": VariableText(
+            "nearest so far", "Number of the nearest triangle that the ray has met before; −1: none."
+        ),
+        "nearest_nearness": VariableText("its nearness", "Where the ray meets that one."),
+        "nearest_error": VariableText("its error", "Bound of its rounding error."),
+        "sign": VariableText("sign", "1: nearer than the nearest so far, −1: farther, 0: equally near."),
+        "m": VariableText("m", "2 x − W: the ray's x/w is m/W.", "nearness"),
+        "n": VariableText("n", "2 y − H: the ray's y/w is n/H.", "nearness"),
+        "d": VariableText("d", "Determinant of the corners' x, y and w.", "nearness"),
         "x": VariableText("x", "x of the pixel's centre, in pixels.", "value"),
         "y": VariableText("y", "y of the pixel's centre, in pixels.", "value"),
-        "a": VariableText("a", "Change of the reversed z with a pixel to the right.", "value"),
-        "b": VariableText("b", "Change of the reversed z with a pixel upwards.", "value"),
-        "c": VariableText("c", "Reversed z at the window's origin.", "value"),
+        "a": VariableText("a", "Change of the value with a step to the right.", "depth"),
+        "b": VariableText("b", "Change of the value with a step upwards.", "depth"),
+        "c": VariableText("c", "Value where both coordinates are 0.", "depth"),
         "t": VariableText(
             "t", "How far the pixel lies along the line: 0 at the first end, 1 at the second.", "value"
         ),

@@ -160,6 +160,20 @@ def run_depth_tests(
     return DepthTests(before, passes)
 
 
+def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, passes: Flags) -> Stored:
+    """Return what the buffer held before each of F fragments, (F,), where another test decided which pass.
+
+    Arguments as in `run_depth_tests`; ``passes`` is (F,) bool.
+    """
+    before = np.empty_like(stored)
+    there = initial.take(stacks.pixel)
+    for count, fragment in stacks.layers():
+        old = there[:count]
+        before[fragment] = old
+        np.copyto(old, stored.take(fragment), where=passes.take(fragment))
+    return before
+
+
 def depth_test(new: float, old: float, larger_is_nearer: bool) -> tuple[float, bool]:
     """Listing of the depth test at one pixel."""
     nearer = new > old if larger_is_nearer else new < old  #: compare

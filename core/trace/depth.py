@@ -9,6 +9,7 @@ from core.listing import Listing, listing
 from core.steps import Operation, Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
 from core.trace.depth_values import value_columns, value_constants, value_listings, value_operations
+from core.trace.rays import trace_rays
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -29,6 +30,8 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
 
 def trace_depth(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
+    if source.ray_tests is not None:
+        return trace_rays(source, source.ray_tests)
     fragments, tests = source.fragments, source.depth_tests
     depth, keeps, stored = source.depths
     after = np.where(tests.passes, stored, tests.before)

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
-from core.framebuffer.depth import DepthFormat, run_depth_tests
+from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import stack_fragments
+from core.hidden_surfaces import cleared_buffers, run_visibility_tests
 from core.methods import table
 from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.surface import shade_fragments
@@ -38,6 +39,8 @@ class PixelFragments:
     """(F,) float32, what the depth buffer held; NaN where there was no test."""
     passes: Flags
     """(F,) bool."""
+    signs: Integers | None
+    """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -52,11 +55,15 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     # Only what is in range gets to the depth test.
     depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
     index = np.flatnonzero(keeps)
-    cleared = np.full(1, depth_format.cleared, depth_format.stored_type)
     here = stack_fragments(np.zeros(len(index), np.int64))
-    tests = run_depth_tests(stored[index], here, cleared, depth_format, geometry.uses_depth_test)
+    kept, cleared = fragments.select(keeps), cleared_buffers(1, depth_format)
+    tests, rays = run_visibility_tests(geometry, kept, stored[index], here, cleared, raster, depth_format)
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
+    signs = None
+    if rays is not None:
+        signs = np.zeros(count, np.int64)
+        signs[index] = rays.sign
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -68,6 +75,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         stored,
         before,
         passes,
+        signs,
     )
 
 
@@ -123,6 +131,8 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         key = "before-near" if depth < 0 else "behind-far" if depth > 1 else "undefined"
     elif not tested:
         key = "not-tested"
+    elif fragments.signs is not None:
+        key = {1: "ray-nearer", 0: "ray-tied", -1: "ray-farther"}[int(fragments.signs[k])]
     elif fragments.passes[k]:
         key = "passed"
     else:

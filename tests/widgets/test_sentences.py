@@ -35,6 +35,8 @@ NUMBERS = {
     "depth.store.value": "value",
     "depth.test.depth": "stored",
     "depth.store.depth": "stored",
+    "depth.ray-first.hit": "nearness",
+    "depth.ray.hit": "nearness",
     "depth.out-of-range.range": "depth",
 }
 """Keys whose sentence must give this number."""

@@ -32,6 +32,8 @@ from core.surface import viewpoint
 from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box
 from core.trace.transform import divide_and_map
+from core.visibility.ray_casting import hit_is_nearer
+from core.visibility.ray_planes import hit_value
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
 
@@ -281,9 +283,33 @@ def check_light(traced: Trace, found: StageTrace) -> None:
         assert equal(lights[1], found.columns["specular_light"][row])
 
 
+def check_rays(traced: Trace) -> None:
+    found, planes = traced.stage("depth"), traced.source.geometry.ray_planes
+    c, (width, height) = found.columns, traced.source.scene.size
+    for kind, has_nearest in (("ray-first", False), ("ray", True), ("ray-exact", True)):
+        for row in rows_of_kind(found, kind):
+            (triangle, nearest), ray = (
+                (found.triangle[row], c["nearest"][row]),
+                (int(c["m"][row]), int(c["n"][row])),
+            )
+            plane = [float(c[name][row]) for name in "abcd"]
+            hit = hit_value(plane, c["sizes"][row].tolist(), *ray, width, height)
+            assert hit == (c["nearness"][row], c["error"][row])
+            corners = planes.clip[nearest].tolist() if has_nearest else None
+            before = c["nearest_nearness"][row], c["nearest_error"][row]
+            xy = (ray[0], width), (ray[1], height)
+            assert (
+                hit_is_nearer(*hit, planes.clip[triangle].tolist(), *before, corners, *xy, planes.by_w)
+                == (c["passes"][row])
+            )
+
+
 def check_depth(traced: Trace) -> None:
     found = traced.stage("depth")
     c = found.columns
+    if traced.source.geometry.casts_rays:
+        check_rays(traced)
+        return
     # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
     if "key" in c and traced.source.settings.fill != "scanline-lecture":
         check_keys(found)
