@@ -3,7 +3,16 @@
 from collections.abc import Callable, Mapping
 
 from widgets import formulas_rays
-from widgets.equation import all_of, comparison, conclusion, equation, linear, number_latex, relation
+from widgets.equation import (
+    all_of,
+    comparison,
+    conclusion,
+    digits_that_differ,
+    equation,
+    linear,
+    number_latex,
+    relation,
+)
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -21,7 +30,7 @@ def depth_stored(step: StepValues) -> Formula:
     quantity = step.depth_quantity()
     symbol, name = SYMBOLS[quantity]
     value = number_latex(step.number(name))
-    if quantity == "z" and step.has("scale") and step.number("scale") != 1:
+    if quantity == "z" and step.has("scale"):
         scale = number_latex(step.number("scale"))
         symbols, numbers = (
             rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})",
@@ -69,6 +78,7 @@ def compared(step: StepValues) -> Formula:
         (wanted, relation(stored, before)),
         (r"z_{\mathrm{buffer}}", before),
         *conclusion("passes", "passes" if step.flag("passes") else "fails"),
+        digits=digits_that_differ(stored, before),
     )
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from widgets.equation import conclusion, equation, number_latex, relation, signed_latex
+from widgets.equation import conclusion, digits_that_differ, equation, number_latex, relation, signed_latex
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -24,6 +24,7 @@ def compared(step: StepValues) -> Formula:
         (">", relation(new, old)),
         (r"v_{\mathrm{nearest}}", old),
         *conclusion("passes", "passes" if step.flag("passes") else "fails"),
+        digits=digits_that_differ(new, old),
     )
 
 
@@ -42,6 +43,8 @@ def exact(step: StepValues) -> Formula:
     """The sign of the difference in whole numbers."""
     return equation(
         (r"\mathrm{sign}(v_{\mathrm{new}} - v_{\mathrm{nearest}})", step.number("sign")),
+        (">", relation(step.number("sign"))),
+        "0",
         *conclusion("passes", "passes" if step.flag("passes") else "fails"),
     )
 

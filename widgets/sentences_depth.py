@@ -19,11 +19,7 @@ def depth_stored(step: StepValues) -> str:
         limited = "" if 0 <= value <= 1 else "limited to 0 to 1 and "
         return f"{pixel_name(step)}: {step.depth_name()} {spoken(value)} is {limited}stored as the float32 {stored}."
     text = f"{pixel_name(step)}: its depth z is {spoken(step.number('depth'))}, to be stored as {stored}"
-    return (
-        f"{text} of {step.whole('scale'):,} steps."
-        if step.has("scale") and step.number("scale") != 1
-        else f"{text}."
-    )
+    return f"{text} of {step.whole('scale'):,} steps." if step.has("scale") else f"{text}."
 
 
 def value_made(step: StepValues) -> str:

@@ -1,36 +1,15 @@
 """The variables of a step as rows of the table: in the order of the algorithm, internals left out."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from core.trace import Explanation
+from widgets.depth_variables import DEPTH_VARIABLES
 from widgets.step_values import ATTRIBUTES, key_fields
+from widgets.variable_text import GIVEN, VariableText
 from widgets.variables import Value, Variable
-
-GIVEN = ""
-"""Marks variables that are there before the first operation."""
-
-
-@dataclass(frozen=True)
-class VariableText:
-    """How one variable of a trace is shown."""
-
-    label: str
-    """What it is called; ``#`` stands for the number of an element or edge."""
-    meaning: str
-    after: str = "itself"
-    """The variable that must be known before this one is shown; `GIVEN`: none."""
-    spread: str = ""
-    """Elements of an array that get rows of their own: ``edges`` (0, 1, 2, coloured) or ``parts``."""
-    edge: int | None = None
-    """0, 1 or 2 where the variable belongs to that edge."""
-    previous: str = ""
-    """The variable that holds its value before the step, where there was one."""
-    is_key: bool = False
-    """Whether it is a packed key, to be shown in hexadecimal."""
 
 
 def _given(label: str, meaning: str, spread: str = "") -> VariableText:
@@ -248,47 +227,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "depth": {
         **_PIXEL,
-        "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
-        "scale": _given("steps", "What depth 1 is stored as, in whole numbers."),
-        "near": _given("near", "w at which the logarithmic depth is 0."),
-        "far": _given("far", "w at which the logarithmic depth is 1."),
-        "value": VariableText("value", "What is stored in the place of z, before it is rounded."),
-        "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
-        "stored": VariableText("new value", "What the depth method stores of the fragment."),
-        "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
-        "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
-        "before_key": VariableText("key before", "Key in the buffer; the lesser one stays.", is_key=True),
-        "before": VariableText("buffer before", "What the depth buffer held."),
-        "passes": VariableText("passes", "Whether the fragment is kept."),
-        "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
-        "after_key": VariableText(
-            "key in buffer", "The lesser of both keys.", previous="before_key", is_key=True
-        ),
-        "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
-        "across": VariableText("across", "Change of the depth with a column, in units of 2⁻³⁸.", "stored"),
-        "up": VariableText("up", "Change of the depth with a row, in units of 2⁻³⁸.", "stored"),
-        "nearness": VariableText(
-            "nearness", "Where the ray meets the triangle: 1/w or −z/w, larger is nearer."
-        ),
-        "error": VariableText("error", "Bound of its rounding error."),
-        "nearest": VariableText(
-            "nearest so far", "Number of the nearest triangle that the ray has met before; −1: none."
-        ),
-        "nearest_nearness": VariableText("its nearness", "Where the ray meets that one."),
-        "nearest_error": VariableText("its error", "Bound of its rounding error."),
-        "sign": VariableText("sign", "1: nearer than the nearest so far, −1: farther, 0: equally near."),
-        "m": VariableText("m", "2 x − W: the ray's x/w is m/W.", "nearness"),
-        "n": VariableText("n", "2 y − H: the ray's y/w is n/H.", "nearness"),
-        "d": VariableText("d", "Determinant of the corners' x, y and w.", "nearness"),
-        "x": VariableText("x", "x of the pixel's centre, in pixels.", "value"),
-        "y": VariableText("y", "y of the pixel's centre, in pixels.", "value"),
-        "a": VariableText("a", "Change of the value with a step to the right.", "depth"),
-        "b": VariableText("b", "Change of the value with a step upwards.", "depth"),
-        "c": VariableText("c", "Value where both coordinates are 0.", "depth"),
-        "t": VariableText(
-            "t", "How far the pixel lies along the line: 0 at the first end, 1 at the second.", "value"
-        ),
-        "ends": VariableText("at the ends", "Reversed z at both ends of the line.", "value"),
+        **DEPTH_VARIABLES,
     },
     "blend": {
         **_PIXEL,

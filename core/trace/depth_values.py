@@ -64,10 +64,9 @@ def value_columns(source: TraceSource) -> dict[str, np.ndarray]:
 
 def value_constants(source: TraceSource) -> dict[str, float | str]:
     """Return what is the same for all fragments."""
-    constants: dict[str, float | str] = {
-        "quantity": source.depth_format.quantity,
-        "scale": source.depth_format.scale,
-    }
+    constants: dict[str, float | str] = {"quantity": source.depth_format.quantity}
+    if source.depth_format.scale != 1 and not source.depth_format.is_planar:
+        constants["scale"] = source.depth_format.scale
     if source.depth_format.quantity == "logarithm":
         constants["near"], constants["far"] = logarithm_range(source.geometry)
     return constants
