@@ -1,5 +1,7 @@
 """From records of the trace to what the pixel grids show: buffers, outlines and overlays."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.document import Document
@@ -7,6 +9,7 @@ from core import Trace
 from core.framebuffer.display import to_display
 from core.raster.schedule import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.trace import BufferTrack, StageTrace
+from widgets.depth_texts import depth_text
 from widgets.grid_buffer import BufferKind, GridBuffer
 from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import (
@@ -44,11 +47,18 @@ def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffe
     """Return the buffers of a stage at a position, then the finished picture and its triangles."""
     done = stage.steps.rows_done(position)
     picture, origin = trace.source.picture, trace.source.raster.bounds[:2]
-    buffers = [grid_buffer(track, done, origin) for track in stage.buffers]
+    depth = trace.source.settings.depth
+    buffers = [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
     buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", origin=origin))
     if not any(track.name == "primitive" for track in stage.buffers):
         buffers.append(GridBuffer("triangles", picture.primitive, "ids", origin=origin))
     return buffers
+
+
+def _described(buffer: GridBuffer, depth: str) -> GridBuffer:
+    """Return the buffer with its unit and description where it holds depths, by the method ``depth``."""
+    text = depth_text(buffer.name, depth)
+    return buffer if text is None else replace(buffer, unit=text.unit, description=text.description)
 
 
 def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> GridBuffer:

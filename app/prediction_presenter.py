@@ -195,6 +195,12 @@ def question_about(trace: StageTrace, row: int) -> Asked | None:
         return choice(
             f"The buffer holds {old} at {pixel}. Does {new} pass?", yes_no, 0 if passes else 1, reveal
         )
+    if trace.stage == "depth" and kind in ("ray", "ray-exact"):
+        passes, nearest = bool(values["passes"]), int(_number(values["nearest"]))
+        how = "nearer" if passes else "not nearer"
+        reveal = f"compared exactly, triangle {triangle} is {how} than triangle {nearest}."
+        text = f"The ray of {pixel} has met triangle {nearest}. Is triangle {triangle} nearer?"
+        return choice(text, yes_no, 0 if passes else 1, reveal)
     if trace.stage == "interpolate":
         weights = np.asarray(values["weights"])
         reveal = "the weights are " + ", ".join(number_text(float(w)) for w in weights) + "."

@@ -15,6 +15,7 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 
 from core.fragments import corrected_affine  # noqa: F401  (it registers)
 from core.frame import STAGES, Frame
+from core.framebuffer import depth_formats  # noqa: F401  (it registers)
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
 from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
@@ -32,7 +33,7 @@ from core.scene import (
 )
 from core.settings import Settings
 from core.trace import Trace, trace
-from core.visibility import painters  # noqa: F401
+from core.visibility import painters, ray_casting  # noqa: F401
 
 __all__ = [
     "STAGES",

@@ -12,6 +12,7 @@ from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
 from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.sutherland_hodgman import Clipped, clip_primitives
 from core.geometry.vertex_stage import VertexStage
 from core.methods import table
@@ -23,6 +24,7 @@ from core.raster.snapping import CornerPositions, WindowVertices, place_corners
 from core.raster.wireframe import Outlines, set_up_outlines
 from core.settings import Settings
 from core.timing import timed
+from core.visibility.ray_planes import RayPlanes, set_up_ray_planes
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +53,8 @@ class Geometry:
     doubled_area: Floats
     """(P,) float64: twice the signed snapped area where all corners are projected, else the 3x3 determinant."""
     uses_depth_test: bool
+    casts_rays: bool
+    """Whether fragments are compared exactly (``ray_planes``), not by the depth buffer."""
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
@@ -125,6 +129,14 @@ class Geometry:
             return value_plane(self.planes, np.ones((len(self.primitives), 3)))
 
     @cached_property
+    def reversed_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: reversed depth as a linear function of the pixel."""
+        with timed(self.count):
+            clip = self.primitives.clip
+            at_corners = reversed_clip_depth(clip[..., 2], clip[..., 3], self.vertices.view_range)
+            return value_plane(self.planes, at_corners)
+
+    @cached_property
     def fixed_planes(self) -> FixedPlanes:
         """Depth in whole numbers as integer planes."""
         with timed(self.count):
@@ -132,6 +144,14 @@ class Geometry:
             return set_up_fixed_planes(
                 self.window_x, self.window_y, self.depth, self.doubled_area, self.is_in_range, center
             )
+
+    @cached_property
+    def ray_planes(self) -> RayPlanes:
+        """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
+        with timed(self.count):
+            vertices = self.vertices
+            clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
+            return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None)
 
     @cached_property
     def outlines(self) -> Outlines | None:

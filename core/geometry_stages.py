@@ -139,6 +139,7 @@ def _process(
         outcode=outcode,
         doubled_area=doubled_area,
         uses_depth_test=drawing.uses_depth_test,
+        casts_rays=drawing.casts_rays,
         settings=settings,
         count=counts["edges"],
     )

@@ -10,15 +10,16 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Flags, Floats, Integers, Singles, read_only
+from core.arrays import Floats, Integers, Singles, read_only
 from core.blend_choice import blend_choice
-from core.fragments.interpolation import Interpolator, interpolate, plane_value
+from core.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
+from core.fragments.interpolation import Interpolator, interpolate
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, Stored, clamp_depth, run_depth_tests
+from core.framebuffer.depth import DepthFormat, Stored
 from core.framebuffer.nearest import NearestFragments
-from core.framebuffer.stacks import stack_fragments
 from core.geometry_stages import Geometry, process_geometry, timed
+from core.hidden_surfaces import DecidedFragments, decide_fragments
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover, join_fragments
@@ -27,11 +28,8 @@ from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
     LineFragments,
-    Outlines,
     draw_outlines,
     interpolate_outlines,
-    inverse_w_parts,
-    line_depth,
 )
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings
@@ -120,46 +118,6 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
 
-def fragment_depth(
-    geometry: Geometry, fragments: Fragments, raster: Raster, depth_format: DepthFormat
-) -> tuple[Floats, Flags, Stored]:
-    """Return the window depth of fragments, whether it is in range, and what would be stored.
-
-    Returns
-    -------
-    depth : (F,) float64, clamped where the triangle is in range as a whole
-    keeps : (F,) bool, False too where 1/w is stored and shows a point behind the eye
-    stored : (F,) of the format's ``stored_type``
-    """
-    if isinstance(fragments, LineFragments):
-        outlines = outlines_of(geometry)
-        depth = line_depth(outlines, fragments, raster.center)
-        is_in_range = outlines.is_in_range.take(fragments.segment)
-    else:
-        x, y = raster.centers(fragments.column, fragments.row)
-        depth = plane_value(geometry.depth_plane, fragments.primitive, x, y)
-        is_in_range = geometry.is_in_range.take(fragments.primitive)
-    depth, keeps = clamp_depth(depth, is_in_range)
-    if depth_format.quantity == "z":
-        stored = depth_format.store(depth)
-        if depth_format.is_planar and not isinstance(fragments, LineFragments):
-            fixed = geometry.fixed_planes
-            on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
-            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
-        return depth, keeps, stored
-    inverse_w = fragment_inverse_w(geometry, fragments, raster)
-    return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
-
-
-def fragment_inverse_w(geometry: Geometry, fragments: Fragments, raster: Raster) -> Floats:
-    """Return 1/w at fragments, (F,) float64."""
-    if isinstance(fragments, LineFragments):
-        start, end = inverse_w_parts(outlines_of(geometry), fragments, raster.center)
-        return start + end
-    x, y = raster.centers(fragments.column, fragments.row)
-    return plane_value(geometry.inverse_w_plane, fragments.primitive, x, y)
-
-
 def fragment_values(
     geometry: Geometry, settings: Settings, fragments: Fragments, raster: Raster
 ) -> tuple[Floats, Floats]:
@@ -170,12 +128,6 @@ def fragment_values(
     x, y = raster.centers(fragments.column, fragments.row)
     how = mode, settings.provoking, settings.correction_interval
     return interpolate(geometry.planes, varyings, fragments.primitive, x, y, *how)
-
-
-def outlines_of(geometry: Geometry) -> Outlines:
-    """Return the outlines of a geometry that is drawn as a wireframe."""
-    assert geometry.outlines is not None
-    return geometry.outlines
 
 
 def owner_of(fragments: Fragments) -> Integers:
@@ -201,6 +153,7 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
     nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
     kept: list[tuple[Fragments, Stored]] = []
     blend, counts["blend"].note = blend_choice(settings)
+    keeps_all = geometry.casts_rays or blend != "opaque"
 
     # Coverage and depth of every fragment, in batches.
     cover_primitives = covered if geometry.outlines is None else _outlined
@@ -211,28 +164,32 @@ def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers |
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
             np.add.at(cover_count, pixel, np.int32(1))
-            writes = writes_depth(fragments)
-            if writes is None:
-                nearest.add(pixel, owner_of(fragments), stored)
-            else:
-                nearest.add(pixel[writes], owner_of(fragments)[writes], stored[writes])
             counts["depth"].incoming += len(pixel)
-            if blend != "opaque":
+            if keeps_all:
                 kept.append((fragments, stored))
+            if not geometry.casts_rays:
+                writes = writes_depth(fragments)
+                if writes is not None:
+                    pixel, fragments, stored = pixel[writes], fragments.select(writes), stored[writes]
+                nearest.add(pixel, owner_of(fragments), stored)
 
     # What is seen; attributes and colour once per visible pixel.
     with timed(counts["depth"]):
+        decided = _decide(kept, geometry, raster, depth_format) if keeps_all else None
         pixel, owner, depth = nearest.resolve()
+        if geometry.casts_rays and decided is not None:
+            pixel, last = decided.last_passing(raster)
+            owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
         counts["depth"].outgoing = len(pixel)
     seen = fragments_of(geometry, owner, *raster.position(pixel))
     values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
-    if blend == "opaque":
+    if decided is None or blend == "opaque":
         color[pixel] = _shade(scene, geometry, settings, raster, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
-        _blend(color, scene, geometry, settings, raster, kept, counts)
+        _blend(color, scene, geometry, settings, raster, decided, counts)
 
     # Buffers of the frame.
     with timed(counts["resolve"]):
@@ -334,38 +291,43 @@ def _shade(
         return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values, slopes).color
 
 
-def _blend(
-    color: Singles,
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    kept: list[tuple[Fragments, Stored]],
-    counts: dict[str, StageCount],
-) -> None:
-    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+def _decide(
+    kept: list[tuple[Fragments, Stored]], geometry: Geometry, raster: Raster, depth_format: DepthFormat
+) -> DecidedFragments:
+    """Put the fragments of all batches in drawing order, and find out which of them pass."""
     if not kept:
-        return
+        none = np.empty(0, np.int64)
+        empty = np.empty(0, depth_format.stored_type)
+        return decide_fragments(
+            geometry, fragments_of(geometry, none, none, none), empty, raster, depth_format
+        )
     fragments = join_fragments([f for f, _ in kept])
     stored = np.concatenate([s for _, s in kept])
     owner = owner_of(fragments)
     if (owner[1:] < owner[:-1]).any():
         order = np.argsort(owner, kind="stable")
         fragments, stored = fragments.take(order), stored[order]
-    with timed(counts["depth"]):
-        stacks = stack_fragments(raster.index(fragments.column, fragments.row))
-        cleared = np.full(len(color), depth_format.cleared, depth_format.stored_type)
-        passes = run_depth_tests(
-            stored, stacks, cleared, depth_format, geometry.uses_depth_test, writes_depth(fragments)
-        ).passes
-        fragments = fragments.select(passes)
+    return decide_fragments(geometry, fragments, stored, raster, depth_format)
+
+
+def _blend(
+    color: Singles,
+    scene: AnyScene,
+    geometry: Geometry,
+    settings: Settings,
+    raster: Raster,
+    decided: DecidedFragments,
+    counts: dict[str, StageCount],
+) -> None:
+    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
+    passes = decided.passes
+    fragments = decided.fragments.select(passes)
     values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
     source = _shade(scene, geometry, settings, raster, fragments, values, counts["shade"])
     with timed(counts["blend"]):
         source = weigh_alpha(source, fragments)
         rule = table.get("blend", blend_choice(settings)[0]).function
-        blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)
+        blend_stacks(color, source, np.cumsum(passes) - 1, decided.stacks, passes, rule)
         counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
 
 

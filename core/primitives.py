@@ -145,6 +145,8 @@ class DrawingOrder:
     order: Integers
     """(P,) int64, the primitives from the first drawn to the last."""
     uses_depth_test: bool
+    casts_rays: bool = False
+    """Whether fragments are compared exactly, not by what the depth buffer holds."""
 
     @property
     def is_as_given(self) -> bool:

@@ -65,6 +65,14 @@ def digits_that_add_up(value: float, products: Sequence[Sequence[float]]) -> int
     return MOST_DIGITS
 
 
+def digits_that_differ(first: float, second: float) -> int:
+    """Return with how many digits two different numbers are shown as different ones."""
+    for digits in range(DIGITS, MOST_DIGITS):
+        if first == second or number_latex(first, digits) != number_latex(second, digits):
+            return digits
+    return MOST_DIGITS
+
+
 def _shown(value: float, digits: int) -> float:
     """Return a number as `number_latex` writes it."""
     is_short = len(repr(value).removesuffix(".0").replace(".", "").lstrip("-0")) <= max(EXACT_DIGITS, digits)

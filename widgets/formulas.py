@@ -37,9 +37,13 @@ WITHOUT_FORMULA = frozenset(
         "shade.textured.color",
         "depth.test.write",
         "depth.store.write",
+        "depth.ray-first.keep",
+        "depth.ray.write",
+        "depth.ray-exact.write",
         "blend.opaque.write",
         "blend.over.write",
         "blend.line-over.write",
+        "blend.additive.write",
     }
 )
 """Operations that hand on, keep or store what is there, and compute nothing."""

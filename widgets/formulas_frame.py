@@ -1,4 +1,4 @@
-"""The formulas of the depth test, of blending and of the display.
+"""The formulas of blending and of the display.
 
 Colours are shown in the channel that matters most; the others follow the same law.
 """
@@ -6,14 +6,11 @@ Colours are shown in the channel that matters most; the others follow the same l
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+from widgets import formulas_depth
 from widgets.equation import (
     Part,
-    all_of,
-    comparison,
-    conclusion,
     equation,
     number_latex,
-    relation,
     signed_latex,
 )
 from widgets.formula import Formula
@@ -32,36 +29,6 @@ def outstanding(values: Sequence[float]) -> int:
 def channel_symbol(name: str, channel: int) -> str:
     """Write the name of one channel of a colour."""
     return rf"\mathrm{{{name}}}_{{{CHANNEL_LETTERS[channel]}}}"
-
-
-def depth_stored(step: StepValues) -> Formula:
-    """The depth as it is stored."""
-    symbol, name = (r"\frac{1}{w}", "inverse_w") if step.stores_inverse_w() else ("z", "depth")
-    value = step.number(name)
-    return equation(
-        (r"z_{\mathrm{new}}", step.number("stored")),
-        "=",
-        (rf"\mathrm{{store}}({symbol})", rf"\mathrm{{store}}({number_latex(value)})"),
-    )
-
-
-def compared(step: StepValues) -> Formula:
-    """The depth test: what is asked, over what holds."""
-    stored, before = step.number("stored"), step.number("before")
-    wanted = ">" if step.flag("larger_is_nearer") else "<"
-    return equation(
-        (r"z_{\mathrm{new}}", stored),
-        (wanted, relation(stored, before)),
-        (r"z_{\mathrm{buffer}}", before),
-        *conclusion("passes", "passes" if step.flag("passes") else "fails"),
-    )
-
-
-def out_of_range(step: StepValues) -> Formula:
-    """The depth range."""
-    depth = step.number("depth")
-    tests = [comparison("z", r"\ge", depth), comparison("z", r"\le", depth, 1.0)]
-    return all_of(tests, *conclusion("kept", "dropped"))
 
 
 def over_source(step: StepValues) -> Formula:
@@ -84,6 +51,34 @@ def over_color(step: StepValues) -> Formula:
         (channel_symbol("buffer", channel), before[channel]),
         r"\cdot",
         (r"(1 - a_{\mathrm{source}})", f"(1 - {signed_latex(source[3])})"),
+    )
+
+
+def additive_source(step: StepValues) -> Formula:
+    """What the fragment adds, in the channel that is strongest."""
+    source = step.vector("source")
+    channel = outstanding(source[:3])
+    return equation(
+        ("s", source[channel] * source[3]),
+        "=",
+        (channel_symbol("source", channel), source[channel]),
+        r"\cdot",
+        (r"a_{\mathrm{source}}", source[3]),
+    )
+
+
+def additive_color(step: StepValues) -> Formula:
+    """Fragment plus buffer, in the channel that changes most."""
+    source, before, after = (step.vector(name) for name in ("source", "before", "after"))
+    channel = outstanding([after[k] - before[k] for k in range(3)])
+    return equation(
+        (channel_symbol("new", channel), after[channel]),
+        "=",
+        (channel_symbol("source", channel), source[channel]),
+        r"\cdot",
+        (r"a_{\mathrm{source}}", source[3]),
+        "+",
+        (channel_symbol("buffer", channel), before[channel]),
     )
 
 
@@ -127,12 +122,11 @@ def rounded(step: StepValues) -> Formula:
 
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
-    "depth.test.depth": depth_stored,
-    "depth.test.compare": compared,
-    "depth.out-of-range.range": out_of_range,
-    "depth.store.depth": depth_stored,
+    **formulas_depth.FORMULAS,
     "blend.over.source": over_source,
     "blend.over.color": over_color,
+    "blend.additive.source": additive_source,
+    "blend.additive.color": additive_color,
     "resolve.encode.clip": display_clipped,
     "resolve.encode.encode": encoded,
     "resolve.encode.round": rounded,

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Callable, Mapping
 
-from widgets import sentences_corrected, sentences_mipmaps, sentences_packed
-from widgets.number_text import joined, pair_text, spoken, vector_text
+from widgets import sentences_corrected, sentences_depth, sentences_mipmaps, sentences_packed
+from widgets.number_text import joined, spoken, vector_text
 from widgets.sentences_raster import pixel_name
 from widgets.step_values import TEXEL_NAMES, StepValues
 
@@ -168,66 +168,6 @@ def shaded(step: StepValues) -> str:
     return f"{pixel_name(step)}: its colour is {vector_text(step.vector('color'))}, as no light is computed."
 
 
-def depth_stored(step: StepValues) -> str:
-    """What the depth method stores of a fragment."""
-    stored = spoken(step.number("stored"))
-    if step.stores_inverse_w():
-        return f"{pixel_name(step)}: 1/w is {spoken(step.number('inverse_w'))}, to be stored as {stored}."
-    return f"{pixel_name(step)}: its depth z is {spoken(step.number('depth'))}, to be stored as {stored}."
-
-
-def compared(step: StepValues) -> str:
-    """The depth test."""
-    stored, before = step.number("stored"), step.number("before")
-    new, old = pair_text(stored, before)
-    name, quantity = pixel_name(step), "1/w" if step.stores_inverse_w() else "z"
-    if math.isnan(stored) or math.isnan(before):
-        return f"{name} fails: its {quantity}, {new}, cannot be compared with the buffer's {old}."
-    if stored == before:
-        return f"{name} fails: its {quantity}, {new}, equals the buffer's: a tie keeps what is there."
-    verdict, outcome = ("passes", "nearer") if step.flag("passes") else ("fails", "hidden")
-    relation = "larger" if stored > before else "smaller"
-    return f"{name} {verdict}: its {quantity}, {new}, is {relation} than the buffer's {old}: it is {outcome}."
-
-
-def depth_written(step: StepValues) -> str:
-    """What the depth buffer holds after the test."""
-    after, before = pair_text(step.number("after"), step.number("before"))
-    triangle = f"triangle {step.triangle}"
-    if step.flag("passes") and not step.flag("writes"):
-        return _let_through(step)
-    if step.flag("passes"):
-        return f"{pixel_name(step)}: the depth buffer now holds {after}, of {triangle}, instead of {before}."
-    return f"{pixel_name(step)}: the depth buffer keeps {before}, and {triangle} is not seen here."
-
-
-def _let_through(step: StepValues) -> str:
-    """A pale pixel of a line, which is not stored."""
-    return (
-        f"{pixel_name(step)}: the depth buffer keeps {spoken(step.number('before'))}, as the line covers less than "
-        "half of this pixel and must not hide what is drawn there later."
-    )
-
-
-def out_of_range(step: StepValues) -> str:
-    """A fragment before the near or behind the far plane."""
-    depth = step.number("depth")
-    text = f"{pixel_name(step)} is dropped: its depth z is {spoken(depth)}"
-    if math.isnan(depth):
-        return f"{text}, which is no number."
-    return f"{text}, " + (
-        "below 0: before the near plane." if depth < 0 else "above 1: behind the far plane."
-    )
-
-
-def untested(step: StepValues) -> str:
-    """A fragment written without a test."""
-    if not step.flag("writes"):
-        return _let_through(step)
-    after, before = pair_text(step.number("after"), step.number("before"))
-    return f"{pixel_name(step)}: without a depth test {after} simply replaces {before} in the depth buffer."
-
-
 def opaque(step: StepValues) -> str:
     """A colour that replaces another."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
@@ -253,6 +193,22 @@ def over_written(step: StepValues) -> str:
     """The mix in the buffer."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
     return f"{pixel_name(step)}: the colour buffer now holds {after} instead of {before}."
+
+
+def additive_source(step: StepValues) -> str:
+    """The light that a fragment adds."""
+    alpha, before = spoken(step.vector("source")[3]), vector_text(step.vector("before"))
+    return (
+        f"{pixel_name(step)}: the fragment's colour counts by its alpha, {alpha}, "
+        f"and all of what is there, {before}, stays."
+    )
+
+
+def additive_color(step: StepValues) -> str:
+    """The sum of fragment and buffer."""
+    after = step.vector("after")
+    above = ", more than the display can show" if max(after[:3]) > 1 else ""
+    return f"{pixel_name(step)}: fragment plus buffer gives {vector_text(after)}{above}."
 
 
 def display_clipped(step: StepValues) -> str:
@@ -307,17 +263,15 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     },
     "shade.lit.albedo": albedo,
     **{f"shade.{kind}.{name}": say for kind in ("lit", "textured-lit") for name, say in _LIGHT.items()},
-    "depth.test.depth": depth_stored,
-    "depth.test.compare": compared,
-    "depth.test.write": depth_written,
-    "depth.out-of-range.range": out_of_range,
-    "depth.store.depth": depth_stored,
-    "depth.store.write": untested,
+    **sentences_depth.SENTENCES,
     **sentences_packed.SENTENCES,
     "blend.opaque.write": opaque,
     "blend.over.source": over_source,
     "blend.over.color": over_color,
     "blend.over.write": over_written,
+    "blend.additive.source": additive_source,
+    "blend.additive.color": additive_color,
+    "blend.additive.write": over_written,
     "resolve.encode.clip": display_clipped,
     "resolve.encode.encode": encoded,
     "resolve.encode.round": rounded,

@@ -21,6 +21,13 @@ PLANE_SIGNS = {
     "top": ("y", -1),
 }
 """Clip planes: the signed distance is w plus or minus one coordinate."""
+DEPTH_NAMES = {
+    "z": "z",
+    "inverse-w": "1/w",
+    "reversed-z": "reversed z",
+    "logarithm": "logarithmic depth",
+}
+"""Quantities of the depth buffer, as sentences call them."""
 KEY_NUMBER_BITS = 24
 """Bits of a packed key below the depth."""
 
@@ -96,9 +103,15 @@ class StepValues:
             first += len(self.vector(name)) if name in ATTRIBUTES else 0
         return [row[first : first + len(self.vector(attribute))] for row in self.rows("corner_values")]
 
-    def stores_inverse_w(self) -> bool:
-        """Tell whether the depth buffer holds 1/w instead of z."""
-        return self.text("quantity") == "inverse-w" if self.has("quantity") else self.flag("larger_is_nearer")
+    def depth_quantity(self) -> str:
+        """Return what the depth buffer holds: ``z``, ``inverse-w``, ``reversed-z`` or ``logarithm``."""
+        if self.has("quantity"):
+            return self.text("quantity")
+        return "inverse-w" if self.flag("larger_is_nearer") else "z"
+
+    def depth_name(self) -> str:
+        """Return what the number in the depth buffer is called in a sentence."""
+        return DEPTH_NAMES[self.depth_quantity()]
 
     def fill_rule(self, edge: int) -> str:
         """Return the rule for ties: the one that is named, or else the one that the answers agree with."""

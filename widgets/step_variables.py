@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from core.trace import Explanation
+from widgets.depth_variables import DEPTH_VARIABLES
 from widgets.fragment_variables import CORRECTED_VARIABLES, MIPMAP_VARIABLES
 from widgets.step_values import ATTRIBUTES, key_fields
 from widgets.variable_text import GIVEN, VariableText
@@ -239,21 +240,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "depth": {
         **_PIXEL,
-        "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
-        "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
-        "stored": VariableText("new value", "What the depth method stores of the fragment."),
-        "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
-        "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
-        "before_key": VariableText("key before", "Key in the buffer; the lesser one stays.", is_key=True),
-        "before": VariableText("buffer before", "What the depth buffer held."),
-        "passes": VariableText("passes", "Whether the fragment is kept."),
-        "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
-        "after_key": VariableText(
-            "key in buffer", "The lesser of both keys.", previous="before_key", is_key=True
-        ),
-        "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
-        "across": VariableText("across", "Change of the depth with a column, in units of 2⁻³⁸.", "stored"),
-        "up": VariableText("up", "Change of the depth with a row, in units of 2⁻³⁸.", "stored"),
+        **DEPTH_VARIABLES,
     },
     "blend": {
         **_PIXEL,

@@ -193,6 +193,10 @@ def _against(values: Values) -> str:
     return f"{holder} ({number_text(values['before'])})"
 
 
+def _holder(values: Values) -> str:
+    return "all others so far" if values["against"] < 0 else f"triangle {values['against']}"
+
+
 def _reason(values: Values) -> str:
     return _words(values["reason"])
 
@@ -293,6 +297,11 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ),
     ("depth", "tied"): lambda v: (
         f"failed the depth test: as far as {_against(v)}, and a tie keeps what is there"
+    ),
+    ("depth", "ray-nearer"): lambda v: f"the ray meets it before {_holder(v)}, compared exactly",
+    ("depth", "ray-farther"): lambda v: f"the ray meets {_holder(v)} first, compared exactly",
+    ("depth", "ray-tied"): lambda v: (
+        f"the ray meets it exactly where it meets {_holder(v)}, which came first"
     ),
     ("depth", "not-tested"): lambda v: f"depth {number_text(v['stored'])} stored without a test",
     ("depth", "before-near"): lambda v: f"before the near plane: depth {number_text(v['depth'])} is below 0",

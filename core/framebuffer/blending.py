@@ -1,7 +1,8 @@
 """Blending: what a fragment that passed the depth test does to the colour that is there.
 
 The rules are OpenGL's: opaque is drawing without blending, over is
-``glBlendFuncSeparate(SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ONE, ONE_MINUS_SRC_ALPHA)``.
+``glBlendFuncSeparate(SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ONE, ONE_MINUS_SRC_ALPHA)``, additive is
+``glBlendFuncSeparate(SRC_ALPHA, ONE, ONE, ONE)`` on a buffer of floats.
 
 So a *fragment* has straight alpha: its colour is not multiplied by its alpha. The *buffer* that "over"
 leaves is premultiplied: on a transparent black background a half-transparent white fragment gives
@@ -75,6 +76,34 @@ def over(source: Floats, destination: Singles) -> Singles:
     return result
 
 
+@method(
+    "blend",
+    "additive",
+    "Additive",
+    source="Porter and Duff 1984, plus; OpenGL 4.6, glBlendFunc(SRC_ALPHA, ONE)",
+    exact_for="light that adds up (fire, glow), in any order, to the rounding of float32",
+    breaks_where="opaque surfaces: all that lies behind shines through; sums above 1 are cut off by the display",
+)
+def additive(source: Floats, destination: Singles) -> Singles:
+    """Add fragments (F, 4) to the colours (F, 4) of their pixels, arguments as in `over`.
+
+    Returns
+    -------
+    (F, 4) float32 array
+        ``source * a + destination`` for RGB and ``a + destination`` for alpha, computed in float64 and rounded once.
+
+    Notes
+    -----
+    Nothing is cut off here: the buffer may hold more than 1, and only the display limits it.
+    """
+    result = np.empty_like(destination)
+    alpha = source[:, 3]
+    for channel in range(3):
+        result[:, channel] = source[:, channel] * alpha + destination[:, channel]
+    result[:, 3] = alpha + destination[:, 3]
+    return result
+
+
 def blend_stacks(
     color: Singles,
     source: Floats,
@@ -117,4 +146,12 @@ def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np
     *color, alpha = source
     result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]  #: color
     result.append(alpha + destination[3] * (1 - alpha))  #: alpha
+    return [np.float32(value) for value in result]  #: store
+
+
+def additive_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel after one fragment (listing of `additive`)."""
+    *color, alpha = source
+    result = [color[k] * alpha + destination[k] for k in range(3)]  #: color
+    result.append(alpha + destination[3])  #: alpha
     return [np.float32(value) for value in result]  #: store

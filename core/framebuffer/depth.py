@@ -31,12 +31,14 @@ class DepthFormat:
     """How a depth is kept: as a float32 that is 0 or more."""
 
     quantity: str
-    """``z`` (window depth) or ``inverse-w``."""
+    """``z`` (window depth), ``inverse-w``, ``reversed-z`` or ``logarithm`` (of w)."""
     cleared: float
     """Value of the empty buffer: nothing is farther."""
     larger_is_nearer: bool
     store: Callable[[Floats], Stored]
     """Depth of a fragment (F,) float64 to the stored value (F,) of ``stored_type``."""
+    scale: float = 1.0
+    """What depth 1 is stored as where whole numbers are; 1: it stays a fraction."""
 
     stored_type: ClassVar[type[np.floating[Any]]] = np.float32
     nearness_bits: ClassVar[int] = 31
@@ -163,6 +165,20 @@ def run_depth_tests(
         else:
             np.copyto(old, new, where=True if writes is None else writes.take(fragment))
     return DepthTests(before, passes)
+
+
+def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, passes: Flags) -> Stored:
+    """Return what the buffer held before each of F fragments, (F,), where another test decided which pass.
+
+    Arguments as in `run_depth_tests`; ``passes`` is (F,) bool.
+    """
+    before = np.empty_like(stored)
+    there = initial.take(stacks.pixel)
+    for count, fragment in stacks.layers():
+        old = there[:count]
+        before[fragment] = old
+        np.copyto(old, stored.take(fragment), where=passes.take(fragment))
+    return before
 
 
 def depth_test(new: float, old: float, larger_is_nearer: bool, writes: bool = True) -> tuple[float, bool]:

@@ -114,4 +114,4 @@ def in_units(depth: Floats) -> Floats:
 )
 def fixed_38() -> DepthFormat:
     """Store the window depth in units of 2^-38."""
-    return FixedDepth("z", SCALE, False, in_units)
+    return FixedDepth("z", SCALE, False, in_units, SCALE)

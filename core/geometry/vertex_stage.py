@@ -71,6 +71,8 @@ class VertexStage:
     """(4, 4) float64, C^-1."""
     projection: Floats | None = None
     """(4, 4) float64, P."""
+    view_range: tuple[float, float] | None = None
+    """Near and far of a perspective camera, for which w is the distance along the view; ``None``: it is not."""
 
     @property
     def clip_rows(self) -> Floats:
@@ -172,7 +174,16 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         model=of_meshes.model,
         view=view,
         projection=project,
+        view_range=view_range(scene),
     )
+
+
+def view_range(scene: Scene) -> tuple[float, float] | None:
+    """Return ``VertexStage.view_range``; a mesh whose M is a projection itself has another w."""
+    is_affine = all(np.array_equal(mesh.transform[3], (0, 0, 0, 1)) for mesh in scene.meshes)
+    if scene.camera.projection != "perspective" or not is_affine:
+        return None
+    return scene.camera.near, scene.camera.far
 
 
 def _record(rows: NDArray[Scalar]) -> NDArray[Scalar]:

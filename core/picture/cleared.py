@@ -36,15 +36,17 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
         return True
     if depth_format.quantity != "z":
         return False
+    # Whole numbers tell the last half of a step from the far plane no more: keep a whole one away.
+    limit = FARTHEST if depth_format.scale == 1 else min(FARTHEST, 1 - 1 / depth_format.scale)
     farthest = geometry.depth.max(axis=0)
-    if farthest.max(initial=0.0) >= FARTHEST:
+    if farthest.max(initial=0.0) >= limit:
         return False
     difference = farthest - geometry.depth.min(axis=0)
     if depth_format.is_planar and _all_linear(geometry, difference):
         return True  # planes through the snapped corners do not leave the corners' depths
     # In a triangle that is not thin, snapping moves the depth by less than it differs between the corners.
-    doubtful = np.flatnonzero(_is_thin(geometry) | (farthest + difference >= FARTHEST))
-    return bool((farthest.take(doubtful) + _extrapolated(geometry, doubtful) < FARTHEST).all())
+    doubtful = np.flatnonzero(_is_thin(geometry) | (farthest + difference >= limit))
+    return bool((farthest.take(doubtful) + _extrapolated(geometry, doubtful) < limit).all())
 
 
 def _all_linear(geometry: Geometry, difference: Floats) -> bool:

@@ -173,9 +173,9 @@ def _choose_colors(job: Job) -> Colors | None:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether a picture with these settings can be drawn by spans: everything is filled."""
+    """Tell whether a picture with these settings can be drawn by spans: everything is filled, and no rays are cast."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return settings.fill == "spans" and not is_outlined
+    return settings.fill == "spans" and not is_outlined and settings.visibility != "ray-casting"
 
 
 def _key(scene: AnyScene) -> Mesh | ClipScene:

@@ -1,9 +1,9 @@
 """What is seen at every pixel: depth and triangle number, for all triangles at once.
 
-Triangles go to the drawing that suits them: those whose depth is linear in packed words, or float32 on a plane, walk
+Triangles go to the drawing that suits them: those whose depth is linear in packed words, or rounded on a plane, walk
 along spans, the large ones in bands; the others (corners that cannot be projected, triangles that the near or the far
-plane cuts, 1/w, no depth test) are looked at fragment by fragment, as every other fill does. All of them keep the
-least word, so the order does not matter and every fill sees the same triangle at the same pixel.
+plane cuts, 1/w and its logarithm, no depth test) are looked at fragment by fragment, as every other fill does. All of
+them keep the least word, so the order does not matter and every fill sees the same triangle at the same pixel.
 """
 
 from collections.abc import Iterator
@@ -53,7 +53,7 @@ def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Fl
     """Return the words of all primitives as planes, and for which (P,) they hold: these walk along spans."""
     geometry, depth_format = job.geometry, job.depth_format
     count = len(geometry.primitives)
-    if not geometry.uses_depth_test or depth_format.quantity != "z":
+    if not geometry.uses_depth_test or depth_format.quantity not in ("z", "reversed-z"):
         return None, np.zeros(count, bool)
     number = np.arange(1, count + 1)
     if depth_format.is_planar:
@@ -61,7 +61,8 @@ def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Fl
         depth = fixed.planes
         origin = ((depth.origin + SLACK) << bits) + number
         return IntegerPlanes(origin, depth.across << bits, depth.up << bits), fixed.is_linear
-    planes = DepthPlanes(*geometry.depth_plane, number)
+    plane = geometry.depth_plane if depth_format.quantity == "z" else geometry.reversed_plane
+    planes = DepthPlanes(*plane, number, depth_format.scale, depth_format.larger_is_nearer)
     return planes, geometry.is_projected & geometry.is_in_range & planes.is_finite
 
 

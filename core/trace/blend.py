@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.blend_choice import blend_choice
-from core.framebuffer.blending import over_pixel
+from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.stacks import stack_fragments
 from core.listing import listing
@@ -39,8 +39,13 @@ def trace_blend(source: TraceSource) -> StageTrace:
             Operation("color", "color", ("after",)),
             Operation("write", "store", ("after",)),
         ),
+        "additive": (
+            Operation("source", "color", ("source", "before")),
+            Operation("color", "color", ("after",)),
+            Operation("write", "store", ("after",)),
+        ),
     }
-    name, weighed, listings = mode, {}, {"over": listing(over_pixel)}
+    name, weighed, listings = mode, {}, {"over": listing(over_pixel), "additive": listing(additive_pixel)}
     if intensity is not None:
         # The fragment of a line is weighed before it is blended.
         name, weighed = f"line-{mode}", {"color": shaded, "intensity": intensity}

@@ -8,6 +8,8 @@ from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.listing import Listing, listing
 from core.steps import Operation, Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
+from core.trace.depth_values import value_columns, value_constants, value_listings, value_operations
+from core.trace.rays import trace_rays
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -28,6 +30,8 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
 
 def trace_depth(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
+    if source.ray_tests is not None:
+        return trace_rays(source, source.ray_tests)
     fragments, tests = source.fragments, source.depth_tests
     depth, keeps, stored = source.depths
     writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
@@ -47,10 +51,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
         "larger_is_nearer": np.full(len(fragments), source.depth_format.larger_is_nearer),
         "primitive": fragments.primitive,
     }
-    operations, listings = OPERATIONS, dict.fromkeys(OPERATIONS, listing(depth_test))
+    operations, listings = _operations(source), dict.fromkeys(OPERATIONS, listing(depth_test))
+    columns |= value_columns(source)
+    listings |= value_listings(source)
     if source.depth_format.is_planar:
         columns |= plane_columns(source)
-        operations, listings = OPERATIONS | PLANAR_OPERATIONS, listings | _planar_listings()
+        operations, listings = operations | PLANAR_OPERATIONS, listings | _planar_listings()
         if tested:
             columns |= key_columns(source)
     triangle = source.triangle_of_fragment
@@ -74,7 +80,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=listings,
-        constants={"quantity": source.depth_format.quantity},
+        constants=value_constants(source),
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
             BufferTrack("depth", source.start.depth, kept, place[kept], stored[kept], starts_known=True),
@@ -82,6 +88,14 @@ def trace_depth(source: TraceSource) -> StageTrace:
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )
+
+
+def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
+    """Return what the rows do; most depth methods make the value that is stored in steps of their own."""
+    made = value_operations(source)
+    if not made:
+        return OPERATIONS
+    return {kind: (*made, *rows[1:]) if kind != "out-of-range" else rows for kind, rows in OPERATIONS.items()}
 
 
 def _kinds(names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray]) -> Integers:

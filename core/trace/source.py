@@ -7,10 +7,11 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
 from core.frame import STAGES, Frame, StageCount
-from core.framebuffer.depth import DepthFormat, DepthTests, run_depth_tests
+from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments
 from core.geometry.vertex_stage import transform_vertices
 from core.geometry_stages import Geometry, drawing_order, process_geometry
+from core.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.methods import table
 from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
@@ -22,6 +23,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.surface import Surface, shade_fragments
 from core.texture_slopes import texture_slopes
+from core.visibility.ray_casting import RayTests
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,21 +151,34 @@ class TraceSource:
         return writes_depth(self.fragments)
 
     @cached_property
+    def _visibility_tests(self) -> tuple[DepthTests, RayTests | None]:
+        """The tests of the fragments in depth range."""
+        _, keeps, stored = self.depths
+        start = StartBuffers(self.start.depth.ravel(), self.start.primitive.ravel().astype(np.int64))
+        stacks = stack_fragments(self.place[keeps])
+        return run_visibility_tests(
+            self.geometry,
+            self.fragments.select(keeps),
+            stored[keeps],
+            stacks,
+            start,
+            self.raster,
+            self.depth_format,
+        )
+
+    @property
+    def ray_tests(self) -> RayTests | None:
+        """How the rays through the pixels of the fragments in depth range were decided; ``None``: none are cast."""
+        return self._visibility_tests[1]
+
+    @cached_property
     def depth_tests(self) -> DepthTests:
         """Depth test of every fragment; one out of range leaves the buffer alone and fails."""
         _, keeps, stored = self.depths
-        index = np.flatnonzero(keeps)
-        tests = run_depth_tests(
-            stored[index],
-            stack_fragments(self.place[index]),
-            self.start.depth.ravel(),
-            self.depth_format,
-            self.geometry.uses_depth_test,
-            None if self.writes_depth is None else self.writes_depth[index],
-        )
+        tests, _ = self._visibility_tests
         before = np.full(len(stored), np.nan, stored.dtype)
         passes = np.zeros(len(stored), bool)
-        before[index], passes[index] = tests.before, tests.passes
+        before[keeps], passes[keeps] = tests.before, tests.passes
         return DepthTests(before, passes)
 
     @cached_property

@@ -6,8 +6,9 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.blend_choice import blend_choice
-from core.framebuffer.depth import DepthFormat, run_depth_tests
+from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import stack_fragments
+from core.hidden_surfaces import cleared_buffers, run_visibility_tests
 from core.methods import table
 from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.raster.line_intensities import weigh_alpha, writes_depth
@@ -45,6 +46,8 @@ class PixelFragments:
     """(F, 4) float64, the colours that are blended: alpha scaled by the intensity, where a line has one."""
     writes: Flags
     """(F,) bool, stored in the depth buffer if it passes."""
+    signs: Integers | None
+    """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
 
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
@@ -60,19 +63,16 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     # Only what is in range gets to the depth test.
     depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
     index = np.flatnonzero(keeps)
-    cleared = np.full(1, depth_format.cleared, depth_format.stored_type)
     here = stack_fragments(np.zeros(len(index), np.int64))
     writes = writes_depth(fragments)
-    tests = run_depth_tests(
-        stored[index],
-        here,
-        cleared,
-        depth_format,
-        geometry.uses_depth_test,
-        None if writes is None else writes[index],
-    )
+    kept, cleared = fragments.select(keeps), cleared_buffers(1, depth_format)
+    tests, rays = run_visibility_tests(geometry, kept, stored[index], here, cleared, raster, depth_format)
     before, passes = np.full(count, np.nan, depth_format.stored_type), np.zeros(count, bool)
     before[index], passes[index] = tests.before, tests.passes
+    signs = None
+    if rays is not None:
+        signs = np.zeros(count, np.int64)
+        signs[index] = rays.sign
     return PixelFragments(
         primitive,
         geometry.primitives.triangle[primitive],
@@ -86,6 +86,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         passes,
         weigh_alpha(surface.color, fragments),
         np.ones(count, bool) if writes is None else writes,
+        signs,
     )
 
 
@@ -142,6 +143,8 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         key = "before-near" if depth < 0 else "behind-far" if depth > 1 else "undefined"
     elif not tested:
         key = "not-tested"
+    elif fragments.signs is not None:
+        key = {1: "ray-nearer", 0: "ray-tied", -1: "ray-farther"}[int(fragments.signs[k])]
     elif fragments.passes[k]:
         key = "passed"
     else:
@@ -154,9 +157,9 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
 
     Notes
     -----
-    Opaque hides always; a blended fragment hides what is below it where its alpha is 1.
+    Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing.
     """
-    hides = fragments.passes & ((blend == "opaque") | (fragments.source[:, 3] == 1))
+    hides = fragments.passes & ((blend == "opaque") | ((blend == "over") & (fragments.source[:, 3] == 1)))
     found = []
     for k in range(len(hides)):
         later = np.flatnonzero(hides[k + 1 :])

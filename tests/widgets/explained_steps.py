@@ -106,12 +106,23 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(polygon_mode="wireframe", interpolation="affine"),
         *[Settings(polygon_mode="wireframe", line="wu", blend=blend) for blend in table.names("blend")],
         Settings(interpolation="affine-n", correction_interval=3),
+        *[Settings(depth=depth, visibility="last-drawn") for depth in ("z-24", "reversed-z", "logarithmic")],
+        Settings(polygon_mode="wireframe", depth="reversed-z"),
         Settings(fill="spans", depth="fixed-38"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]
-    return tuple(
-        step for name in RARE_CLIP for choice in choices for step in steps_of(rare_trace(name, choice))
-    )
+    alone = [rare_trace(name, choice) for name in RARE_CLIP for choice in choices]
+    return tuple(step for traced in (*alone, *rays_of_all()) for step in steps_of(traced))
+
+
+def rays_of_all() -> list[Trace]:
+    """Return traces of ray casting: all rare triangles, those of one plane and one in whose plane the eye lies."""
+    together = np.array([*RARE_CLIP.values(), RARE_CLIP["lattice-ties"]], float)
+    # Covered by its snapped corners only: the exact determinant is 0.
+    edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]
+    with_edge_on = np.array([RARE_CLIP["lattice-ties"], edge_on], float)
+    settings = Settings(visibility="ray-casting", cull="none")
+    return [trace(ClipScene(clip, size=(8, 8)), settings) for clip in (together, with_edge_on)]
 
 
 ALL_SCENES = [*scene_names(), "rare"]

@@ -31,7 +31,12 @@ NUMBERS = {
     "raster.test.edge-2": "value_2",
     "interpolate.perspective.total": "total",
     "interpolate.affine.total": "total",
+    "depth.test.value": "value",
+    "depth.store.value": "value",
     "depth.test.depth": "stored",
+    "depth.store.depth": "stored",
+    "depth.ray-first.hit": "nearness",
+    "depth.ray.hit": "nearness",
     "depth.out-of-range.range": "depth",
 }
 """Keys whose sentence must give this number."""

@@ -1,11 +1,11 @@
-"""Words of a depth that is rounded pixel by pixel: the float32 window depth, walked along the spans.
+"""Words of a depth that is rounded pixel by pixel: a depth that is a plane over the window, walked along the spans.
 
 The depth at a pixel is evaluated from the plane anew, by the operations of ``interpolation.plane_value`` in their
 order, so its float32 is the one that every other fill stores; only the gathering is saved: what belongs to the row is
 computed once a span.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,13 +19,15 @@ from core.raster.spans.rows import Carried, Spans, walk_rows
 
 PAYLOAD_BITS = 32
 """Bits below the 31 bits of a float32 that is 0 or more."""
+INFINITY = 0x7F800000
+"""Bits of the float32 infinity."""
 STEEPEST = 1e150
 """Coefficients beyond this could overflow within the window."""
 
 
 @dataclass(frozen=True, eq=False)
 class DepthPlanes:
-    """Window depth ``a x + (b y + c)`` of P triangles whose corners lie between the near and the far plane."""
+    """Depth ``a x + (b y + c)`` of P triangles whose corners lie between the near and the far plane, in 0 to 1."""
 
     a: Floats
     """(P,) float64."""
@@ -35,6 +37,9 @@ class DepthPlanes:
     """(P,) float64."""
     payload: Integers
     """(P,) int64, what stands below the depth in a word."""
+    scale: float = 1.0
+    """Depth 1 as a whole number, to which depths are rounded; 1: they are not, but for float32."""
+    larger_is_nearer: bool = False
 
     @property
     def is_finite(self) -> Flags:
@@ -44,7 +49,7 @@ class DepthPlanes:
     def part(self, first: int, end: int) -> "DepthPlanes":
         """Return the planes of triangles ``first`` to ``end``."""
         at = slice(first, end)
-        return DepthPlanes(self.a[at], self.b[at], self.c[at], self.payload[at])
+        return replace(self, a=self.a[at], b=self.b[at], c=self.c[at], payload=self.payload[at])
 
     def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Integers:
         """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
@@ -52,7 +57,25 @@ class DepthPlanes:
         depth = arena("depth_block", *shape)
         of_row = self.b[triangle] * raster.along(band.row) + self.c[triangle]
         np.add(self.a[triangle] * raster.along(band.column), of_row[:, None], out=depth)
-        return _words(depth.reshape(-1), self.payload[triangle], arena).reshape(shape)
+        return self.words(depth.reshape(-1), self.payload[triangle], arena).reshape(shape)
+
+    def words(self, depth: Floats, payload: Integers, arena: Arena) -> Integers:
+        """Return the words (F,) int64 of depths (F,), which are limited and rounded in place."""
+        np.maximum(depth, 0.0, out=depth)
+        np.minimum(depth, 1.0, out=depth)
+        if self.scale != 1:
+            depth *= self.scale
+            np.rint(depth, out=depth)
+        single = arena("plane_single", len(depth), dtype=np.float32)
+        np.copyto(single, depth, casting="same_kind")
+        single += np.float32(0)  # no negative zero: bits are compared
+        words = arena("plane_words", len(depth), dtype=np.int64)
+        np.copyto(words, single.view(np.int32))
+        if self.larger_is_nearer:
+            np.subtract(INFINITY, words, out=words)
+        words <<= PAYLOAD_BITS
+        words |= payload
+        return words
 
 
 def plane_spans(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -> Spans:
@@ -91,24 +114,10 @@ def draw_plane_words(
         if count < FEW:
             span, place = write_out(spans.longer[passes:])
             depth = a[span] * (x[span] + place) + of_row[span]
-            np.minimum.at(words, pixel[span] + place, _words(depth, payload[span], arena))
+            np.minimum.at(words, pixel[span] + place, planes.words(depth, payload[span], arena))
             return
         depth = np.multiply(a[:count], x[:count], out=arena("plane_depth", count))
         depth += of_row[:count]
-        np.minimum.at(words, pixel[:count], _words(depth, payload[:count], arena))
+        np.minimum.at(words, pixel[:count], planes.words(depth, payload[:count], arena))
         pixel[:count] += 1
         x[:count] += 1
-
-
-def _words(depth: Floats, payload: Integers, arena: Arena) -> Integers:
-    """Return the words of depths (F,), which are clamped in place."""
-    np.maximum(depth, 0.0, out=depth)
-    np.minimum(depth, 1.0, out=depth)
-    single = arena("plane_single", len(depth), dtype=np.float32)
-    np.copyto(single, depth, casting="same_kind")
-    single += np.float32(0)  # no negative zero: bits are compared
-    words = arena("plane_words", len(depth), dtype=np.int64)
-    np.copyto(words, single.view(np.int32))
-    words <<= PAYLOAD_BITS
-    words |= payload
-    return words

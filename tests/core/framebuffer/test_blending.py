@@ -2,7 +2,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.framebuffer.blending import opaque, over, over_pixel
+from core import ClipScene, Settings, render
+from core.framebuffer.blending import additive, additive_pixel, opaque, over, over_pixel
+from core.framebuffer.display import to_display
 from core.listing import listing
 from core.methods import table
 
@@ -17,7 +19,7 @@ def blend(rule, source, destination):
 
 
 def test_family_in_order():
-    assert table.names("blend")[:2] == ("opaque", "over")
+    assert table.names("blend")[:3] == ("opaque", "over", "additive")
     assert table.get("blend", "over").function is over
 
 
@@ -61,6 +63,47 @@ def test_listing_gives_the_same_bits(rows):
     expected = [[float(value) for value in over_pixel(s, d)] for s, d in rows]
     assert blend(over, source, destination).tolist() == expected
     assert set(listing(over_pixel).lines) == {"color", "alpha", "store"}
+
+
+def test_additive_keeps_what_is_there_and_cuts_nothing_off():
+    light = [[1.0, 0.25, 0.0, 0.5], [3.0, 0.0, 0.0, 1.0]]
+    there = [[0.25, 0.5, 0.75, 1.0], [0.5, 0.5, 0.0, 1.0]]
+    assert blend(additive, light, there).tolist() == [[0.75, 0.625, 0.75, 1.5], [3.5, 0.5, 0.0, 2.0]]
+
+
+@given(source=fragment, destination=pixel)
+def test_additive_with_alpha_zero_changes_nothing(source, destination):
+    assert blend(additive, [[*source[:3], 0.0]], [destination]).tolist() == [list(destination)]
+
+
+@given(first=fragment, second=fragment, destination=pixel)
+def test_the_order_of_additive_fragments_does_not_matter(first, second, destination):
+    one, other = (
+        blend(additive, [b], blend(additive, [a], [destination])[0][None])
+        for a, b in ((first, second), (second, first))
+    )
+    # Two roundings to float32 on either way.
+    assert np.allclose(one, other, rtol=4 * 2.0**-24, atol=1e-44)
+
+
+@given(rows=st.lists(st.tuples(fragment, pixel), min_size=1, max_size=20))
+def test_listing_of_additive_gives_the_same_bits(rows):
+    source, destination = ([row[k] for row in rows] for k in range(2))
+    expected = [[float(value) for value in additive_pixel(s, d)] for s, d in rows]
+    assert blend(additive, source, destination).tolist() == expected
+    assert set(listing(additive_pixel).lines) == {"color", "alpha", "store"}
+
+
+def test_only_the_display_cuts_light_off():
+    whole = [[[-1, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]]] * 3
+    color = np.full((3, 3, 4), 0.5)
+    scene = ClipScene(whole, color, (2, 2))
+    frame = render(scene, Settings(blend="additive", visibility="last-drawn"))
+    assert (frame.color == [0.75, 0.75, 0.75, 1.5]).all()
+    brighter = ClipScene(whole, 4 * color, (2, 2))
+    frame = render(brighter, Settings(blend="additive", visibility="last-drawn"))
+    assert (frame.color == [12, 12, 12, 6]).all()
+    assert (to_display(frame.color).pixels == 255).all()
 
 
 @given(alphas=st.lists(share, min_size=1, max_size=6), background=channel)

@@ -23,10 +23,10 @@ def depth_format(name: str):
 
 
 def in_format(kept, values: np.ndarray) -> np.ndarray:
-    """Return values as the format stores them: float32, or whole numbers up to 2^38."""
-    if kept.stored_type is np.float32:
+    """Return values as the format stores them: float32, or whole numbers up to the format's scale."""
+    if kept.scale == 1:
         return values.astype(np.float32)
-    return np.rint(np.minimum(values, 1.0) * kept.cleared)
+    return np.rint(np.minimum(values, 1.0) * kept.scale).astype(kept.stored_type)
 
 
 @st.composite
@@ -37,7 +37,17 @@ def fragment_lists(draw):
     return stored, np.array([at for _, at in fragments], np.int64)
 
 
-@pytest.mark.parametrize(("name", "cleared", "nearer"), [("z-float32", 1.0, 0.2), ("inverse-w", 0.0, 2.0)])
+@pytest.mark.parametrize(
+    ("name", "cleared", "nearer"),
+    [
+        ("z-float32", 1.0, 0.2),
+        ("inverse-w", 0.0, 2.0),
+        ("z-24", 16777215.0, 16777214.0),
+        ("z-16", 65535.0, 65534.0),
+        ("reversed-z", 0.0, 1e-30),
+        ("logarithmic", 1.0, 0.2),
+    ],
+)
 def test_cleared_value_and_direction(name: str, cleared: float, nearer: float) -> None:
     kept = depth_format(name)
     assert kept.cleared == cleared
@@ -62,7 +72,7 @@ def test_stored_values_have_the_type_of_the_format_and_zero_has_one_key(name: st
     kept = depth_format(name)
     stored = kept.store(np.array([0.1, -0.0, 0.0, 1.0]))
     assert stored.dtype == kept.stored_type
-    assert stored[0] == (np.rint(0.1 * 2.0**38) if name == "fixed-38" else np.float32(0.1))
+    assert stored[0] == (np.float32(0.1) if kept.scale == 1 else np.rint(0.1 * kept.scale))
     key = kept.nearness_key(stored)
     assert key[1] == key[2]
 
@@ -181,11 +191,12 @@ def test_a_triangle_that_reaches_out_of_range_is_cut_per_pixel() -> None:
     assert (frame.primitive[:, 4:] >= 0).all()
 
 
-def test_inverse_w_is_refused_for_an_orthographic_camera() -> None:
+@pytest.mark.parametrize("name", [row.name for row in table if "perspective" in row.needs])
+def test_what_is_made_of_w_is_refused_for_an_orthographic_camera(name: str) -> None:
     mesh = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     camera = Camera([0, 0, 5], [0, 0, 0], projection="orthographic")
-    with pytest.raises(ValueError, match="inverse-w needs a perspective camera"):
-        render(Scene((mesh,), camera, size=(4, 4)), Settings(depth="inverse-w"))
+    with pytest.raises(ValueError, match=f"{name} needs a perspective camera"):
+        render(Scene((mesh,), camera, size=(4, 4)), Settings(depth=name))
     render(Scene((mesh,), camera, size=(4, 4)), Settings())
 
 

@@ -36,8 +36,8 @@ def test_equals_testing_one_by_one(drawing, name: str, uses_depth_test: bool, ba
     depth_format = table.get("depth", name).function()
     if name != "inverse-w":
         stored = np.minimum(stored, np.float32(1))
-    if name == "fixed-38":
-        stored = np.rint(stored.astype(np.float64) * 2.0**38)
+    if depth_format.scale != 1:
+        stored = np.rint(stored.astype(np.float64) * depth_format.scale).astype(depth_format.stored_type)
     nearest = NearestFragments(PIXEL_COUNT, count, depth_format, uses_depth_test)
     # In batches, and the batches in any order: the key knows the drawing order.
     starts = list(range(0, len(pixel), batch))

@@ -18,13 +18,14 @@ from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
-from core.framebuffer.blending import over_pixel
+from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
+from core.methods import table
 from core.raster.binning import block_verdict
 from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
 from core.raster.line_slopes import affine_line_slopes_at, line_slopes_at
@@ -38,6 +39,8 @@ from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box
 from core.trace.texture_columns import slope_kind
 from core.trace.transform import divide_and_map
+from core.visibility.ray_casting import hit_is_nearer
+from core.visibility.ray_planes import hit_value
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
 
@@ -331,12 +334,38 @@ def check_light(traced: Trace, found: StageTrace) -> None:
         assert equal(lights[1], found.columns["specular_light"][row])
 
 
+def check_rays(traced: Trace) -> None:
+    found, planes = traced.stage("depth"), traced.source.geometry.ray_planes
+    c, (width, height) = found.columns, traced.source.scene.size
+    for kind, has_nearest in (("ray-first", False), ("ray", True), ("ray-exact", True)):
+        for row in rows_of_kind(found, kind):
+            (triangle, nearest), ray = (
+                (found.triangle[row], c["nearest"][row]),
+                (int(c["m"][row]), int(c["n"][row])),
+            )
+            plane = [float(c[name][row]) for name in "abcd"]
+            hit = hit_value(plane, c["sizes"][row].tolist(), *ray, width, height)
+            assert hit == (c["nearness"][row], c["error"][row])
+            corners = planes.clip[nearest].tolist() if has_nearest else None
+            before = c["nearest_nearness"][row], c["nearest_error"][row]
+            xy = (ray[0], width), (ray[1], height)
+            assert (
+                hit_is_nearer(*hit, planes.clip[triangle].tolist(), *before, corners, *xy, planes.by_w)
+                == (c["passes"][row])
+            )
+
+
 def check_depth(traced: Trace) -> None:
     found = traced.stage("depth")
     c = found.columns
+    if traced.source.geometry.casts_rays:
+        check_rays(traced)
+        return
     # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
     if "key" in c and traced.source.settings.fill != "scanline-lecture":
         check_keys(found)
+    for kind in ("test", "store"):
+        check_stored(found, kind)
     for row in rows_of_kind(found, "test"):
         after, passes = depth_test(c["stored"][row], c["before"][row], bool(c["larger_is_nearer"][row]))
         assert passes == c["passes"][row]
@@ -348,6 +377,25 @@ def check_depth(traced: Trace) -> None:
     for row in rows_of_kind(found, "store"):
         assert c["after"][row] == c["stored"][row]
         assert c["passes"][row]
+
+
+def check_stored(found: StageTrace, kind: str) -> None:
+    """Execute what makes the value that the depth buffer gets."""
+    c, constants = found.columns, found.constants
+    making = found.listings.get(f"{kind}.value")
+    rounding = found.listings.get(f"{kind}.depth")
+    for row in rows_of_kind(found, kind):
+        if constants["quantity"] == "logarithm":
+            value = making.function(float(c["inverse_w"][row]), constants["near"], constants["far"])
+            assert value == c["value"][row]
+        elif making is not None:
+            names = ("t",) if "t" in c else ("a", "b", "c", "x", "y")
+            ends = c["ends"][row].tolist() if "t" in c else []
+            assert making.function(*(c[name][row] for name in names), *ends) == c["value"][row]
+        if making is not None:
+            assert rounding.function(c["value"][row]) == c["stored"][row]
+        elif rounding is not None:
+            assert rounding.function(float(c["depth"][row]), constants["scale"]) == c["stored"][row]
 
 
 def check_keys(found: StageTrace) -> None:
@@ -365,8 +413,9 @@ def check_blend(traced: Trace) -> None:
     found = traced.stage("blend")
     c = found.columns
     for row in rows_of_kind(found, traced.source.settings.blend):
-        if traced.source.settings.blend == "over":
-            assert equal(over_pixel(c["source"][row], c["before"][row]), c["after"][row])
+        scalar = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
+        if scalar is not None:
+            assert equal(scalar(c["source"][row], c["before"][row]), c["after"][row])
         else:
             assert equal(c["source"][row].astype(np.float32), c["after"][row])
 
@@ -420,7 +469,7 @@ FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", 
     FILLS,
     st.sampled_from(["homogeneous", "sutherland-hodgman"]),
     st.sampled_from(["snapped", "float64"]),
-    st.sampled_from(["z-float32", "fixed-38"]),
+    st.sampled_from(table.names("depth")),
 )
 def test_listings_on_any_triangles(case, fill, clipping, coverage, depth):
     clip, size = case

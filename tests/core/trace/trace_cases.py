@@ -139,9 +139,9 @@ MIXES = [
 
 
 def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:
-    """Return the settings of a choice; 1/w is replaced where the camera is orthographic."""
+    """Return the settings of a choice; what is made of w is left out where the camera is orthographic."""
     if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-        choice = {family: name for family, name in choice.items() if name != "inverse-w"}
+        choice = {family: name for family, name in choice.items() if name not in ("inverse-w", "logarithmic")}
     return Settings(**choice)  # type: ignore[arg-type]
 
 

@@ -1,0 +1,28 @@
+"""Every depth method says what its buffer holds: unit, cleared value, and which of two numbers is nearer."""
+
+import numpy as np
+import pytest
+
+from core.methods import table
+from widgets.depth_texts import DEPTH_TEXTS, NEARNESS, depth_text
+
+
+def test_every_depth_method_has_a_text() -> None:
+    assert set(DEPTH_TEXTS) == set(table.names("depth"))
+
+
+@pytest.mark.parametrize("name", table.names("depth"))
+def test_the_text_is_that_of_the_format(name: str) -> None:
+    kept, text = table.get("depth", name).function(), DEPTH_TEXTS[name]
+    assert text.description.endswith("larger is nearer." if kept.larger_is_nearer else "smaller is nearer.")
+    assert bool(text.unit) == (kept.scale != 1)
+    assert ("float32" in text.description) == (kept.scale == 1)
+    if kept.scale in (65535.0, 16777215.0):
+        assert f"1/{int(kept.scale):,}" in text.description
+    assert kept.is_nearer(np.array([0.5]) * kept.scale, np.array([kept.cleared])).all()
+
+
+def test_only_buffers_of_depths_have_one() -> None:
+    assert depth_text("depth", "z-24") is DEPTH_TEXTS["z-24"]
+    assert depth_text("nearness", "z-24") is NEARNESS
+    assert depth_text("primitive", "z-24") is None
