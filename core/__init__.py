@@ -16,7 +16,15 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 from core.frame import STAGES, Frame
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
-from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
+from core.raster import (  # noqa: F401  (they register)
+    fill_rule,
+    fills,
+    incremental,
+    number_formats,
+    scanline,
+    scanline_lecture,
+    wireframe,
+)
 from core.raster.lines import draw_lines
 from core.raster.spans import fill  # noqa: F401
 from core.scene import (

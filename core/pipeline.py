@@ -22,6 +22,7 @@ from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
 from core.raster.edge_functions import EdgeFunctions
+from core.raster.fills import suited_fill
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
     LineFragments,
@@ -113,7 +114,7 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
     boxes = bound(edges, raster)
     if table.get("polygon_mode", settings.polygon_mode).function():
         return boxes, rows_of(boxes, np.empty(0, np.int64))
-    fill = table.get("fill", settings.fill).function
+    fill = table.get("fill", suited_fill(settings.fill, settings.coverage)).function
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
 

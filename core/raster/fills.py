@@ -9,9 +9,10 @@ M. Zwicker, *Computergrafik*, lecture "Binning"; F. Pellacini, lecture "brute fo
 
 import numpy as np
 
-from core.methods import method
+from core.methods import method, table
 from core.raster.binning import bound, one_level, runs_of_blocks, two_levels
 from core.raster.edge_functions import EdgeFunctions
+from core.raster.number_format import number_format
 from core.raster.schedule import Boxes, Raster, Runs, rows_of
 
 LEVEL_FACTOR = 4
@@ -70,4 +71,14 @@ def brute_force(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: 
     return rows_of(everywhere, np.flatnonzero(edges.doubled_area != 0))
 
 
-__all__ = ["blocks", "bound", "bounding_box", "brute_force", "hierarchy"]
+def suited_fill(fill: str, coverage: str) -> str:
+    """Return the fill that runs: ``bounding-box`` in the place of spans that do not suit the numbers.
+
+    Spans give the pixels of a test at every pixel only where values are monotone along a row, and are made for
+    float64.
+    """
+    needs_float64 = "float64-edges" in table.get("fill", fill).needs
+    return "bounding-box" if needs_float64 and not number_format(coverage).suits_spans else fill
+
+
+__all__ = ["blocks", "bound", "bounding_box", "brute_force", "hierarchy", "suited_fill"]

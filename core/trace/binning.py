@@ -62,9 +62,9 @@ def trace_bin(source: TraceSource) -> StageTrace:
         "verdict": np.array(VERDICTS)[verdict],
         "rejected_by": of_block("rejected_by", -1).astype(np.int64),
         "corners": geometry.edges.corners.decided[owner],
-        "a": geometry.edges.a[owner],
-        "b": geometry.edges.b[owner],
-        "c": geometry.edges.c[owner],
+        "a": geometry.edges.shown_a[owner],
+        "b": geometry.edges.shown_b[owner],
+        "c": geometry.edges.shown_c[owner],
         "node": node,
     }
     kind = np.where(is_block, 3, np.array([0, 1, 2])[boxes.case[owner]])
@@ -94,7 +94,7 @@ def trace_bin(source: TraceSource) -> StageTrace:
     box, block = listing(bounding_box), listing(block_verdict)
     return StageTrace(
         stage="bin",
-        method=f"fill={source.settings.fill}",
+        method=f"fill={source.fill}",
         steps=steps,
         columns=columns,
         triangle=geometry.primitives.triangle[owner],
