@@ -19,7 +19,6 @@ from core.pipeline import draw_triangles, render
 from core.raster import (  # noqa: F401  (they register)
     fill_rule,
     fills,
-    incremental,
     number_formats,
     scanline,
     scanline_lecture,

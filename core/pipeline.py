@@ -252,6 +252,9 @@ def covered(
 ) -> Iterator[Fragments]:
     """Yield the covered pixels of the ``chosen`` (C,) primitives, or all, a few million looked-at pixels at a time."""
     count = counts["bin"]
+    counts["raster"].note = (
+        "" if suited_fill(settings.fill, settings.coverage) == settings.fill else settings.fill
+    )
     with timed(count):
         edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
         number = np.arange(len(edges)) if chosen is None else chosen

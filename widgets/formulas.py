@@ -3,13 +3,21 @@
 from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
-from widgets import formulas_frame, formulas_lines, formulas_pixel, formulas_raster, formulas_vertex
+from widgets import (
+    formulas_frame,
+    formulas_lines,
+    formulas_numbers,
+    formulas_pixel,
+    formulas_raster,
+    formulas_vertex,
+)
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
     **formulas_raster.FORMULAS,
+    **formulas_numbers.FORMULAS,
     **formulas_lines.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,

@@ -1,7 +1,8 @@
 """The referee of coverage: which pixels a triangle covers in rational arithmetic, and what a method makes of them.
 
 Two questions are asked apart. ``snapped=False``: which pixels does the triangle cover as it was given?
-``snapped=True``: which ones on the lattice of 1/256 pixel, where GPUs decide? Snapping itself moves edges by up to 2^-9 pixels.
+``snapped=True``: which ones on the lattice of 1/256 pixel, where GPUs decide? Snapping itself moves edges by up to
+2^-9 pixels.
 """
 
 from dataclasses import dataclass

@@ -18,30 +18,15 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Flags, Integers
-from core.methods import method
 from core.raster.binning import bound
 from core.raster.edge_functions import EdgeFunctions, edge_value
 from core.raster.number_format import Held, NumberFormat
-from core.raster.schedule import ADDED_A, ADDED_B, EVALUATED, Boxes, Raster, Runs, Stepping, rows_of
+from core.raster.schedule import ADDED_A, ADDED_B, EVALUATED, Raster, Runs, Stepping
 
 
-@method(
-    "fill",
-    "incremental",
-    "Bounding box, by additions",
-    source="J. Pineda, A parallel algorithm for polygon rasterization, 1988",
-    exact_for="numbers whose sums are exact: snapped, int64, exact",
-    breaks_where="sums that are rounded (float64 not snapped, float32, float16, inverse) drift along rows and columns",
-)
-def incremental(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
-    """Test every pixel of the box around the triangle, from the values of its neighbour."""
-    runs = rows_of(boxes, np.arange(len(edges)))
-    whole = bound(edges, replace(raster, region=None))
-    return replace(runs, stepping=_walk_to(edges, runs, whole, raster))
-
-
-def _walk_to(edges: EdgeFunctions, runs: Runs, whole: Boxes, raster: Raster) -> Stepping:
+def step_to(edges: EdgeFunctions, runs: Runs, raster: Raster) -> Stepping:
     """Add up from the first pixel of every box of the image to the first pixels of runs."""
+    whole = bound(edges, replace(raster, region=None))
     triangle, numbers = runs.triangle, edges.numbers
     x, y = (
         numbers.of_pixels(place[:, None])

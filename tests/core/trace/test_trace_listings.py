@@ -20,6 +20,7 @@ from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
+from core.methods import table
 from core.raster.binning import block_verdict
 from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
 from core.raster.float_formats import rounded_corner
@@ -32,7 +33,7 @@ from core.raster.spans.lanes import tie_owners
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.surface import viewpoint
 from core.trace import StageTrace, Trace
-from core.trace.binning import bounding_box
+from core.trace.binning import bounding_box, outer_box
 from core.trace.transform import divide_and_map
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
@@ -110,7 +111,9 @@ def check_edges(traced: Trace) -> None:
             sign = np.array(np.sign(c["doubled_area"][row])).astype(numbers.held_as)[()]
             sign = int(sign) if numbers.name == "exact" else sign
             coefficients = edge_coefficients(*start, *finish, sign)
-        assert equal(coefficients, (edges.a[p, k], edges.b[p, k], edges.c[p, k]))
+        assert equal(
+            np.array(coefficients, float), np.array((edges.a[p, k], edges.b[p, k], edges.c[p, k]), float)
+        )
         assert equal([of[p, k] for of in shown], (c["a"][row], c["b"][row], c["c"][row]))
     for row in rows_of_kind(found, "rounded"):
         with np.errstate(over="ignore"):
@@ -140,6 +143,11 @@ def coefficients_of(edges, primitive: int) -> list[tuple[float, float, float, bo
 def check_bin(traced: Trace) -> None:
     found = traced.stage("bin")
     c, edges, raster = found.columns, traced.source.geometry.edges, traced.source.raster
+    for row in rows_of_kind(found, "outer-box"):
+        box = outer_box(*c["corners"][row].T, raster.center, raster.bounds)
+        kept = tuple(int(c[name][row]) for name in ("column", "row", "column_end", "row_end"))
+        if kept[2] > kept[0] and kept[3] > kept[1]:
+            assert box == kept
     for row in rows_of_kind(found, "box"):
         box = bounding_box(*c["corners"][row].T, raster.center, raster.bounds)
         kept = tuple(int(c[name][row]) for name in ("column", "row", "column_end", "row_end"))
@@ -412,7 +420,7 @@ def test_listings_on_the_built_in_scenes(name, fill):
         check(traced)
 
 
-FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", "spans"])
+FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", "spans", "incremental"])
 
 
 @effort(max_examples=60)
@@ -420,7 +428,7 @@ FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", 
     ANY_TRIANGLES,
     FILLS,
     st.sampled_from(["homogeneous", "sutherland-hodgman"]),
-    st.sampled_from(["snapped", "float64"]),
+    st.sampled_from(table.names("coverage")),
     st.sampled_from(["z-float32", "fixed-38"]),
 )
 def test_listings_on_any_triangles(case, fill, clipping, coverage, depth):

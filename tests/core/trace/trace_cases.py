@@ -128,6 +128,10 @@ MIXES = [
         "shading": "gouraud",
         "wrap": "clamp",
     },
+    {"fill": "incremental", "coverage": "float16", "blend": "over", "pixel_center": "integer"},
+    {"fill": "incremental", "coverage": "exact", "fill_rule": "inclusive"},
+    {"fill": "blocks", "block_size": 3, "coverage": "fixed-24.8", "interpolation": "affine"},
+    {"fill": "spans", "coverage": "int64", "depth": "fixed-38", "clipping": "sutherland-hodgman"},
 ]
 """Choices that meet each other."""
 
