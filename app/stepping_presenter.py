@@ -12,11 +12,13 @@ from core import STAGES
 from core.arrays import Flags, Integers
 from core.conditions import Condition, parse_condition
 from core.frame import StageCount
+from core.raster.fills import suited_fill
 from core.run_to import next_at_pixel, next_marked
 from core.steps import Level
 from core.trace import StageTrace
 from widgets.marks import Mark
 from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
+from widgets.sentences_numbers import replaced_fill
 from widgets.stage_texts import SHORT_TITLES
 from widgets.timeline import Timeline
 from widgets.timeline_run import TimelineRun
@@ -131,9 +133,10 @@ class SteppingPresenter(QObject):
     def _level_names(self, stage: str) -> dict[Level, str]:
         """Return what a step of each level is in a stage."""
         settings = self._session.document.settings
+        fill = suited_fill(settings.fill, settings.coverage)
         if stage == "raster":
             is_wireframe = settings.polygon_mode == "wireframe"
-            return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(settings.fill, "Row")}
+            return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(fill, "Row")}
         return LEVEL_NAMES.get(stage, {Level.GROUP: "Row"})
 
     @Slot()
@@ -184,6 +187,9 @@ class SteppingPresenter(QObject):
         if count.note == "not-chosen":
             reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
             state = StageState.SKIPPED if state is StageState.DONE else state
+        elif count.note and stage == "raster":
+            inserted = True
+            reason = replaced_fill(count.note, self._session.document.settings.coverage)
         elif count.note:
             inserted = True
             reason = f"Inserted because {count.note} needs {INSERTED_FOR[stage]}."

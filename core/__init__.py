@@ -18,7 +18,14 @@ from core.frame import STAGES, Frame
 from core.framebuffer import depth_formats  # noqa: F401  (it registers)
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
-from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
+from core.raster import (  # noqa: F401  (they register)
+    fill_rule,
+    fills,
+    number_formats,
+    scanline,
+    scanline_lecture,
+    wireframe,
+)
 from core.raster.lines import draw_lines
 from core.raster.spans import fill  # noqa: F401
 from core.scene import (

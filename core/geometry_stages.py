@@ -286,7 +286,7 @@ def clip_planes(settings: Settings, crosses_eye: bool) -> tuple[tuple[int, ...],
     planes: tuple[int, ...] = table.get("clipping", settings.clipping).function()
     if planes or not crosses_eye:
         return planes, ""
-    for family in ("polygon_mode", "fill", "interpolation"):
+    for family in ("coverage", "polygon_mode", "fill", "interpolation"):
         chosen = table.get(family, getattr(settings, family))
         if {"projected", "positive-w"} & set(chosen.needs):
             return DEPTH_PLANES, chosen.name

@@ -31,7 +31,7 @@ class Method:
     breaks_where: str = ""
     """Where it does not; empty: nowhere."""
     needs: tuple[str, ...] = ()
-    """What must hold of the input: ``positive-w``, ``perspective``."""
+    """What must hold of the input: ``positive-w``, ``projected``, ``perspective``, ``float64-edges``."""
 
 
 class MethodTable:

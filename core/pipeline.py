@@ -24,6 +24,7 @@ from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover, join_fragments
 from core.raster.edge_functions import EdgeFunctions
+from core.raster.fills import suited_fill
 from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
@@ -114,7 +115,7 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
     boxes = bound(edges, raster)
     if table.get("polygon_mode", settings.polygon_mode).function():
         return boxes, rows_of(boxes, np.empty(0, np.int64))
-    fill = table.get("fill", settings.fill).function
+    fill = table.get("fill", suited_fill(settings.fill, settings.coverage)).function
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
 
@@ -217,6 +218,9 @@ def covered(
 ) -> Iterator[Fragments]:
     """Yield the covered pixels of the ``chosen`` (C,) primitives, or all, a few million looked-at pixels at a time."""
     count = counts["bin"]
+    counts["raster"].note = (
+        "" if suited_fill(settings.fill, settings.coverage) == settings.fill else settings.fill
+    )
     with timed(count):
         edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
         number = np.arange(len(edges)) if chosen is None else chosen

@@ -6,6 +6,7 @@ from core.trace import Explanation
 from widgets import (
     formulas_frame,
     formulas_lines,
+    formulas_numbers,
     formulas_pixel,
     formulas_raster,
     formulas_smooth_lines,
@@ -17,6 +18,7 @@ from widgets.step_values import StepValues
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
     **formulas_raster.FORMULAS,
+    **formulas_numbers.FORMULAS,
     **formulas_lines.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,

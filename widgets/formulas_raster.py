@@ -14,12 +14,15 @@ from widgets.equation import (
     equation,
     lattice_latex,
     linear,
+    linear_digits,
+    linear_parts,
     number_latex,
     relation,
     signed_latex,
     vector_latex,
 )
 from widgets.formula import Formula
+from widgets.formulas_numbers import equals
 from widgets.sentences_raster import disagreeing_edges
 from widgets.step_values import StepValues
 
@@ -72,9 +75,10 @@ def orientation(step: StepValues) -> Formula:
                 f"({number_latex(end, digits)} - {signed_latex(start, digits)})",
             )
 
+        sign, rest = equals(step, value, [[x1 - x0, y2 - y0], [-(x2 - x0), y1 - y0]])
         return equation(
             ("2A", value),
-            "=",
+            sign,
             difference("x", 1, x1, x0),
             r"\cdot",
             difference("y", 2, y2, y0),
@@ -82,6 +86,7 @@ def orientation(step: StepValues) -> Formula:
             difference("x", 2, x2, x0),
             r"\cdot",
             difference("y", 1, y1, y0),
+            *rest,
             digits=digits,
         )
     symbols = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
@@ -104,13 +109,12 @@ def coefficient(step: StepValues) -> Formula:
     second = dict(zip("xyw", step.vector("finish"), strict=True))
     sign = float(np.sign(step.number("doubled_area")))
     one, other = {"a": ("y", "w"), "b": ("w", "x"), "c": ("x", "y")}[name]
-    digits = digits_that_add_up(
-        step.number(name),
-        [(sign, first[one], second[other]), (-sign, first[other], second[one])],
-    )
+    products = [[sign, first[one], second[other]], [-sign, first[other], second[one]]]
+    digits = digits_that_add_up(step.number(name), products)
+    relation_sign, rest = equals(step, step.number(name), products, 16 if name == "c" else 8)
     return equation(
         (f"{name}_{k}", step.number(name)),
-        "=",
+        relation_sign,
         ("s", sign),
         r"\cdot",
         (
@@ -119,6 +123,7 @@ def coefficient(step: StepValues) -> Formula:
             rf"({number_latex(first[one], digits)} \cdot {signed_latex(second[other], digits)} "
             rf"- {signed_latex(first[other], digits)} \cdot {signed_latex(second[one], digits)})",
         ),
+        *rest,
         digits=digits,
     )
 
@@ -272,7 +277,11 @@ def edge_value(step: StepValues) -> Formula:
     k = int(step.operation.removeprefix("edge-"))
     coefficients = [(f"{name}_{k}", step.vector(name)[k]) for name in "abc"]
     units = ("x", step.number("x")), ("y", step.number("y"))
-    return linear(f"E_{k}", step.number(f"value_{k}"), coefficients, *units)
+    value, (a, b, c) = step.number(f"value_{k}"), (number for _, number in coefficients)
+    sign, rest = equals(step, value, [[a, units[0][1]], [b, units[1][1]], [c]])
+    _, _, *terms = linear_parts(f"E_{k}", value, coefficients, *units)
+    digits = linear_digits(value, coefficients, *units)
+    return equation((f"E_{k}", value), sign, *terms, *rest, digits=digits)
 
 
 def decision(step: StepValues) -> Formula:
@@ -332,14 +341,16 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "edges.edge.tie": tie,
     **{f"edges.anchored-edge.{name}": anchored_coefficient for name in "abc"},
     "edges.anchored-edge.tie": tie,
+    "edges.inverse-edge.tie": tie,
     "bin.box.low": box_low,
     "bin.box.high": box_high,
+    "bin.outer-box.high": box_high,
     "bin.behind.drop": bin_behind,
     "bin.block.high": block_high,
     "bin.block.low": block_low,
     "bin.block.verdict": block_verdict,
     **{f"raster.test.edge-{k}": edge_value for k in range(3)},
-    "raster.test.decide": decision,
+    **{f"raster.{kind}.decide": decision for kind in ("test", "step", "climb")},
     **{f"raster.span.edge-{k}": span_edge for k in range(3)},
     "raster.span.span": span,
     "raster.line.ends": line_ends,

@@ -1,7 +1,8 @@
 """The sentence of every step: keys and numbers of a trace become plain words.
 
-All words about steps stand here and in ``sentences_vertex``, ``sentences_edges``, ``sentences_raster`` and
-``sentences_pixel``, one small function for every key: another language is another set of these modules.
+All words about steps stand here and in ``sentences_vertex``, ``sentences_edges``, ``sentences_raster``,
+``sentences_numbers`` and ``sentences_pixel``, one small function for every key: another language is another set of
+these modules.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,6 +14,7 @@ from core.trace import Explanation
 from widgets import (
     sentences_edges,
     sentences_lines,
+    sentences_numbers,
     sentences_pixel,
     sentences_raster,
     sentences_smooth_lines,
@@ -25,6 +27,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_vertex.SENTENCES,
     **sentences_edges.SENTENCES,
     **sentences_raster.SENTENCES,
+    **sentences_numbers.SENTENCES,
     **sentences_lines.SENTENCES,
     **sentences_pixel.SENTENCES,
     **sentences_smooth_lines.BLEND_SENTENCES,

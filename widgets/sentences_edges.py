@@ -8,6 +8,8 @@ from widgets.step_values import StepValues
 
 SNAP_LIMIT = 2**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
+WHOLE_NUMBERS = ("fixed-24.8", "int64")
+"""Number formats that have no place for every corner."""
 ROUNDING = 1e-9
 """Pixels below which a corner that moves is said to stay."""
 
@@ -36,9 +38,15 @@ def snapped(step: StepValues) -> str:
 def homogeneous(step: StepValues) -> str:
     """A corner that is not snapped, and why."""
     w = step.vector("homogeneous")[2]
+    form = step.text("number_format")
+    if form in WHOLE_NUMBERS:
+        return (
+            f"Corner {step.whole('corner')} of triangle {step.triangle} has no place in {form}, as it is behind the "
+            f"eye or too far away, so the triangle is not drawn: (x, y, w) = {vector_text(step.vector('homogeneous'))}."
+        )
     if not w > 0:
         reason = f"its w is {spoken(w)}, not above 0"
-    elif any(abs(value) > SNAP_LIMIT for value in step.vector("window")):
+    elif form == "snapped" and any(abs(value) > SNAP_LIMIT for value in step.vector("window")):
         reason = f"it stands more than {SNAP_LIMIT:,} pixels away"
     else:
         reason = "this coverage method does not snap"
@@ -189,6 +197,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "edges.edge.tie": tie,
     **{f"edges.anchored-edge.{name}": coefficient for name in "abc"},
     "edges.anchored-edge.tie": tie,
+    "edges.inverse-edge.tie": tie,
     "bin.box.low": box_low,
     "bin.box.high": box_high,
     "bin.behind.drop": bin_behind,

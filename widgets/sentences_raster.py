@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from widgets import sentences_spans
 from widgets.number_text import counted, joined, spoken, vector_text
 from widgets.sentences_edges import tie_reason
+from widgets.sentences_numbers import number_format
 from widgets.step_values import StepValues
 
 SNAP_DISTANCE = 1 / 256
@@ -98,7 +99,7 @@ def disagreeing_edges(step: StepValues) -> list[int]:
 
 def _apart(step: StepValues) -> str:
     texts = [
-        f"E{k} (snapped) decides, though weight {k} (unsnapped) is {spoken(step.vector('weights')[k])}"
+        f"E{k} ({number_format(step)}) decides, though weight {k} (unsnapped) is {spoken(step.vector('weights')[k])}"
         for k in disagreeing_edges(step)
     ]
     return f"; {joined(texts)}" if texts else ""
@@ -113,7 +114,7 @@ def accepted(step: StepValues) -> str:
     text = f"{pixel_name(step)} is covered without a test of its own: {what}"
     if outside:
         listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
-        text += f"; the exact test would leave it out ({listed})"
+        text += f"; its own test would leave it out ({listed})"
     return text + "."
 
 
@@ -168,5 +169,6 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "raster.span.span": span,
     "raster.line.ends": line_ends,
     "raster.line.round": line_rounded,
+    **{f"raster.{kind}.decide": decision for kind in ("step", "climb")},
     **sentences_spans.SENTENCES,
 }

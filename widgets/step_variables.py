@@ -1,6 +1,7 @@
 """The variables of a step as rows of the table: in the order of the algorithm, internals left out."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from core.trace import Explanation
 from widgets.depth_variables import DEPTH_VARIABLES
 from widgets.fragment_variables import CORRECTED_VARIABLES, MIPMAP_VARIABLES
+from widgets.number_bits import in_its_numbers
 from widgets.step_values import ATTRIBUTES, key_fields
 from widgets.variable_text import GIVEN, VariableText
 from widgets.variables import Value, Variable
@@ -145,6 +147,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         "homogeneous": _given("homogeneous", "x, y and w in the window, before the division."),
         "window": VariableText("window", "Position in pixels, before snapping."),
         "snapped": VariableText("snapped", "Position on the lattice of 1/256 pixel, which coverage sees."),
+        "rounded": VariableText("rounded", "x, y and w as the number format has them."),
         "doubled_area": VariableText("2 area", "Twice the signed area, or the determinant."),
         "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),
         "finish": VariableText("edge end", "End of the edge as (x, y, w).", "a"),
@@ -172,6 +175,10 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     "raster": {
         **_PIXEL,
         **SPAN_VARIABLES,
+        **{
+            f"before_{k}": _given(f"E{k} before", "Value at the neighbour that it is reached from.")
+            for k in range(3)
+        },
         **{
             f"value_{k}": VariableText(f"E{k} (snapped)", "Decision value: above 0 is inside.", edge=k)
             for k in range(3)
@@ -267,17 +274,23 @@ _OF_LANE_ROW = frozenset({f"{name}_{k}" for name in ("numerator", "quotient") fo
 }
 _OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
 _OF_SPANS = frozenset(SPAN_VARIABLES) - {"start", "stop"}
+_BEFORE = frozenset({f"before_{k}" for k in range(3)})
 _PLANE = frozenset({"origin", "across", "up"})
 
 HIDDEN: Mapping[str, frozenset[str]] = {
     "clip.untouched": frozenset({"edge"}),
     "edges.orientation": frozenset({"corner", "homogeneous"}),
+    "edges.determinant": frozenset({"corner", "homogeneous"}),
+    "edges.inverse-edge": frozenset({"homogeneous"}),
+    "bin.outer-box": frozenset({"size", "a", "b", "c"}),
     "edges.edge": frozenset({"homogeneous"}),
     "edges.anchored-edge": frozenset({"homogeneous"}),
     "bin.box": frozenset({"size", "a", "b", "c"}),
     "bin.behind": frozenset({"column", "column_end", "row", "row_end", "size", "center", "a", "b", "c"}),
     "bin.whole-image": frozenset({"size", "center", "a", "b", "c"}),
-    "raster.test": _OF_SPANS,
+    "raster.test": _OF_SPANS | _BEFORE,
+    "raster.step": _OF_SPANS,
+    "raster.climb": _OF_SPANS,
     "raster.accept": _OF_SPANS,
     "raster.span": frozenset({"column", "x"}) | _OF_SPANS,
     "raster.line": frozenset({"column", "x", "y", "a", "b", "c", "owns_tie"}),
@@ -306,6 +319,8 @@ def step_variables(explanation: Explanation) -> tuple[Variable, ...]:
             continue
         is_changed = name in explanation.changed
         before: Any = values.get(text.previous)
+        label, meaning = in_its_numbers(name, text.label, text.meaning, values)
+        text = replace(text, label=label, meaning=meaning)
         rows += _rows(text, values[name], before if is_changed else values[name])
     return tuple(rows)
 

@@ -23,6 +23,7 @@ from core.picture.record import Picture, Route, Split
 from core.picture.textured import texture_colors
 from core.picture.visible import find_visible
 from core.pipeline import draw
+from core.raster.number_format import number_format
 from core.raster.schedule import Raster, make_raster
 from core.raster.spans.arena import Arena
 from core.scene import AnyScene, ClipScene, Mesh
@@ -173,9 +174,10 @@ def _choose_colors(job: Job) -> Colors | None:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether a picture with these settings can be drawn by spans: everything is filled, and no rays are cast."""
+    """Tell whether spans can draw a picture with these settings: all filled, in numbers that suit, no rays cast."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return settings.fill == "spans" and not is_outlined and settings.visibility != "ray-casting"
+    suits_spans = number_format(settings.coverage).suits_spans and settings.visibility != "ray-casting"
+    return settings.fill == "spans" and not is_outlined and suits_spans
 
 
 def _key(scene: AnyScene) -> Mesh | ClipScene:

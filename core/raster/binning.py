@@ -8,7 +8,7 @@ N. Greene, *Hierarchical polygon tiling with coverage masks*, 1996.
 
 import numpy as np
 
-from core.arrays import Integers
+from core.arrays import Flags, Floats, Integers
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
 from core.raster.schedule import (
     BEHIND,
@@ -33,10 +33,13 @@ def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:
     -----
     1. Every corner can be projected: its bounding box, limited to the raster. 2. No corner in front of the eye
     (all w <= 0): nothing. 3. Otherwise: the whole raster. A corner too far away to be snapped counts as
-    not projected, so that case 1 stays exact.
+    not projected, so that case 1 stays exact. Formats that round, which do not snap, have a box as well: that of the
+    corners as they are, outward to whole pixels; where they err by more, the box decides.
     """
     corners = edges.corners
-    projected = np.all(corners.is_projected, axis=1)
+    positions, projected = corners.decided, np.all(corners.is_projected, axis=1)
+    if edges.numbers.bounds_outward:
+        positions, projected = corners.window, has_outer_box(corners.window)
     case = np.where(projected, PROJECTED, MIXED)
     case[np.all(corners.homogeneous[..., 2] <= 0, axis=1)] = BEHIND
 
@@ -44,9 +47,12 @@ def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:
     bounds = raster.bounds
     box = np.empty((4, len(edges)), np.int64)
     for axis in range(2):
-        first, second, third = (corners.decided[:, corner, axis] for corner in range(3))
-        low = np.ceil(np.fmin(np.fmin(first, second), third) - raster.center)
-        high = np.floor(np.fmax(np.fmax(first, second), third) - raster.center) + 1
+        first, second, third = (positions[:, corner, axis] for corner in range(3))
+        least, greatest = np.fmin(np.fmin(first, second), third), np.fmax(np.fmax(first, second), third)
+        if edges.numbers.bounds_outward:
+            least, greatest = np.floor(least), np.ceil(greatest)
+        low = np.ceil(least - raster.center)
+        high = np.floor(greatest - raster.center) + 1
         box[axis] = np.maximum(np.where(projected, low, bounds[axis]), bounds[axis])
         box[axis + 2] = np.minimum(np.where(projected, high, bounds[axis + 2]), bounds[axis + 2])
 
@@ -54,6 +60,15 @@ def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:
     empty = (case == BEHIND) | (edges.doubled_area == 0) | (box[2] <= box[0]) | (box[3] <= box[1])
     box[2:, empty] = box[:2, empty]
     return Boxes(case, *box)
+
+
+OUTER_LIMIT = 2.0**30
+"""Pixels: corners beyond are not known well enough for an outer box."""
+
+
+def has_outer_box(window: Floats) -> Flags:
+    """Return (P,) bool: all corners (P, 3, 2) are in front of the eye and near enough to be bounded by whole pixels."""
+    return np.asarray((np.abs(window) <= OUTER_LIMIT).all(axis=(1, 2)))
 
 
 def classify(
@@ -71,18 +86,30 @@ def classify(
     """
     left, bottom = raster.centers(column, row)
     span = float(size - 1)
+    numbers = edges.numbers
     low, high = np.empty((len(triangle), 3)), np.empty((len(triangle), 3))
     is_outside, is_within = np.zeros(len(triangle), bool), np.ones(len(triangle), bool)
     rejected_by = np.full(len(triangle), -1)
     for k in range(3):
         a, b, c = (coefficient[:, k].take(triangle) for coefficient in (edges.a, edges.b, edges.c))
         owns_tie = edges.owns_tie[:, k].take(triangle)
-        low[:, k] = edge_value(a, b, c, left + span * (a <= 0), bottom + span * (b <= 0))
-        high[:, k] = edge_value(a, b, c, left + span * (a > 0), bottom + span * (b > 0))
-        rejects = ~is_inside(high[:, k], owns_tie)
+        right, top = a > 0, b > 0
+        with np.errstate(over="ignore", invalid="ignore"):
+            least, greatest = (
+                edge_value(
+                    a,
+                    b,
+                    c,
+                    numbers.of_pixels(left + span * at_right),
+                    numbers.of_pixels(bottom + span * at_top),
+                )
+                for at_right, at_top in ((~right, ~top), (right, top))
+            )
+        low[:, k], high[:, k] = numbers.shown_values(least), numbers.shown_values(greatest)
+        rejects = ~is_inside(greatest, owns_tie)
         rejected_by[rejects & ~is_outside] = k
         is_outside |= rejects
-        is_within &= is_inside(low[:, k], owns_tie)
+        is_within &= is_inside(least, owns_tie)
     verdict = np.where(is_outside, OUTSIDE, np.where(is_within, INSIDE, SPLIT))
     return low, high, verdict, rejected_by
 
@@ -198,9 +225,9 @@ def block_verdict(
     all_inside = True
     for a, b, c, owns_tie in coefficients:
         high = a * (right if a > 0 else left) + (b * (top if b > 0 else bottom) + c)  #: high
-        if high < 0 or (high == 0 and not owns_tie):  #: reject
+        if not (high > 0 or (high == 0 and owns_tie)):  #: reject
             return "outside"  #: outside
         low = a * (left if a > 0 else right) + (b * (bottom if b > 0 else top) + c)  #: low
-        if low < 0 or (low == 0 and not owns_tie):  #: accept
+        if not (low > 0 or (low == 0 and owns_tie)):  #: accept
             all_inside = False
     return "inside" if all_inside else "split"  #: verdict

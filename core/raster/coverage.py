@@ -8,7 +8,9 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
-from core.raster.schedule import Raster, Runs, expand
+from core.raster.exact_format import ExactFormat, decide_filtered
+from core.raster.incremental import stepped_values
+from core.raster.schedule import ADDED_A, EVALUATED, Raster, Runs, expand
 
 BATCH = 1 << 17
 """Pixels looked at in one go: large enough to hide call overhead, small enough to stay in the cache."""
@@ -55,25 +57,39 @@ class PixelTests:
     column: Integers
     row: Integers
     values: Floats
-    """(Q, 3) float64, the three edge functions at the pixel's centre."""
+    """(Q, 3) float64, the three edge functions at the pixel's centre, as they are shown: see ``number_format``."""
     accepted: Flags
     """(Q,) bool, taken without a test: the block or the span was inside as a whole."""
     covered: Flags
     """(Q,) bool."""
     tie: Flags
     """(Q, 3) bool, the centre lies exactly on this edge."""
+    before: Floats
+    """(Q, 3) float64, the values that the last addition started from; NaN where the values were evaluated."""
+    added: Integers
+    """(Q,) int64, ``EVALUATED``, ``ADDED_A`` or ``ADDED_B``: how the values were got."""
 
 
 def examine_pixels(edges: EdgeFunctions, runs: Runs, raster: Raster) -> PixelTests:
     """Look at every pixel of ``runs`` and keep all numbers."""
     run, place = expand(runs.lengths)
     primitive, column, row = runs.triangle[run], runs.start[run] + place, runs.row[run]
-    x, y = raster.centers(column, row)
-    a, b, c = edges.a[primitive], edges.b[primitive], edges.c[primitive]
-    values = edge_value(a, b, c, x[:, None], y[:, None])
+    numbers, before, added = edges.numbers, np.full((len(run), 3), np.nan), np.full(len(run), EVALUATED)
+    if runs.stepping is None:
+        x, y = (numbers.of_pixels(place) for place in raster.centers(column, row))
+        a, b, c = edges.a[primitive], edges.b[primitive], edges.c[primitive]
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = edge_value(a, b, c, x[:, None], y[:, None])
+    else:
+        values = stepped_values(edges, runs)
+        added = np.where(place > 0, ADDED_A, runs.stepping.added[run])
+        earlier = np.where((place > 0)[:, None], np.roll(values, 1, axis=0), runs.stepping.before[run])
+        before[added != EVALUATED] = numbers.shown_values(earlier[added != EVALUATED])
     inside = is_inside(values, edges.owns_tie[primitive]).all(axis=1)
     accepted = runs.accepted[run]
-    return PixelTests(run, primitive, column, row, values, accepted, inside | accepted, values == 0)
+    covered, tie = inside | accepted, np.asarray(values == 0)
+    shown = numbers.shown_values(values)
+    return PixelTests(run, primitive, column, row, shown, accepted, covered, tie, before, added)
 
 
 def cover(edges: EdgeFunctions, runs: Runs, raster: Raster) -> Iterator[tuple[Fragments, int]]:
@@ -101,16 +117,30 @@ def _cover_batch(edges: EdgeFunctions, runs: Runs, raster: Raster) -> tuple[Frag
     primitive, row = runs.triangle.take(run), runs.row.take(run)
     if runs.accepted.all():
         return Fragments(primitive, column, row), 0
+    if runs.stepping is not None:
+        sides = is_inside(stepped_values(edges, runs), edges.owns_tie[primitive])
+        return Fragments(primitive, column, row).select(np.asarray(sides.all(axis=1))), len(sides)
     x, y = raster.along(column), raster.along(runs.row)
     covered = runs.accepted.take(run)
     tested = len(covered) - int(np.count_nonzero(covered))
     inside = np.ones(len(covered), bool)
     for k in range(3):
-        a, owns_tie = edges.a[runs.triangle, k], edges.owns_tie[runs.triangle, k]
-        row_part = edges.b[runs.triangle, k] * y + edges.c[runs.triangle, k]
-        value = a.take(run)
-        value *= x
-        value += row_part.take(run)
-        inside &= is_inside(value, owns_tie.take(run))
+        inside &= _sides(edges, k, runs.triangle, run, x, y)
     covered |= inside
     return Fragments(primitive, column, row).select(covered), tested
+
+
+def _sides(edges: EdgeFunctions, k: int, triangle: Integers, run: Integers, x: Floats, y: Floats) -> Flags:
+    """Decide on which side of edge k pixels (F,) lie; ``triangle`` and ``y`` are those of the runs (R,)."""
+    numbers, owns_tie = edges.numbers, edges.owns_tie[triangle, k]
+    exact = edges.a[triangle, k], edges.b[triangle, k], edges.c[triangle, k]
+    if isinstance(numbers, ExactFormat):
+        shown = edges.shown_a[triangle, k], edges.shown_b[triangle, k], edges.shown_c[triangle, k]
+        return decide_filtered(shown, exact, owns_tie, run, x, y)
+    a, b, c = exact
+    with np.errstate(over="ignore", invalid="ignore"):
+        row_part = b * numbers.of_pixels(y) + c
+        value = a.take(run)
+        value *= numbers.of_pixels(x)
+        value += row_part.take(run)
+    return is_inside(value, owns_tie.take(run))

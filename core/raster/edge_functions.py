@@ -28,41 +28,57 @@ J. Pineda, *A parallel algorithm for polygon rasterization*, 1988.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.methods import table
+from core.raster.cross_product import FIRST, LAST, NEXT, cross
+from core.raster.number_format import Held, NumberFormat, number_format
 from core.raster.snapping import CornerPositions
 
 DIRECTION_BITS = 26
 """Bits of the direction of an edge that is anchored in one snapped corner."""
 BLOCK = 16384
 """Triangles whose corners are gathered at once, so that their numbers stay in the processor's cache."""
-FIRST = np.array([0, 1, 2])
-NEXT = np.array([1, 2, 0])
-LAST = np.array([2, 0, 1])
-"""Corner k itself, and the two that follow it counter-clockwise: the ends of edge k."""
 
 
 @dataclass(frozen=True, eq=False)
 class EdgeFunctions:
-    """Edge functions of P triangles, positive inside."""
+    """Edge functions of P triangles, positive inside, in the numbers that they are evaluated in."""
 
-    a: Floats
-    """(P, 3) float64, change per column."""
-    b: Floats
-    """(P, 3) float64, change per row."""
-    c: Floats
-    """(P, 3) float64, value at the window's origin."""
+    a: Held
+    """(P, 3) in the format's own type and unit, change per column."""
+    b: Held
+    """(P, 3), change per row."""
+    c: Held
+    """(P, 3), value at the window's origin."""
     owns_tie: Flags
     """(P, 3) bool, whether a pixel centre exactly on the edge belongs to the triangle."""
     corners: CornerPositions
     doubled_area: Floats
     """(P,) float64: twice the signed area in pixels where all corners are projected, else the 3x3 determinant."""
+    numbers: NumberFormat
+    """What kind of numbers a, b, c and the values are."""
 
     def __len__(self) -> int:
         return len(self.a)
+
+    @cached_property
+    def shown_a(self) -> Floats:
+        """(P, 3) float64, ``a`` per pixel."""
+        return self.numbers.shown(self.a, self.numbers.slope_exponent)
+
+    @cached_property
+    def shown_b(self) -> Floats:
+        """(P, 3) float64, ``b`` per pixel."""
+        return self.numbers.shown(self.b, self.numbers.slope_exponent)
+
+    @cached_property
+    def shown_c(self) -> Floats:
+        """(P, 3) float64, ``c``."""
+        return self.numbers.shown_values(self.c)
 
     def part(self, first: int, end: int) -> "EdgeFunctions":
         """Return the edge functions of triangles ``first`` to ``end``."""
@@ -70,10 +86,8 @@ class EdgeFunctions:
 
     def take(self, at: Integers | slice) -> "EdgeFunctions":
         """Return the edge functions of the triangles ``at`` (C,)."""
-        corners = CornerPositions(*(values[at] for values in vars(self.corners).values()))
-        return EdgeFunctions(
-            self.a[at], self.b[at], self.c[at], self.owns_tie[at], corners, self.doubled_area[at]
-        )
+        parts = (self.a[at], self.b[at], self.c[at], self.owns_tie[at])
+        return EdgeFunctions(*parts, self.corners.take(at), self.doubled_area[at], self.numbers)
 
 
 def orient(corners: CornerPositions) -> Floats:
@@ -123,7 +137,14 @@ def gather_area(x: Floats, y: Floats, corner: Integers) -> Floats:
 
 
 def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
-    """Return the edge functions of P triangles, turned so that inside is positive."""
+    """Return the edge functions of P triangles, turned so that inside is positive, in the corners' number format."""
+    numbers, a, b, c, doubled_area = number_format(corners.coverage).set_up(corners)
+    owns_tie = table.get("fill_rule", fill_rule).function(a, b)
+    return EdgeFunctions(a, b, c, owns_tie, corners, doubled_area, numbers)
+
+
+def set_up_per_edge(corners: CornerPositions) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return a, b, c (P, 3) and the doubled area (P,) in float64, each edge by whether its ends are projected."""
     x, y = _rows(corners.decided)
     a, b, c = cross(x[NEXT], y[NEXT], 1.0, x[LAST], y[LAST], 1.0)
     if not corners.is_projected.all():
@@ -139,9 +160,7 @@ def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
     # Turn clockwise triangles over, so that one inside test serves both facings.
     doubled_area = orient(corners)
     sign = np.sign(doubled_area)
-    a, b, c = (sign * a).T, (sign * b).T, (sign * c).T
-    owns_tie = table.get("fill_rule", fill_rule).function(a, b)
-    return EdgeFunctions(a, b, c, owns_tie, corners, doubled_area)
+    return (sign * a).T, (sign * b).T, (sign * c).T, doubled_area
 
 
 def _rows(positions: Floats) -> Floats:
@@ -174,19 +193,16 @@ def anchored_edge(
     return a, b, -(a * x + b * y)
 
 
-def cross(
-    x1: Floats, y1: Floats, w1: Floats | float, x2: Floats, y2: Floats, w2: Floats | float
-) -> tuple[Floats, Floats, Floats]:
-    """Return the cross products (3, P) of (x1, y1, w1) and (x2, y2, w2): lines through two homogeneous points."""
-    return y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
+def edge_value(a: Held, b: Held, c: Held, x: Held, y: Held) -> Held:
+    """Evaluate edge functions at pixel centres, all (F,) or (F, 3); the part of the row is summed first.
+
+    All numbers are of one format, and so is the value: see ``number_format``.
+    """
+    value: Held = a * x + (b * y + c)
+    return value
 
 
-def edge_value(a: Floats, b: Floats, c: Floats, x: Floats, y: Floats) -> Floats:
-    """Evaluate edge functions at pixel centres, all (F,) or (F, 3); the part of the row is summed first."""
-    return a * x + (b * y + c)
-
-
-def is_inside(value: Floats, owns_tie: Flags) -> Flags:
+def is_inside(value: Held, owns_tie: Flags) -> Flags:
     """Decide on which side of an edge pixel centres (F,) lie; on it, the fill rule decides."""
     return np.asarray((value > 0) | ((value == 0) & owns_tie))
 
@@ -197,7 +213,7 @@ def covers(a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: float, y: float)
     inside = True
     for k in range(3):
         value = a[k] * x + (b[k] * y + c[k])  #: value
-        if value < 0 or (value == 0 and not owns_tie[k]):  #: decide
+        if not (value > 0 or (value == 0 and owns_tie[k])):  #: decide
             inside = False  #: outside
         values.append(value)
     return values, inside  #: covered

@@ -1,4 +1,4 @@
-"""Fills by testing: brute force over the image, bounding box, blocks, hierarchy of blocks.
+"""Fills by testing: brute force over the image, bounding box, blocks, hierarchy of blocks, additions over the box.
 
 Each returns the runs it looks at; all of them decide by the same rule and cover the same pixels.
 
@@ -7,11 +7,15 @@ References
 M. Zwicker, *Computergrafik*, lecture "Binning"; F. Pellacini, lecture "brute force triangle rasterization".
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from core.methods import method
+from core.methods import method, table
 from core.raster.binning import bound, one_level, runs_of_blocks, two_levels
 from core.raster.edge_functions import EdgeFunctions
+from core.raster.incremental import step_to
+from core.raster.number_format import number_format
 from core.raster.schedule import Boxes, Raster, Runs, rows_of
 
 LEVEL_FACTOR = 4
@@ -70,4 +74,28 @@ def brute_force(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: 
     return rows_of(everywhere, np.flatnonzero(edges.doubled_area != 0))
 
 
-__all__ = ["blocks", "bound", "bounding_box", "brute_force", "hierarchy"]
+@method(
+    "fill",
+    "incremental",
+    "Bounding box, by additions",
+    source="J. Pineda, A parallel algorithm for polygon rasterization, 1988",
+    exact_for="numbers whose sums are exact: snapped, int64, exact",
+    breaks_where="sums that are rounded (float64 not snapped, float32, float16, inverse) drift along rows and columns",
+)
+def incremental(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
+    """Test every pixel of the box around the triangle, from the values of its neighbour."""
+    runs = rows_of(boxes, np.arange(len(edges)))
+    return replace(runs, stepping=step_to(edges, runs, raster))
+
+
+def suited_fill(fill: str, coverage: str) -> str:
+    """Return the fill that runs: ``bounding-box`` in the place of spans that do not suit the numbers.
+
+    Spans give the pixels of a test at every pixel only where values are monotone along a row, and are made for
+    float64.
+    """
+    needs_float64 = "float64-edges" in table.get("fill", fill).needs
+    return "bounding-box" if needs_float64 and not number_format(coverage).suits_spans else fill
+
+
+__all__ = ["blocks", "bound", "bounding_box", "brute_force", "hierarchy", "incremental", "suited_fill"]

@@ -26,6 +26,7 @@ from core.raster.schedule import Boxes, Raster, Runs, rows_of
     "Scanline, exact spans",
     source="LMU 2020, Scan line algorithm; Newman and Sproull 1979",
     exact_for="every triangle",
+    needs=("float64-edges",),
 )
 def scanline(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the span of inside pixels of every row; a row without one has an empty run."""

@@ -5,9 +5,10 @@ evaluates the runs in batches, the trace lists them one pixel at a time.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.arrays import Flags, Floats, Integers
 from core.methods import method, table
@@ -139,6 +140,25 @@ class Blocks:
     """(N,) int64, the first edge whose greatest value is outside, else -1."""
 
 
+EVALUATED, ADDED_B, ADDED_A = 0, 1, 2
+
+
+@dataclass(frozen=True, eq=False)
+class Stepping:
+    """Values of edge functions at the first pixels of R runs, by additions; see ``incremental``."""
+
+    value: NDArray[Any]
+    """(R, 3) in the edges' numbers."""
+    before: NDArray[Any]
+    """(R, 3), what the last addition started from."""
+    added: Integers
+    """(R,) int64, what was added to it: ``ADDED_A`` (from the left), ``ADDED_B`` (from below), or ``EVALUATED``."""
+
+    def part(self, at: slice) -> "Stepping":
+        """Return the values of some runs (R,)."""
+        return Stepping(self.value[at], self.before[at], self.added[at])
+
+
 @dataclass(frozen=True, eq=False)
 class Runs:
     """R stretches of pixels, each in one row of one triangle, in drawing order."""
@@ -160,6 +180,8 @@ class Runs:
     """(R, 3) float64, x where the row crosses each edge; ``None``: the fill has no spans.
 
     NaN in lanes of the fill ``spans``, which has them as fractions."""
+    stepping: Stepping | None = None
+    """Where the fill adds from pixel to pixel; ``None``: edge functions are evaluated at every pixel."""
 
     def __len__(self) -> int:
         return len(self.triangle)
@@ -173,7 +195,13 @@ class Runs:
         """Return runs ``first`` to ``end``, without their blocks."""
         at = slice(first, end)
         return Runs(
-            self.triangle[at], self.row[at], self.start[at], self.stop[at], self.accepted[at], self.group[at]
+            self.triangle[at],
+            self.row[at],
+            self.start[at],
+            self.stop[at],
+            self.accepted[at],
+            self.group[at],
+            stepping=None if self.stepping is None else self.stepping.part(at),
         )
 
 

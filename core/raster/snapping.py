@@ -3,15 +3,16 @@
 Notes
 -----
 GPUs decide coverage on a lattice of 1/256 pixel, and so do we: every product and sum of an edge function then
-fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is drawn once.
+fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is drawn once. Which corners are snapped, and
+in which numbers the edges are computed, is up to the number format (``number_format``).
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
-from core.methods import method, table
+from core.arrays import Flags, Floats, Integers
+from core.methods import table
 
 SUBPIXELS = 256
 """Steps of the snapping lattice in one pixel."""
@@ -31,6 +32,24 @@ class CornerPositions:
     """(P, 3, 2) pixels that coverage is decided on (snapped); NaN where a corner cannot be projected."""
     is_projected: Flags
     """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
+    clip: Floats
+    """(P, 3, 4) float64, what all of these were made from: exact coverage is decided on it."""
+    size: tuple[int, int]
+    """Width and height of the image in pixels."""
+    coverage: str
+    """The method of the family ``coverage``: in which numbers edges are set up."""
+
+    def take(self, at: Integers | slice) -> "CornerPositions":
+        """Return the corners of the triangles ``at`` (C,)."""
+        return CornerPositions(
+            self.homogeneous[at],
+            self.window[at],
+            self.decided[at],
+            self.is_projected[at],
+            self.clip[at],
+            self.size,
+            self.coverage,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,13 +80,13 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
     homogeneous[..., 1] = (y + w) * (size[1] / 2)
     homogeneous[..., 2] = w
     window = window_position(clip, size)
-    decided, is_projected = table.get("coverage", coverage).function(window)
-    return CornerPositions(homogeneous, window, decided, is_projected)
+    decided, is_projected = table.get("coverage", coverage).function().place(window)
+    return CornerPositions(homogeneous, window, decided, is_projected, clip, size, coverage)
 
 
 def place_vertices(clip: Floats, size: tuple[int, int], coverage: str) -> WindowVertices:
     """Put vertices (M, 4) on the lattice of a coverage method, as ``place_corners`` does with corners."""
-    decided, is_projected = table.get("coverage", coverage).function(window_position(clip, size))
+    decided, is_projected = table.get("coverage", coverage).function().place(window_position(clip, size))
     return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
 
 
@@ -92,16 +111,12 @@ def _component_rows(shape: tuple[int, ...], count: int) -> Floats:
     return np.empty((count, *reversed(shape))).T
 
 
-@method(
-    "coverage",
-    "snapped",
-    "Snapped to 1/256 pixel",
-    source="OpenGL 4.6, 14.6.1 and GPU practice; F. Giesen, Triangle rasterization in practice, 2013",
-    exact_for="corners within 65,536 pixels; every shared edge",
-)
-def snap(window: Floats) -> tuple[Floats, Flags]:
-    """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool."""
-    is_projected = (np.abs(window[..., 0]) <= SNAP_LIMIT) & (np.abs(window[..., 1]) <= SNAP_LIMIT)
+def snap(window: Floats, limit: float = SNAP_LIMIT) -> tuple[Floats, Flags]:
+    """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool.
+
+    Corners more than ``limit`` pixels away along an axis are not projected.
+    """
+    is_projected = (np.abs(window[..., 0]) <= limit) & (np.abs(window[..., 1]) <= limit)
     snapped = window.copy(order="K")
     if not is_projected.all():
         snapped[~is_projected] = np.nan
@@ -111,14 +126,6 @@ def snap(window: Floats) -> tuple[Floats, Flags]:
     return snapped, is_projected
 
 
-@method(
-    "coverage",
-    "float64",
-    "Not snapped, float64",
-    source="M. Olano, T. Greer, Triangle scan conversion using 2D homogeneous coordinates, 1997",
-    exact_for="no promise: each edge is rounded by itself",
-    breaks_where="a pixel centre within rounding of an edge",
-)
 def keep(window: Floats) -> tuple[Floats, Flags]:
     """Leave every corner where it is: coverage uses the homogeneous positions. (P, 3, 2) to the same."""
     return np.full(window.shape, np.nan), np.zeros(window.shape[:-1], bool)

@@ -9,7 +9,7 @@ from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS = ("box", "behind", "whole-image", "block")
+KINDS = ("box", "behind", "whole-image", "block", "outer-box")
 VERDICTS = ("outside", "inside", "split", "leaf")
 
 
@@ -24,10 +24,24 @@ def bounding_box(
     return column, row, column_end, row_end
 
 
+def outer_box(
+    x: np.ndarray, y: np.ndarray, center: float, bounds: tuple[int, int, int, int]
+) -> tuple[int, int, int, int]:
+    """Listing of the box around corners (3,) that are not snapped: outward to whole pixels, then as every box."""
+    left, bottom = np.floor(min(x)), np.floor(min(y))  #: low
+    right, top = np.ceil(max(x)), np.ceil(max(y))  #: high
+    column = max(int(np.ceil(left - center)), bounds[0])  #: column
+    row = max(int(np.ceil(bottom - center)), bounds[1])
+    column_end = min(int(np.floor(right - center)) + 1, bounds[2])  #: column-end
+    row_end = min(int(np.floor(top - center)) + 1, bounds[3])
+    return column, row, column_end, row_end
+
+
 def trace_bin(source: TraceSource) -> StageTrace:
     """Return one row for the box of every primitive, followed by one for every block that is looked at."""
     geometry, boxes, blocks = source.geometry, source.boxes, source.runs.blocks
-    count = len(geometry.edges)
+    count, corners = len(geometry.edges), geometry.edges.corners
+    is_outer = geometry.edges.numbers.bounds_outward
     owner = np.arange(count)
     node = np.full(count, -1)
     if blocks is not None:
@@ -61,13 +75,14 @@ def trace_bin(source: TraceSource) -> StageTrace:
         "high": high,
         "verdict": np.array(VERDICTS)[verdict],
         "rejected_by": of_block("rejected_by", -1).astype(np.int64),
-        "corners": geometry.edges.corners.decided[owner],
-        "a": geometry.edges.a[owner],
-        "b": geometry.edges.b[owner],
-        "c": geometry.edges.c[owner],
+        "corners": (corners.window if is_outer else corners.decided)[owner],
+        "a": geometry.edges.shown_a[owner],
+        "b": geometry.edges.shown_b[owner],
+        "c": geometry.edges.shown_c[owner],
         "node": node,
     }
-    kind = np.where(is_block, 3, np.array([0, 1, 2])[boxes.case[owner]])
+    box_kind = KINDS.index("outer-box" if is_outer else "box")
+    kind = np.where(is_block, KINDS.index("block"), np.array([box_kind, 1, 2])[boxes.case[owner]])
     top = node.copy()
     if blocks is not None:
         parent = blocks.parent[node[is_block]]
@@ -77,6 +92,10 @@ def trace_bin(source: TraceSource) -> StageTrace:
         kind=kind,
         operations={
             "box": (
+                Operation("low", "column", ("corners", "column", "row")),
+                Operation("high", "column-end", ("column_end", "row_end")),
+            ),
+            "outer-box": (
                 Operation("low", "column", ("corners", "column", "row")),
                 Operation("high", "column-end", ("column_end", "row_end")),
             ),
@@ -94,12 +113,18 @@ def trace_bin(source: TraceSource) -> StageTrace:
     box, block = listing(bounding_box), listing(block_verdict)
     return StageTrace(
         stage="bin",
-        method=f"fill={source.settings.fill}",
+        method=f"fill={source.fill}",
         steps=steps,
         columns=columns,
         triangle=geometry.primitives.triangle[owner],
         pixel=no_pixels(len(owner)),
-        listings={"box": box, "behind": box, "whole-image": box, "block": block},
+        listings={
+            "outer-box": listing(outer_box),
+            "box": box,
+            "behind": box,
+            "whole-image": box,
+            "block": block,
+        },
         marks={
             "rejected": is_block & (verdict == OUTSIDE),
             "covered": is_block & (verdict == INSIDE),

@@ -4,43 +4,59 @@ import numpy as np
 
 from core.listing import listing
 from core.raster.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.float_formats import rounded_corner
+from core.raster.inverse_format import inverse_coefficients
 from core.raster.snapping import snap_one
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS = ("snapped", "homogeneous", "orientation", "edge", "anchored-edge")
+KINDS = (
+    "snapped",
+    "homogeneous",
+    "orientation",
+    "edge",
+    "anchored-edge",
+    "rounded",
+    "inverse-edge",
+    "determinant",
+)
 
 
 def trace_edges(source: TraceSource) -> StageTrace:
     """Return seven rows for every primitive: three corners, orientation, three edges."""
     geometry = source.geometry
-    edges, corners = geometry.edges, geometry.edges.corners
+    edges, corners, numbers = geometry.edges, geometry.edges.corners, geometry.edges.numbers
+    ends = numbers.shown_ends(corners)
     count = len(edges)
     primitive = np.repeat(np.arange(count), 7)
     place = np.tile(np.arange(7), count)
     index = np.array([0, 1, 2, 0, 0, 1, 2])[place]
-    kind = np.where(
-        place < 3, np.where(corners.is_projected[primitive, index], 0, 1), np.where(place == 3, 2, 3)
-    )
+    left_alone = KINDS.index("rounded" if numbers.corner_kind == "rounded" else "homogeneous")
+    corner_kind = np.where(corners.is_projected[primitive, index], KINDS.index("snapped"), left_alone)
+    edge_kind = KINDS.index("inverse-edge" if numbers.name == "inverse" else "edge")
+    area_kind = KINDS.index("determinant" if numbers.name == "inverse" else "orientation")
+    kind = np.where(place < 3, corner_kind, np.where(place == 3, area_kind, edge_kind))
     following, last = (index + 1) % 3, (index + 2) % 3
     from_corner, to_corner = corners.is_projected[primitive, following], corners.is_projected[primitive, last]
-    kind[(place > 3) & (from_corner != to_corner)] = KINDS.index("anchored-edge")
+    if numbers.suits_spans:
+        kind[(place > 3) & (from_corner != to_corner)] = KINDS.index("anchored-edge")
     columns = {
         "corner": index,
         "edge": index,
         "homogeneous": corners.homogeneous[primitive, index],
         "window": corners.window[primitive, index],
         "snapped": corners.decided[primitive, index],
+        "rounded": ends[primitive, index],
         "doubled_area": edges.doubled_area[primitive],
         "is_projected": from_corner & to_corner,
         "anchor": from_corner.astype(np.int64) - to_corner,
-        "a": edges.a[primitive, index],
-        "b": edges.b[primitive, index],
-        "c": edges.c[primitive, index],
+        "a": edges.shown_a[primitive, index],
+        "b": edges.shown_b[primitive, index],
+        "c": edges.shown_c[primitive, index],
         "owns_tie": edges.owns_tie[primitive, index],
-        "start": _end(source, primitive, following),
-        "finish": _end(source, primitive, last),
+        "start": ends[primitive, following],
+        "finish": ends[primitive, last],
     }
     coefficients = (
         *(Operation(name, name, (name,)) for name in "abc"),
@@ -55,6 +71,9 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "orientation": (Operation("area", "a", ("doubled_area",)),),
             "edge": coefficients,
             "anchored-edge": coefficients,
+            "rounded": (Operation("round", "round", ("rounded",)),),
+            "inverse-edge": tuple(Operation(done.name, "inverse", done.sets) for done in coefficients),
+            "determinant": (Operation("area", "determinant", ("doubled_area",)),),
         },
         triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
         group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
@@ -73,17 +92,15 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "orientation": cross_product,
             "edge": cross_product,
             "anchored-edge": listing(anchored_coefficients),
+            "rounded": listing(rounded_corner),
+            "inverse-edge": listing(inverse_coefficients),
+            "determinant": listing(inverse_coefficients),
         },
         marks={"rejected": (place == 3) & (edges.doubled_area[primitive] == 0)},
         extra={"edges": edges, "planes": geometry.planes},
-        constants={"fill_rule": source.settings.fill_rule},
-    )
-
-
-def _end(source: TraceSource, primitive: np.ndarray, corner: np.ndarray) -> np.ndarray:
-    """Return (R, 3) the end of an edge as its function sees it: (snapped, 1) where it is projected, else (x, y, w)."""
-    corners = source.geometry.edges.corners
-    snapped = np.column_stack([corners.decided[primitive, corner], np.ones(len(primitive))])
-    return np.where(
-        corners.is_projected[primitive, corner][:, None], snapped, corners.homogeneous[primitive, corner]
+        constants={
+            "fill_rule": source.settings.fill_rule,
+            "number_format": numbers.name,
+            "rounding": numbers.rounding,
+        },
     )

@@ -6,6 +6,7 @@ from core.arrays import Flags, Integers
 from core.fragments.interpolation import numerators
 from core.listing import Listing, listing
 from core.raster.edge_functions import covers
+from core.raster.incremental import step_covers
 from core.raster.scanline import span
 from core.raster.scanline_lecture import draw_triangle
 from core.raster.spans.lanes import tie_owners
@@ -27,13 +28,16 @@ def trace_raster(source: TraceSource) -> StageTrace:
     """
     if source.geometry.outlines is not None:
         return trace_lines(source)
-    geometry, raster, fill = source.geometry, source.raster, source.settings.fill
+    geometry, raster, fill = source.geometry, source.raster, source.fill
     order = _order(source) if fill == "spans" else None
     table = rows_of_runs(source) if order is None else rows_of_spans(source, order)
     columns = _columns(source, table)
     constants: dict[str, float | int | str] = {
         "center": raster.center,
         "fill_rule": source.settings.fill_rule,
+        "number_format": geometry.edges.numbers.name,
+        "rounding": geometry.edges.numbers.rounding,
+        "value_layout": geometry.edges.numbers.value_layout,
     }
     pixel_rows = np.flatnonzero(table.test >= 0)
     buffers = _buffers(source, pixel_rows, columns)
@@ -88,19 +92,19 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     column = of_pixel(tests.column, -1)
     x, y = raster.centers(column, table.row)
     values = of_pixel(tests.values, np.nan)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         weights = np.stack(numerators(geometry.planes, primitive, x, y), axis=1)
         weights = weights / (weights[:, :1] + weights[:, 1:2] + weights[:, 2:])
-        distance = values / np.hypot(edges.a[primitive], edges.b[primitive])
+        distance = values / np.hypot(edges.shown_a[primitive], edges.shown_b[primitive])
     weights[~is_pixel] = np.nan
     columns = {
         "column": column,
         "row": table.row,
         "x": np.where(is_pixel, x, np.nan),
         "y": np.where(table.row >= 0, y, np.nan),
-        "a": edges.a[primitive],
-        "b": edges.b[primitive],
-        "c": edges.c[primitive],
+        "a": edges.shown_a[primitive],
+        "b": edges.shown_b[primitive],
+        "c": edges.shown_c[primitive],
         "owns_tie": edges.owns_tie[primitive],
         "values": values,
         "distance": distance,
@@ -111,6 +115,9 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
         "stop": table.stop,
         "primitive": primitive,
     }
+    if source.runs.stepping is not None:
+        before = of_pixel(tests.before, np.nan)
+        columns |= {f"before_{k}": before[:, k] for k in range(3)}
     for k in range(3):
         columns[f"value_{k}"], columns[f"crossing_{k}"] = values[:, k], table.crossings[:, k]
     return columns
@@ -128,7 +135,15 @@ def _marks(columns: dict[str, np.ndarray], is_pixel: Flags) -> dict[str, Flags]:
 
 def _listings() -> dict[str, Listing]:
     inside = listing(covers)
-    fills = {"test": inside, "accept": inside, "span": listing(span), "line": listing(draw_triangle)}
+    stepping = listing(step_covers)
+    fills = {
+        "climb": stepping,
+        "step": stepping,
+        "test": inside,
+        "accept": inside,
+        "span": listing(span),
+        "line": listing(draw_triangle),
+    }
     return fills | span_listings()
 
 

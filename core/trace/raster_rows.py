@@ -7,6 +7,12 @@ from core.steps import Operation
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack
 
+_ADDITIONS = (
+    Operation("edge-0", "add", ("value_0",)),
+    Operation("edge-1", "add", ("value_1",)),
+    Operation("edge-2", "add", ("value_2",)),
+    Operation("decide", "covered", ("covered", "tie")),
+)
 FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "test": (
         Operation("edge-0", "value", ("value_0",)),
@@ -41,6 +47,8 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("pass", "pass", ("pass_number", "pass_size")),
         Operation("draw", "draw", ("rank", "covered")),
     ),
+    "climb": _ADDITIONS,
+    "step": _ADDITIONS,
 }
 """Kind of row of a fill to what it does."""
 

@@ -5,11 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.raster.schedule import EVALUATED
 from core.trace.raster_rows import FILL_OPERATIONS
 from core.trace.source import TraceSource
 
 KIND = {name: number for number, name in enumerate(FILL_OPERATIONS)}
 """Number of every kind of row of a fill."""
+
+
+PIXEL_KINDS = np.array([KIND["test"], KIND["climb"], KIND["step"]])
+"""Kind of a pixel's row by how its values were got: ``EVALUATED``, ``ADDED_B`` or ``ADDED_A``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +48,10 @@ def rows_of_runs(source: TraceSource) -> RowTable:
     test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
     order = np.argsort(run, kind="stable")
     run, test = run[order], test[order]
-    span_kind = KIND["line" if source.settings.fill == "scanline-lecture" else "span"]
-    pixel_kind = np.where(runs.accepted[run], KIND["accept"], KIND["test"])
+    span_kind = KIND["line" if source.fill == "scanline-lecture" else "span"]
+    pixel_kind = np.where(
+        runs.accepted[run], KIND["accept"], PIXEL_KINDS[np.append(tests.added, EVALUATED)[test]]
+    )
     return RowTable(
         kind=np.where(test >= 0, pixel_kind, span_kind),
         primitive=runs.triangle[run],

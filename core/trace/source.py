@@ -15,6 +15,7 @@ from core.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.methods import table
 from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
+from core.raster.fills import suited_fill
 from core.raster.line_intensities import writes_depth
 from core.raster.line_records import LineSteps
 from core.raster.schedule import Boxes, Raster, Runs, make_raster
@@ -62,6 +63,11 @@ class TraceSource:
         if self.triangle is not None and self.before == "earlier":
             earlier = np.sort(self.order[: int(np.flatnonzero(self.order == self.triangle)[0])])
         return draw(self.scene, self.settings, self.raster, earlier)
+
+    @property
+    def fill(self) -> str:
+        """The fill that runs: see ``core.raster.fills.suited_fill``."""
+        return suited_fill(self.settings.fill, self.settings.coverage)
 
     @cached_property
     def _schedule(self) -> tuple[Boxes, Runs]:

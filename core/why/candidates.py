@@ -39,13 +39,6 @@ def whole_geometry(source: TraceSource) -> Geometry:
     return found[1]
 
 
-def take_edges(edges: EdgeFunctions, index: Integers) -> EdgeFunctions:
-    """Return the edge functions of primitives (Q,)."""
-    corners = CornerPositions(*(values[index] for values in vars(edges.corners).values()))
-    parts = (edges.a[index], edges.b[index], edges.c[index], edges.owns_tie[index])
-    return EdgeFunctions(*parts, corners, edges.doubled_area[index])
-
-
 def take_outlines(outlines: Outlines, index: Integers) -> Outlines:
     """Return the segments (M,) of a wireframe."""
     return Outlines(*(values[index] for values in vars(outlines).values()))
@@ -72,13 +65,15 @@ class EdgeTests:
 
 def examine_edges(edges: EdgeFunctions, x: float, y: float) -> EdgeTests:
     """Apply the inside test of all edges to one pixel centre."""
-    columns, rows = np.full((2, len(edges), 1), [[[x]], [[y]]])
-    values = edge_value(edges.a, edges.b, edges.c, columns, rows)
-    largest = np.maximum(np.abs(edges.a * x), np.maximum(np.abs(edges.b * y), np.abs(edges.c)))
+    numbers, a, b, c = edges.numbers, edges.shown_a, edges.shown_b, edges.shown_c
+    columns, rows = (numbers.of_pixels(np.full((len(edges), 1), place)) for place in (x, y))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        distance = values / np.hypot(edges.a, edges.b)
-        ulps = values / np.spacing(largest)
-    return EdgeTests(values, is_inside(values, edges.owns_tie), distance, ulps)
+        held = edge_value(edges.a, edges.b, edges.c, columns, rows)
+        values = numbers.shown_values(held)
+        largest = np.maximum(np.abs(a * x), np.maximum(np.abs(b * y), np.abs(c)))
+        distance = values / np.hypot(a, b)
+        ulps = values / numbers.spacing(largest)
+    return EdgeTests(values, is_inside(held, edges.owns_tie), distance, ulps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +124,7 @@ class PixelCandidates:
     @cached_property
     def edges(self) -> EdgeFunctions:
         """Edge functions of the candidates."""
-        return take_edges(self.geometry.edges, self.primitive)
+        return self.geometry.edges.take(self.primitive)
 
     @cached_property
     def triangle(self) -> Integers:
@@ -184,8 +179,16 @@ class PixelCandidates:
 
     @cached_property
     def edge_tests(self) -> EdgeTests:
-        """The inside test of every candidate, whether the fill made it or not."""
-        return examine_edges(self.edges, *self.center)
+        """The inside test of every candidate, whether the fill made it or not; the fill's own values, where it adds."""
+        tests = examine_edges(self.edges, *self.center)
+        if self.runs.stepping is None:
+            return tests
+        values, stepped = tests.values.copy(), self.pixel_tests
+        values[stepped.primitive] = stepped.values
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            distance = values / np.hypot(self.edges.shown_a, self.edges.shown_b)
+            ulps = tests.ulps * (values / tests.values)
+        return EdgeTests(values, is_inside(values, self.edges.owns_tie), distance, ulps)
 
     @cached_property
     def culled(self) -> Integers:

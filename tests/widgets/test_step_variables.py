@@ -44,8 +44,21 @@ def test_what_is_known_is_shown_and_nothing_from_later(name: str) -> None:
                 assert not labels & shown, (explanation.key, variable)
         for variable in explanation.changed:
             if variable not in hidden and np.size(explanation.values[variable]):
-                text = texts[variable]
-                assert text.label.replace("#", "0") in shown, (explanation.key, variable)
+                numbers = explanation.values.get("number_format", "snapped")
+                label = texts[variable].label.replace("#", "0").replace("(snapped)", f"({numbers})")
+                assert label in shown, (explanation.key, variable)
+
+
+def test_a_decision_value_has_its_format_and_its_bits() -> None:
+    # E0 of pixel (0, 0) is 42 = 1.0101 2^5.
+    found = {}
+    for coverage in ("float16", "fixed-24.8", "exact"):
+        settings = Settings(fill="brute-force", coverage=coverage)
+        found[coverage] = at("raster", "raster.test.decide", 0, settings)[f"E0 ({coverage})"]
+    assert [variable.now for variable in found.values()] == [42.0, 42.0, 42.0]
+    assert "Its bits in float16: 0 10100 0101000000." in found["float16"].meaning
+    assert "Its bits in fixed-16.16: 0000000000101010.0000000000000000." in found["fixed-24.8"].meaning
+    assert "bits" not in found["exact"].meaning
 
 
 def test_every_stage_has_its_variables() -> None:

@@ -20,6 +20,7 @@ from core.raster.spans.lane_rows import is_in_lane, lane_rows, owners_of
     "Spans of all triangles at once",
     source="Wylie et al. 1967 (spans); Pineda 1988 and Fuchs et al. 1985 (linear expressions in parallel)",
     exact_for="every triangle",
+    needs=("float64-edges",),
 )
 def spans(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the span of inside pixels of every row that has one."""

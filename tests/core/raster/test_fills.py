@@ -28,7 +28,7 @@ def exact_each(clip, size, rule: str = "shared-edge", doubled_center: int = 1) -
 
 
 def test_the_fills_that_draw_any_triangle() -> None:
-    assert TESTING_FILLS[:5] == ["bounding-box", "hierarchy", "blocks", "brute-force", "scanline"]
+    assert TESTING_FILLS[:5] == ["bounding-box", "hierarchy", "blocks", "brute-force", "incremental"]
     assert set(table.names("fill")) - set(TESTING_FILLS) == {"scanline-lecture"}
 
 

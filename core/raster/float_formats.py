@@ -1,0 +1,58 @@
+"""Floating-point edge functions: float64 on snapped corners or not, float32, float16.
+
+The snapped ones are exact (see ``edge_functions``). The others are set up from the homogeneous corners as they are,
+which are rounded to the format first; then every product and every sum is rounded again.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Flags, Floats
+from core.raster.edge_functions import set_up_per_edge
+from core.raster.number_format import Coefficients, Held, NumberFormat
+from core.raster.snapping import CornerPositions, snap
+
+
+@dataclass(frozen=True)
+class Float64Format(NumberFormat):
+    """float64; each edge by its ends: both snapped, one, or none."""
+
+    def place(self, window: Floats) -> tuple[Floats, Flags]:
+        """Return positions (P, 3, 2) on the lattice of 1/256 pixel, if the format snaps, and where (P, 3) bool."""
+        return snap(window) if self.corner_kind == "snapped" else super().place(window)
+
+    def set_up(self, corners: CornerPositions) -> Coefficients:
+        """Return the edge functions of P triangles, (P, 3) each."""
+        return Coefficients(self, *set_up_per_edge(corners))
+
+
+@dataclass(frozen=True)
+class RoundedFormat(NumberFormat):
+    """float32 or float16, not snapped."""
+
+    def shown_ends(self, corners: CornerPositions) -> Floats:
+        """Return (P, 3, 3) float64 the homogeneous corners, rounded to the format."""
+        with np.errstate(over="ignore"):
+            rounded: Held = corners.homogeneous.astype(self.held_as)
+        shown: Floats = rounded.astype(np.float64)
+        return shown
+
+    def spacing(self, size: Floats) -> Floats:
+        """Return the units in the last place of numbers of this size, any shape."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            spacing: Held = np.spacing(size.astype(self.held_as))
+        shown: Floats = spacing.astype(np.float64)
+        return shown
+
+
+def rounded_corner(x: float, y: float, w: float, number: type[np.floating[Any]]) -> tuple[Any, Any, Any]:
+    """Listing of one corner as a format has it: every component rounded to the nearest ``number``, as numpy.float16."""
+    return number(x), number(y), number(w)  #: round
+
+
+SNAPPED = Float64Format("snapped", np.float64, "snapped", "exact", "float64", suits_spans=True)
+FLOAT64 = Float64Format("float64", np.float64, "homogeneous", "exact", "float64", suits_spans=True)
+FLOAT32 = RoundedFormat("float32", np.float32, "rounded", "rounded", "float32", bounds_outward=True)
+FLOAT16 = RoundedFormat("float16", np.float16, "rounded", "rounded", "float16", bounds_outward=True)
