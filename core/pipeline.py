@@ -10,13 +10,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Flags, Floats, Integers, Singles, read_only
+from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import Interpolator, interpolate, plane_value
-from core.frame import STAGES, Frame, StageCount
-from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, Stored, clamp_depth, run_depth_tests
-from core.framebuffer.nearest import NearestFragments
-from core.framebuffer.stacks import stack_fragments
+from core.frame import Frame, StageCount
+from core.framebuffer.depth import DepthFormat, Stored, clamp_depth
 from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
 from core.raster.binning import bound
@@ -128,23 +125,32 @@ def fragment_depth(
     keeps : (F,) bool, False too where 1/w is stored and shows a point behind the eye
     stored : (F,) of the format's ``stored_type``
     """
-    if isinstance(fragments, LineFragments):
-        outlines = outlines_of(geometry)
-        depth = line_depth(outlines, fragments, raster.center)
-        is_in_range = outlines.is_in_range.take(fragments.segment)
-    else:
+    if not isinstance(fragments, LineFragments):
         x, y = raster.centers(fragments.column, fragments.row)
-        depth = plane_value(geometry.depth_plane, fragments.primitive, x, y)
-        is_in_range = geometry.is_in_range.take(fragments.primitive)
-    depth, keeps = clamp_depth(depth, is_in_range)
-    if depth_format.quantity == "z":
-        stored = depth_format.store(depth)
-        if depth_format.is_planar and not isinstance(fragments, LineFragments):
+        depth, keeps, stored = depth_at(geometry, fragments.primitive, x, y, depth_format)
+        if depth_format.quantity == "z" and depth_format.is_planar:
             fixed = geometry.fixed_planes
             on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
             stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
         return depth, keeps, stored
+    outlines = outlines_of(geometry)
+    depth = line_depth(outlines, fragments, raster.center)
+    depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
     inverse_w = fragment_inverse_w(geometry, fragments, raster)
+    return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
+
+
+def depth_at(
+    geometry: Geometry, primitive: Integers, x: Floats, y: Floats, depth_format: DepthFormat
+) -> tuple[Floats, Flags, Stored]:
+    """Return depth, whether it is in range, and what would be stored, (F,) each, of primitives at window positions."""
+    depth = plane_value(geometry.depth_plane, primitive, x, y)
+    depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
+    inverse_w = plane_value(geometry.inverse_w_plane, primitive, x, y)
     return depth, keeps & (inverse_w > 0), depth_format.store(inverse_w)
 
 
@@ -188,58 +194,9 @@ def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Int
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
-    counts = {stage: StageCount() for stage in STAGES}
-    geometry = process_geometry(scene, settings, counts, chosen)
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    pixel_count = raster.shape[0] * raster.shape[1]
-    cover_count = np.zeros(pixel_count, np.int32)
-    owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
-    nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
-    kept: list[tuple[Fragments, Stored]] = []
-
-    # Coverage and depth of every fragment, in batches.
-    cover_primitives = covered if geometry.outlines is None else _outlined
-    for fragments in cover_primitives(geometry, settings, raster, counts):
-        with timed(counts["depth"]):
-            _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
-            if not keeps.all():
-                fragments, stored = fragments.select(keeps), stored[keeps]
-            pixel = raster.index(fragments.column, fragments.row)
-            np.add.at(cover_count, pixel, np.int32(1))
-            nearest.add(pixel, owner_of(fragments), stored)
-            counts["depth"].incoming += len(pixel)
-            if settings.blend != "opaque":
-                kept.append((fragments, stored))
-
-    # What is seen; attributes and colour once per visible pixel.
-    with timed(counts["depth"]):
-        pixel, owner, depth = nearest.resolve()
-        counts["depth"].outgoing = len(pixel)
-    seen = fragments_of(geometry, owner, *raster.position(pixel))
-    values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
-    color = np.empty((len(depth), 4), np.float32)
-    color[:] = scene.background
-    if settings.blend == "opaque":
-        color[pixel] = _shade(scene, geometry, settings, seen, values, counts["shade"])
-        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
-    else:
-        _blend(color, scene, geometry, settings, raster, kept, counts)
-
-    # Buffers of the frame.
-    with timed(counts["resolve"]):
-        identity = np.full(len(depth), -1, np.int32)
-        identity[pixel] = geometry.primitives.triangle[seen.primitive]
-        attributes = np.zeros((len(depth), values.shape[1]), np.float32)
-        attributes[pixel] = values
-        counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
-    return Frame(
-        color=read_only(color.reshape(*raster.shape, 4)),
-        depth=read_only(depth.reshape(raster.shape)),
-        primitive=read_only(identity.reshape(raster.shape)),
-        attributes=read_only(attributes.reshape(*raster.shape, values.shape[1])),
-        cover_count=read_only(cover_count.reshape(raster.shape)),
-        statistics=counts,
-    )
+    antialiased = table.get("antialiasing", settings.antialiasing).function
+    frame: Frame = antialiased(scene, settings, raster, chosen)
+    return frame
 
 
 def covered(
@@ -282,7 +239,7 @@ def _timed_batches(batches: Iterator[Batch], count: StageCount) -> Iterator[Batc
         yield batch
 
 
-def _outlined(
+def outlined(
     geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
 ) -> Iterator[Fragments]:
     """Yield the pixels of the outlines of all primitives."""
@@ -295,7 +252,7 @@ def _outlined(
         yield fragments
 
 
-def _interpolate(
+def interpolate_fragments(
     geometry: Geometry, settings: Settings, raster: Raster, fragments: Fragments, count: StageCount
 ) -> Floats:
     """Return the interpolated values (F, K) float64 of fragments."""
@@ -308,7 +265,7 @@ def _interpolate(
         return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
 
 
-def _shade(
+def shade_values(
     scene: AnyScene,
     geometry: Geometry,
     settings: Settings,
@@ -321,44 +278,6 @@ def _shade(
         count.incoming = count.outgoing = len(fragments)
         mesh = geometry.primitives.mesh[fragments.primitive]
         return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values).color
-
-
-def _blend(
-    color: Singles,
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    kept: list[tuple[Fragments, Stored]],
-    counts: dict[str, StageCount],
-) -> None:
-    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    owner, column, row = (
-        _join([owner_of(f) for f, _ in kept]),
-        _join([f.column for f, _ in kept]),
-        _join([f.row for f, _ in kept]),
-    )
-    stored = np.concatenate([s for _, s in kept]) if kept else np.empty(0, depth_format.stored_type)
-    if (owner[1:] < owner[:-1]).any():
-        order = np.argsort(owner, kind="stable")
-        owner, column, row, stored = owner[order], column[order], row[order], stored[order]
-    fragments = fragments_of(geometry, owner, column, row)
-    with timed(counts["depth"]):
-        stacks = stack_fragments(raster.index(column, row))
-        cleared = np.full(len(color), depth_format.cleared, depth_format.stored_type)
-        passes = run_depth_tests(stored, stacks, cleared, depth_format, geometry.uses_depth_test).passes
-        fragments = fragments.select(passes)
-    values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
-    source = _shade(scene, geometry, settings, fragments, values, counts["shade"])
-    with timed(counts["blend"]):
-        rule = table.get("blend", settings.blend).function
-        blend_stacks(color, source, np.cumsum(passes) - 1, stacks, passes, rule)
-        counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
-
-
-def _join(parts: list[Integers]) -> Integers:
-    return np.concatenate(parts) if parts else np.empty(0, np.int64)
 
 
 CHUNK = 1 << 22

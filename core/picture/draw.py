@@ -1,11 +1,13 @@
 """Draw a picture: choose by what the scene holds, draw, and say which way was taken."""
 
+from dataclasses import replace
 from threading import local
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from core.antialiased.supersampling import side_of
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
@@ -20,6 +22,7 @@ from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Picture, Route, Split
+from core.picture.supersampled import draw_supersampled
 from core.picture.textured import texture_colors
 from core.picture.visible import find_visible
 from core.pipeline import draw
@@ -79,7 +82,8 @@ def draw_picture(
 
     Notes
     -----
-    The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
+    A supersampled picture is drawn as the bytes of its samples, which are resolved in linear light: up to one byte more
+    away than they are. The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
     `Route` has the colours ``palette`` or ``deferred``; with ``bytes`` and ``normals`` they are up to one away, with
     ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay between those of
     the corners, where `render` extrapolates.
@@ -96,6 +100,9 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
+    side = side_of(settings.antialiasing)
+    if side > 1 and not with_depth and is_drawn_by_spans(replace(settings, antialiasing="none")):
+        return draw_supersampled(draw_picture, scene, settings, raster, encoding, pixels, arena)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     geometry = process_geometry(scene, settings, counts, raster=raster)
@@ -173,9 +180,9 @@ def _choose_colors(job: Job) -> Colors | None:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether a picture with these settings can be drawn by spans: everything is filled."""
+    """Tell whether a picture with these settings can be drawn by spans: everything is filled, one sample a pixel."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return settings.fill == "spans" and not is_outlined
+    return settings.fill == "spans" and not is_outlined and settings.antialiasing == "none"
 
 
 def _key(scene: AnyScene) -> Mesh | ClipScene:

@@ -32,6 +32,13 @@ class CornerPositions:
     is_projected: Flags
     """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
 
+    def moved(self, x: float, y: float) -> "CornerPositions":
+        """Return the corners ``x`` and ``y`` pixels further; what is snapped moves exactly by multiples of 1/256."""
+        way = np.array([x, y])
+        homogeneous = self.homogeneous.copy()
+        homogeneous[..., :2] += way * self.homogeneous[..., 2:]
+        return CornerPositions(homogeneous, self.window + way, self.decided + way, self.is_projected)
+
 
 @dataclass(frozen=True, eq=False)
 class WindowVertices:
