@@ -45,6 +45,13 @@ def draw_at_centers(
     """Draw with one sample, the pixel's centre; arguments (T,) and result as of `draw`."""
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)
+    return draw_geometry(scene, geometry, settings, raster, counts)
+
+
+def draw_geometry(
+    scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+) -> Frame:
+    """Draw what is known of the triangles already; the work is added to ``counts``."""
     found = find_fragments(geometry, settings, raster, counts)
 
     # What is seen; attributes and colour once per visible pixel.

@@ -1,12 +1,13 @@
 """Exact areas: every pixel is cut into the pieces that its triangles' edges make of it.
 
-A piece is to a pixel what a sample is, but that it weighs as much as its area: in drawing order every triangle cuts the
-pieces of the pixels it touches, by its edges and where it passes through what they show, is tested for depth and blended in
-those inside of it, and the pixel's colour is the sum over its pieces. Depth and attributes are taken at the centroid of a piece, where a linear function has its mean: the
-picture of unlit triangles in one colour per corner, and one w, is the integral over the pixel's square, exact to rounding.
+A piece is to a pixel what a sample is, but that it weighs as much as its area: in drawing order every triangle cuts
+the pieces of the pixels it touches, by its edges and where it passes through what they show, is tested for depth and
+blended in those inside of it, and the pixel's colour is the sum over its pieces. Depth and attributes are taken at the
+centroid of a piece, where a linear function has its mean: the picture of unlit triangles in one colour per corner, and
+one w, is the integral over the pixel's square, exact to rounding.
 
-Which pixels the fill tests, the fill rule, and on which side of an edge a centre lies all play no part. A wireframe has no area:
-it is drawn as without antialiasing. The buffers beside the colour are those of the pixels' centres.
+Which pixels the fill tests, the fill rule, and on which side of an edge a centre lies play no part. A wireframe has no
+area: it is drawn as without antialiasing. The buffers beside the colour are those of the pixels' centres.
 
 References
 ----------
@@ -94,7 +95,7 @@ class DrawnPieces:
         return DrawnPieces(self.pieces.select(keep), self.primitive[keep], color)
 
     def take(self, pieces: Pieces) -> "DrawnPieces":
-        """Return parts of the pieces with what the wholes show; the parts' numbers say which of the (P,) they are of."""
+        """Return parts of the pieces with what the wholes show; the parts' numbers (P,) say which they are of."""
         of = pieces.number
         color = None if self.color is None else self.color[of]
         named = replace(pieces, number=self.pieces.number[of])
@@ -216,7 +217,7 @@ class PiecePainter:
     def _plane_at(
         self, plane: tuple[Floats, Floats, Floats], primitive: Integers, there: DrawnPieces, pieces: Pieces
     ) -> tuple[Floats, Floats, Floats]:
-        """Return a plane's change per column and row, and its value at the centre, for pieces (P,) of primitives (P,)."""
+        """Return a plane's change per column and row, and its value at the centre, for pieces (P,)."""
         pixel = there.pieces.number.take(pieces.number)
         x, y = self._center_x.take(pixel), self._center_y.take(pixel)
         return plane[0].take(primitive), plane[1].take(primitive), plane_value(plane, primitive, x, y)

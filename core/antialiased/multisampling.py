@@ -3,9 +3,9 @@
 Attributes are interpolated and textures looked up at the pixel's centre, whichever samples are covered: there they may
 lie beyond the triangle (OpenGL's default, without ``centroid``). Depth is that of the sample.
 
-The samples of one place in all pixels are a picture of their own: that of the scene moved by the way from the sample to
-the pixel's centre (`core.framebuffer.sample_positions`). A wireframe is not moved: its lines have no area, and cover all
-samples of their pixels, as OpenGL's lines without multisampling do.
+The samples of one place in all pixels are a picture of their own: that of the scene moved by the way from the sample
+to the pixel's centre (`core.framebuffer.sample_positions`). A wireframe is not moved: its lines have no area, and cover
+all samples of their pixels, as OpenGL's lines without multisampling do.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Several samples a pixel: what supersampling and multisampling have in common."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -12,12 +12,13 @@ from functools import partial
 
 import numpy as np
 
+from core.antialiased.centers import draw_geometry
 from core.antialiased.sampled import SampledPicture, resolve_region
 from core.arrays import Integers
 from core.frame import STAGES, Frame, Samples, StageCount
 from core.framebuffer.sample_positions import grid_positions
-from core.methods import method
-from core.pipeline import draw
+from core.geometry_stages import Geometry, process_geometry
+from core.methods import method, table
 from core.raster.schedule import Raster
 from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import Settings
@@ -67,13 +68,31 @@ def supersample(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None, side: int
 ) -> Frame:
     """Draw with ``side`` x ``side`` samples a pixel, a power of two; ``chosen`` (T,) triangles, or all."""
-    finer, plain = finer_scene(scene, side), replace(settings, antialiasing="none")
+    finer, plain = finer_scene(scene, side), finer_settings(settings)
 
     def draw_samples(wide: Raster) -> SampledPicture:
-        bands = [draw(finer, plain, band, chosen) for band in bands_of(finer_raster(wide, side), side, BAND)]
+        bands = []
+        for band in bands_of(finer_raster(wide, side), side, BAND):
+            counts = {stage: StageCount() for stage in STAGES}
+            geometry = in_squares(process_geometry(finer, plain, counts, chosen), settings, side)
+            bands.append(draw_geometry(finer, geometry, plain, band, counts))
         return _join_bands(bands, side)
 
     return resolve_region(draw_samples, grid_positions(side), settings, raster)
+
+
+def finer_settings(settings: Settings) -> Settings:
+    """Return the settings that samples are drawn with: each is in the middle of its square."""
+    return replace(settings, antialiasing="none", pixel_center="half")
+
+
+def in_squares(geometry: Geometry, settings: Settings, side: int) -> Geometry:
+    """Return the geometry of the finer scene, moved so that the squares of pixels begin at whole samples.
+
+    The square of pixel i reaches from i - 1/2 to i + 1/2 where centres are whole numbers.
+    """
+    border = 0.5 - table.get("pixel_center", settings.pixel_center).function()
+    return geometry.moved(border * side, border * side) if border else geometry
 
 
 def finer_scene(scene: AnyScene, side: int) -> AnyScene:
@@ -100,9 +119,7 @@ def finer_raster(raster: Raster, side: int) -> Raster:
     if raster.region is not None:
         columns, rows = end_column - first_column, end_row - first_row
         region = (side * first_column, side * first_row, side * columns, side * rows)
-    # The square of pixel i reaches from i + center - 1/2 to i + center + 1/2.
-    center = side * (raster.center - 0.5) + 0.5
-    return Raster(side * raster.width, side * raster.height, center, region)
+    return Raster(side * raster.width, side * raster.height, region=region)
 
 
 def bands_of(raster: Raster, side: int, most: int) -> Iterator[Raster]:

@@ -1,13 +1,14 @@
 """Pieces of pixels: convex polygons that edges cut a pixel's square into, their areas and centroids.
 
-Coordinates are from the pixel's centre, so a whole square reaches from -1/2 to 1/2. A polygon with fewer corners than the
-array has room for repeats its first corner, which adds nothing to its area.
+Coordinates are from the pixel's centre, so a whole square reaches from -1/2 to 1/2. A polygon with fewer corners than
+the array has room for repeats its first corner, which adds nothing to its area.
 
 Exactness
 ---------
-The value of an edge function at the pixel's centre is exact for snapped corners (`core.raster.edge_functions`); a corner
-made by a cut is rounded to about 2^-53 pixel. Two triangles of an edge cut with the same line, turned over, so what one of
-them leaves outside is what the other finds inside: the pieces of a pixel add up to its area, without gap or overlap.
+The value of an edge function at the pixel's centre is exact for snapped corners (`core.raster.edge_functions`); a
+corner made by a cut is rounded to about 2^-53 pixel. Two triangles of an edge cut with the same line, turned over, so
+what one of them leaves outside is what the other finds inside: the pieces of a pixel add up to its area, without gap or
+overlap.
 
 References
 ----------

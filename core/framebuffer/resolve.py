@@ -115,7 +115,7 @@ def _shifted(length: int, by: int) -> slice:
 
 
 def weighted_mean(samples: Sequence[float], weights: Sequence[float]) -> float:
-    """Return one channel of a pixel (listing of `resolve_samples`): of its samples, those beyond the border left out."""
+    """Return one channel of a pixel (listing of `resolve_samples`); samples beyond the border are left out."""
     total = 0.0
     result = 0.0
     for value, weight in zip(samples, weights, strict=True):

@@ -1,13 +1,12 @@
 """Draw a picture: choose by what the scene holds, draw, and say which way was taken."""
 
-from dataclasses import replace
 from threading import local
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.supersampling import side_of
+from core.antialiased.supersampling import finer_settings, side_of
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
@@ -82,8 +81,10 @@ def draw_picture(
 
     Notes
     -----
-    A supersampled picture is drawn as the bytes of its samples, which are resolved in linear light: up to one byte more
-    away than they are. The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
+    A supersampled picture is drawn as the bytes of its samples, which are resolved in linear light: up to one byte
+    more away than they are.
+
+    The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
     `Route` has the colours ``palette`` or ``deferred``; with ``bytes`` and ``normals`` they are up to one away, with
     ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay between those of
     the corners, where `render` extrapolates.
@@ -101,7 +102,12 @@ def draw_picture(
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
     side = side_of(settings.antialiasing)
-    if side > 1 and not with_depth and is_drawn_by_spans(replace(settings, antialiasing="none")):
+    if (
+        side > 1
+        and not with_depth
+        and settings.pixel_center == "half"
+        and is_drawn_by_spans(finer_settings(settings))
+    ):
         return draw_supersampled(draw_picture, scene, settings, raster, encoding, pixels, arena)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)

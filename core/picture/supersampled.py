@@ -1,7 +1,7 @@
 """A supersampled picture the fast way: the bytes of its samples, drawn as any picture, resolved in linear light.
 
-Bytes end at 1, and light does not: where a pixel has samples as bright as a byte can be beside darker ones, what was cut
-off might have made it brighter. Such pixels are drawn by all buffers instead.
+Bytes end at 1, and light does not: where a pixel has samples as bright as a byte can be beside darker ones, what was
+cut off might have made it brighter. Such pixels are drawn by all buffers instead.
 """
 
 from collections.abc import Callable, Iterator
@@ -10,7 +10,14 @@ from dataclasses import replace
 import numpy as np
 
 from core.antialiased.sampled import grown, inner_of
-from core.antialiased.supersampling import bands_of, finer_raster, finer_scene, samples_by_place, side_of
+from core.antialiased.supersampling import (
+    bands_of,
+    finer_raster,
+    finer_scene,
+    finer_settings,
+    samples_by_place,
+    side_of,
+)
 from core.arrays import Flags, Singles, read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.display import Bytes, from_display
@@ -47,7 +54,7 @@ def draw_supersampled(
         Draws the samples, as a picture of n times the size.
     """
     side = side_of(settings.antialiasing)
-    finer, plain = finer_scene(scene, side), replace(settings, antialiasing="none")
+    finer, plain = finer_scene(scene, side), finer_settings(settings)
     weights = filter_weights(grid_positions(side), settings.resolve_filter)
     counts = {stage: StageCount() for stage in STAGES}
     route = Route("supersampled", "bytes")

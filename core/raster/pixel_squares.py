@@ -72,8 +72,8 @@ def _examine(
     a, b, c = edges.a[primitive], edges.b[primitive], edges.c[primitive]
     value = edge_value(a, b, c, x[:, None], y[:, None])
     reach = (np.abs(a) + np.abs(b)) * 0.5
-    touches = np.flatnonzero((value + reach > 0).all(axis=1))
-    is_whole = (value - reach >= 0).all(axis=1)
+    touches = np.flatnonzero(np.all(value + reach > 0, axis=1))
+    is_whole: Flags = np.all(value - reach >= 0, axis=1)
     return SquareFragments(
         primitive[touches],
         column[touches],

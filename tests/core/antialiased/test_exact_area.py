@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
 from core.antialiased.reference import many_samples
-from tests.core.trace.trace_cases import SCENES
 from tests.core.framebuffer.test_pixel_pieces import area, clipped
+from tests.core.trace.trace_cases import SCENES
 
 STEP = st.integers(-200, 1000)
 CORNERS = st.lists(st.tuples(STEP, STEP), min_size=3, max_size=3)

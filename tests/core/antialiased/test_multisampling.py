@@ -39,7 +39,7 @@ def test_coverage_of_every_sample_is_the_rational_one(drawn):
         in_range = (np.abs(np.asarray(triangle)[:, 2]) <= np.asarray(triangle)[:, 3]).all()
         if not in_range or facing(triangle, (width, height)) == 0:
             continue
-        if (np.abs((np.asarray(triangle)[:, :2] / np.asarray(triangle)[:, 3:])) > 2**10).any():
+        if (np.abs(np.asarray(triangle)[:, :2] / np.asarray(triangle)[:, 3:]) > 2**10).any():
             continue
         lines = edge_signs(triangle, (width, height))
         for sample, (x, y) in enumerate(ROTATED_GRID):
