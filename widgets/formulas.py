@@ -3,7 +3,14 @@
 from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
-from widgets import formulas_frame, formulas_lines, formulas_pixel, formulas_raster, formulas_vertex
+from widgets import (
+    formulas_frame,
+    formulas_lines,
+    formulas_pixel,
+    formulas_raster,
+    formulas_samples,
+    formulas_vertex,
+)
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -13,6 +20,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_lines.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
+    **formulas_samples.FORMULAS,
 }
 """``stage.kind.operation`` to the maker of its formula; all interpolated values share one, ``value``."""
 

@@ -133,7 +133,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "depth.store.depth": depth_stored,
     "blend.over.source": over_source,
     "blend.over.color": over_color,
-    "resolve.encode.clip": display_clipped,
-    "resolve.encode.encode": encoded,
-    "resolve.encode.round": rounded,
+    **{f"resolve.{kind}.clip": display_clipped for kind in ("encode", "average", "areas")},
+    **{f"resolve.{kind}.encode": encoded for kind in ("encode", "average", "areas")},
+    **{f"resolve.{kind}.round": rounded for kind in ("encode", "average", "areas")},
 }

@@ -38,9 +38,16 @@ def _given(label: str, meaning: str, spread: str = "") -> VariableText:
 
 
 _PIXEL = {
-    "column": _given("column", "Column of the pixel, from the left."),
-    "row": _given("row", "Row of the pixel, from the bottom."),
+    "column": _given("column", "Column of the pixel, from the left; of n × n samples that of the sample."),
+    "row": _given("row", "Row of the pixel, from the bottom; of n × n samples that of the sample."),
 }
+_SAMPLE = {
+    "sample": _given("sample", "Which of the pixel's samples it is, counted from 0 at the lower left."),
+    "sample_position": _given(
+        "place in pixel", "Where the sample lies in the pixel, from its lower left corner."
+    ),
+}
+"""Where a pixel has several samples."""
 _CENTRE = {
     "x": _given("x", "x of the pixel's centre, in pixels."),
     "y": _given("y", "y of the pixel's centre, in pixels."),
@@ -181,6 +188,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "raster": {
         **_PIXEL,
+        **_SAMPLE,
         **SPAN_VARIABLES,
         **{
             f"value_{k}": VariableText(f"E{k} (snapped)", "Decision value: above 0 is inside.", edge=k)
@@ -208,6 +216,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "interpolate": {
         **_PIXEL,
+        **_SAMPLE,
         **_CENTRE,
         "numerators": VariableText("n#", "Edge function of the corners as they are.", spread="edges"),
         "total": VariableText("sum of n", "All three together."),
@@ -226,6 +235,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "shade": {
         **_PIXEL,
+        **_SAMPLE,
         "uv": _given("u, v", "Texture coordinates."),
         "texture_size": _given("texture size", "Texels from left to right and from bottom to top."),
         "texel_position": VariableText("texture place", "Texture coordinates counted in texels."),
@@ -248,6 +258,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "depth": {
         **_PIXEL,
+        **_SAMPLE,
         "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText("new value", "What the depth method stores of the fragment."),
@@ -266,12 +277,19 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "blend": {
         **_PIXEL,
+        **_SAMPLE,
         "source": VariableText("fragment colour", "Linear red, green, blue and straight alpha."),
         "before": VariableText("buffer before", "What the colour buffer held."),
         "after": VariableText("colour buffer", "What the colour buffer holds.", previous="before"),
     },
     "resolve": {
         **_PIXEL,
+        "samples": VariableText(
+            "colour #", "Linear red, green, blue, alpha of the sample or piece.", spread="parts"
+        ),
+        "sample_weights": VariableText(
+            "weight #", "What the sample weighs, or the area of the piece.", spread="parts"
+        ),
         "linear": VariableText("linear", "Linear red, green, blue, alpha of the colour buffer."),
         "clipped": VariableText("cut off", "Red, green, blue between 0 and 1."),
         "encoded": VariableText("sRGB", "Red, green, blue on the sRGB curve."),

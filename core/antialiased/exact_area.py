@@ -15,7 +15,9 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978.
 L. Carpenter, *The A-buffer, an antialiased hidden surface method*, 1984.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -69,10 +71,13 @@ def draw_exact_areas(
     color = np.empty((*raster.shape, 4), np.float32)
     color[:] = scene.background
     for band in bands_of(raster, 1, BAND):
-        pixel, mean = area_colors(scene, geometry, settings, band, counts)
-        first = (band.bounds[1] - raster.bounds[1]) * raster.shape[1]
-        color.reshape(-1, 4)[pixel + first] = mean
+        pieces = draw_pieces(scene, geometry, settings, band, counts)
+        with timed(counts["resolve"]):
+            of_band = color[band.bounds[1] - raster.bounds[1] :][: band.shape[0]].reshape(-1, 4)
+            of_band[pieces.touched] = sum_areas(pieces, len(of_band))[pieces.touched]
     counts["resolve"].incoming, counts["resolve"].outgoing = counts["shade"].outgoing, frame.depth.size
+    counts["bin"].incoming, counts["bin"].outgoing = counts["edges"].outgoing, counts["raster"].incoming
+    counts["blend"].incoming = counts["blend"].outgoing = counts["depth"].outgoing
     for stage, count in frame.statistics.items():
         counts[stage].seconds += count.seconds
     return replace(frame, color=read_only(color), statistics=counts)
@@ -112,10 +117,25 @@ def join_drawn(parts: list[DrawnPieces]) -> DrawnPieces:
     )
 
 
-def area_colors(
+class ColoredPieces(NamedTuple):
+    """All pieces of the pixels that triangles touch, when everything is drawn."""
+
+    pixel: Integers
+    """(P,) int64, place of each piece's pixel in flattened buffers."""
+    area: Floats
+    """(P,) float64; those of a pixel add up to 1."""
+    primitive: Integers
+    """(P,) int64, what is seen, -1: the background."""
+    color: Singles
+    """(P, 4) float32."""
+    touched: Integers
+    """(U,) int64, the pixels."""
+
+
+def draw_pieces(
     scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
-) -> tuple[Integers, Singles]:
-    """Return the pixels (U,) that triangles touch, and the mean colours (U, 4) float32 over their squares."""
+) -> ColoredPieces:
+    """Cut the pixels of a raster and draw into their pieces."""
     with timed(counts["raster"]):
         squares, tested = touched_squares(geometry.edges, raster)
         counts["raster"].incoming += tested
@@ -123,12 +143,28 @@ def area_colors(
         stacks = stack_fragments(raster.index(squares.column, squares.row))
     painter = PiecePainter(scene, geometry, settings, raster, squares, stacks, counts)
     drawn = painter.draw()
-    color = painter.final_colors(drawn)
-    with timed(counts["resolve"]):
-        area, number, count = area_of(drawn.pieces), drawn.pieces.number, len(stacks.pixel)
-        with np.errstate(invalid="ignore", over="ignore"):
-            sums = [np.bincount(number, area * color[:, channel], count) for channel in range(4)]
-            return stacks.pixel, np.stack(sums, axis=1).astype(np.float32)
+    pixel = stacks.pixel.take(drawn.pieces.number)
+    return ColoredPieces(
+        pixel, area_of(drawn.pieces), drawn.primitive, painter.final_colors(drawn), stacks.pixel
+    )
+
+
+def sum_areas(pieces: ColoredPieces, pixel_count: int) -> Singles:
+    """Return the sums (H*W, 4) float32 of colours times areas; 0 where nothing is touched."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        sums = [
+            np.bincount(pieces.pixel, pieces.area * pieces.color[:, channel], pixel_count)
+            for channel in range(4)
+        ]
+        return np.stack(sums, axis=1).astype(np.float32)
+
+
+def piece_sum(areas: Sequence[float], values: Sequence[float]) -> float:
+    """Return one channel of a pixel (listing of `sum_areas`)."""
+    result = 0.0
+    for area, value in zip(areas, values, strict=True):
+        result += area * value  #: sum
+    return float(np.float32(result))  #: store
 
 
 class PiecePainter:
