@@ -16,6 +16,8 @@ VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "compare")
 """Names of the main views."""
 TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
+SAMPLES = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16}
+"""Samples of a pixel, each of which is stepped."""
 LONGEST_RUN = 1_500_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
 TESTS_PER_SECOND = 250_000
@@ -83,7 +85,7 @@ class Document:
     def most_tests(self) -> int:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
-        pixels = self.raster.columns * self.raster.rows
+        pixels = self.raster.columns * self.raster.rows * SAMPLES.get(self.settings.antialiasing, 1)
         if self.settings.fill == "brute-force" and self.settings.polygon_mode == "fill":
             return triangles * pixels
         return min(triangles, 60) * pixels // 4

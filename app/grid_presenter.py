@@ -78,6 +78,8 @@ class GridPresenter(QObject):
         """Show another run: outlines, rulers, buffers."""
         session = self._session
         self._grid.set_pixel_center(session.document.settings.pixel_center)
+        samples = session.trace.source.picture.samples
+        self._grid.show_samples(None if samples is None else samples.position)
         self._show_outlines()
         self.refresh_step()
         self.refresh_pointing()

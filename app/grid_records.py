@@ -114,6 +114,9 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
     if stage.stage not in ("bin", "raster"):
         return None
     bins = trace.stage("bin")
+    if "sample" in bins.columns:
+        # Every sample has blocks of its own: over each other they would show nothing.
+        return None
     done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
     first_column, first_row, end_column, end_row = trace.source.raster.bounds
     columns = bins.columns
@@ -178,7 +181,7 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
 
 def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverlay | None:
     """Return the spans of a scanline fill that are known by now."""
-    if stage.stage != "raster":
+    if stage.stage != "raster" or "sample" in stage.columns:
         return None
     done = stage.steps.rows_done(position)
     kinds = np.array([kind in ("span", "lane-row", "line") for kind in stage.steps.kinds])

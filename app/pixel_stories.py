@@ -37,7 +37,10 @@ def story_of(
         entries.append(HistoryEntry(sentence, is_rejected=True))
         triangles.append(None)
     mark = Mark.COVERED if history.final.triangle >= 0 else Mark.REJECTED
-    story = PixelStory(column, row, verdict_sentence(history), mark, tuple(entries))
+    verdict = verdict_sentence(history)
+    if source.settings.antialiasing != "none":
+        verdict = f"At the pixel's centre, whatever its samples are: {verdict}"
+    story = PixelStory(column, row, verdict, mark, tuple(entries))
     return story, triangles
 
 

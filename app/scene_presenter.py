@@ -145,6 +145,8 @@ def _no_effect(document: Document, family: str) -> str:
         return "Wireframes are not filled."
     if family == "line" and not wireframe:
         return "Lines are drawn where polygons are wireframes."
+    if family == "resolve_filter" and settings.antialiasing in ("none", "area"):
+        return "Only several samples a pixel are filtered."
     if family == "provoking" and settings.interpolation != "flat":
         return "Only flat interpolation takes one corner's value."
     if family in ("texture_filter", "wrap"):

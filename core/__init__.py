@@ -13,6 +13,7 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 * Colours are linear in the core, sRGB only for display and in files; alpha is straight in inputs.
 """
 
+from core.antialiased import centers, exact_area, multisampling, supersampling  # noqa: F401  (they register)
 from core.fragments import corrected_affine  # noqa: F401  (it registers)
 from core.frame import STAGES, Frame
 from core.framebuffer import depth_formats  # noqa: F401  (it registers)

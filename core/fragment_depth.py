@@ -5,7 +5,7 @@ It joins geometry, outlines and the formats of the depth buffer; picture, trace 
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import plane_value
 from core.framebuffer.depth import DepthFormat, Stored, clamp_depth
 from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, logarithmic_depth
@@ -28,26 +28,45 @@ def fragment_depth(
     keeps : (F,) bool, False too where 1/w or its logarithm is stored and 1/w shows a point behind the eye
     stored : (F,) of the format's ``stored_type``
     """
-    if isinstance(fragments, LineFragments):
-        outlines = outlines_of(geometry)
-        depth = line_depth(outlines, fragments, raster.center)
-        is_in_range = outlines.is_in_range.take(fragments.segment)
-    else:
+    if not isinstance(fragments, LineFragments):
         x, y = raster.centers(fragments.column, fragments.row)
-        depth = plane_value(geometry.depth_plane, fragments.primitive, x, y)
-        is_in_range = geometry.is_in_range.take(fragments.primitive)
-    depth, keeps = clamp_depth(depth, is_in_range)
-    if depth_format.quantity == "z":
-        stored = depth_format.store(depth)
-        if depth_format.is_planar and not isinstance(fragments, LineFragments):
+        depth, keeps, stored = depth_at(geometry, fragments.primitive, x, y, depth_format)
+        if depth_format.is_planar:
             fixed = geometry.fixed_planes
             on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
             stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
         return depth, keeps, stored
+    outlines = outlines_of(geometry)
+    depth = line_depth(outlines, fragments, raster.center)
+    depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
     value = fragment_quantity(geometry, fragments, raster, depth_format.quantity)
     if depth_format.quantity != "reversed-z":
         keeps &= fragment_inverse_w(geometry, fragments, raster) > 0
     return depth, keeps, depth_format.store(value)
+
+
+def depth_at(
+    geometry: Geometry, primitive: Integers, x: Floats, y: Floats, depth_format: DepthFormat
+) -> tuple[Floats, Flags, Stored]:
+    """Return depth, whether it is in range, and what would be stored, (F,) each, of primitives at window positions."""
+    depth = plane_value(geometry.depth_plane, primitive, x, y)
+    depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
+    value = quantity_at(geometry, primitive, x, y, depth_format.quantity)
+    if depth_format.quantity != "reversed-z":
+        keeps &= plane_value(geometry.inverse_w_plane, primitive, x, y) > 0
+    return depth, keeps, depth_format.store(value)
+
+
+def quantity_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats, quantity: str) -> Floats:
+    """Return what a depth method stores in the place of z, (F,) float64, of primitives at window positions (F,)."""
+    if quantity == "reversed-z":
+        return plane_value(geometry.reversed_plane, primitive, x, y)
+    inverse_w = plane_value(geometry.inverse_w_plane, primitive, x, y)
+    return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
 
 
 def fragment_quantity(geometry: Geometry, fragments: Fragments, raster: Raster, quantity: str) -> Floats:
@@ -55,8 +74,11 @@ def fragment_quantity(geometry: Geometry, fragments: Fragments, raster: Raster, 
 
     ``quantity`` is that of `DepthFormat`, ``inverse-w``, ``logarithm`` or ``reversed-z``.
     """
+    if not isinstance(fragments, LineFragments):
+        x, y = raster.centers(fragments.column, fragments.row)
+        return quantity_at(geometry, fragments.primitive, x, y, quantity)
     if quantity == "reversed-z":
-        return _reversed_depth(geometry, fragments, raster)
+        return _reversed_along(geometry, fragments, raster)
     inverse_w = fragment_inverse_w(geometry, fragments, raster)
     return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
 
@@ -66,14 +88,11 @@ def logarithm_range(geometry: Geometry) -> tuple[float, float]:
     return geometry.vertices.view_range or (NEAREST_W, FARTHEST_W)
 
 
-def _reversed_depth(geometry: Geometry, fragments: Fragments, raster: Raster) -> Floats:
-    """Return the reversed depth (F,) of fragments; along an outline it goes linearly from end to end."""
-    if isinstance(fragments, LineFragments):
-        outlines = outlines_of(geometry)
-        t = line_parameter(outlines, fragments, raster.center)
-        return interpolate_line(fragments.segment, t, reversed_ends(geometry, outlines)[..., None])[:, 0]
-    x, y = raster.centers(fragments.column, fragments.row)
-    return plane_value(geometry.reversed_plane, fragments.primitive, x, y)
+def _reversed_along(geometry: Geometry, fragments: LineFragments, raster: Raster) -> Floats:
+    """Return the reversed depth (F,) of fragments of outlines: it goes linearly from end to end."""
+    outlines = outlines_of(geometry)
+    t = line_parameter(outlines, fragments, raster.center)
+    return interpolate_line(fragments.segment, t, reversed_ends(geometry, outlines)[..., None])[:, 0]
 
 
 def reversed_ends(geometry: Geometry, outlines: Outlines) -> Floats:

@@ -1,7 +1,7 @@
 """The record of the stages before the raster; what only some pictures need is computed when it is first asked for."""
 
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -58,6 +58,13 @@ class Geometry:
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels x and y are moved against the scene: another place of the pixels is then at their centres."""
+
+    def moved(self, x: float, y: float) -> "Geometry":
+        """Return the geometry ``x`` and ``y`` pixels further; exact where they are multiples of 1/256."""
+        window = replace(self.window, x=self.window.x + x, y=self.window.y + y)
+        return replace(self, window=window, shift=(self.shift[0] + x, self.shift[1] + y))
 
     def counted_in(self, count: StageCount) -> "Geometry":
         """Return the same geometry, whose time from now on is added to ``count``; what is computed stays so."""
@@ -101,7 +108,8 @@ class Geometry:
     def corners(self) -> CornerPositions:
         """The corners of the primitives in the homogeneous window and on the lattice."""
         with timed(self.count):
-            return place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
+            placed = place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
+            return placed.moved(*self.shift) if any(self.shift) else placed
 
     @cached_property
     def edges(self) -> EdgeFunctions:
@@ -151,7 +159,7 @@ class Geometry:
         with timed(self.count):
             vertices = self.vertices
             clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
-            return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None)
+            return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None, self.shift)
 
     @cached_property
     def outlines(self) -> Outlines | None:

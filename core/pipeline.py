@@ -10,22 +10,16 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Floats, Integers, Singles, read_only
-from core.blend_choice import blend_choice
+from core.arrays import Floats, Integers
 from core.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
 from core.fragments.interpolation import Interpolator, interpolate
-from core.frame import STAGES, Frame, StageCount
-from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, Stored
-from core.framebuffer.nearest import NearestFragments
+from core.frame import Frame, StageCount
 from core.geometry_stages import Geometry, process_geometry, timed
-from core.hidden_surfaces import DecidedFragments, decide_fragments
 from core.methods import table
 from core.raster.binning import bound
-from core.raster.coverage import Fragments, cover, join_fragments
+from core.raster.coverage import Fragments, cover
 from core.raster.edge_functions import EdgeFunctions
 from core.raster.fills import suited_fill
-from core.raster.line_intensities import weigh_alpha, writes_depth
 from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
 from core.raster.wireframe import (
     LineFragments,
@@ -145,68 +139,9 @@ def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Int
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
-    counts = {stage: StageCount() for stage in STAGES}
-    geometry = process_geometry(scene, settings, counts, chosen)
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    pixel_count = raster.shape[0] * raster.shape[1]
-    cover_count = np.zeros(pixel_count, np.int32)
-    owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
-    nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
-    kept: list[tuple[Fragments, Stored]] = []
-    blend, counts["blend"].note = blend_choice(settings)
-    keeps_all = geometry.casts_rays or blend != "opaque"
-
-    # Coverage and depth of every fragment, in batches.
-    cover_primitives = covered if geometry.outlines is None else _outlined
-    for fragments in cover_primitives(geometry, settings, raster, counts):
-        with timed(counts["depth"]):
-            _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
-            if not keeps.all():
-                fragments, stored = fragments.select(keeps), stored[keeps]
-            pixel = raster.index(fragments.column, fragments.row)
-            np.add.at(cover_count, pixel, np.int32(1))
-            counts["depth"].incoming += len(pixel)
-            if keeps_all:
-                kept.append((fragments, stored))
-            if not geometry.casts_rays:
-                writes = writes_depth(fragments)
-                if writes is not None:
-                    pixel, fragments, stored = pixel[writes], fragments.select(writes), stored[writes]
-                nearest.add(pixel, owner_of(fragments), stored)
-
-    # What is seen; attributes and colour once per visible pixel.
-    with timed(counts["depth"]):
-        decided = _decide(kept, geometry, raster, depth_format) if keeps_all else None
-        pixel, owner, depth = nearest.resolve()
-        if geometry.casts_rays and decided is not None:
-            pixel, last = decided.last_passing(raster)
-            owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
-        counts["depth"].outgoing = len(pixel)
-    seen = fragments_of(geometry, owner, *raster.position(pixel))
-    values = _interpolate(geometry, settings, raster, seen, counts["interpolate"])
-    color = np.empty((len(depth), 4), np.float32)
-    color[:] = scene.background
-    if decided is None or blend == "opaque":
-        color[pixel] = _shade(scene, geometry, settings, raster, seen, values, counts["shade"])
-        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
-    else:
-        _blend(color, scene, geometry, settings, raster, decided, counts)
-
-    # Buffers of the frame.
-    with timed(counts["resolve"]):
-        identity = np.full(len(depth), -1, np.int32)
-        identity[pixel] = geometry.primitives.triangle[seen.primitive]
-        attributes = np.zeros((len(depth), values.shape[1]), np.float32)
-        attributes[pixel] = values
-        counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
-    return Frame(
-        color=read_only(color.reshape(*raster.shape, 4)),
-        depth=read_only(depth.reshape(raster.shape)),
-        primitive=read_only(identity.reshape(raster.shape)),
-        attributes=read_only(attributes.reshape(*raster.shape, values.shape[1])),
-        cover_count=read_only(cover_count.reshape(raster.shape)),
-        statistics=counts,
-    )
+    antialiased = table.get("antialiasing", settings.antialiasing).function
+    frame: Frame = antialiased(scene, settings, raster, chosen)
+    return frame
 
 
 def covered(
@@ -252,7 +187,7 @@ def _timed_batches(batches: Iterator[Batch], count: StageCount) -> Iterator[Batc
         yield batch
 
 
-def _outlined(
+def outlined(
     geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
 ) -> Iterator[Fragments]:
     """Yield the pixels of the outlines of all primitives."""
@@ -265,7 +200,7 @@ def _outlined(
         yield fragments
 
 
-def _interpolate(
+def interpolate_fragments(
     geometry: Geometry, settings: Settings, raster: Raster, fragments: Fragments, count: StageCount
 ) -> Floats:
     """Return the interpolated values (F, K) float64 of fragments."""
@@ -278,7 +213,7 @@ def _interpolate(
         return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
 
 
-def _shade(
+def shade_values(
     scene: AnyScene,
     geometry: Geometry,
     settings: Settings,
@@ -293,46 +228,6 @@ def _shade(
         mesh = geometry.primitives.mesh[fragments.primitive]
         slopes = texture_slopes(geometry, settings, raster, fragments, values)
         return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values, slopes).color
-
-
-def _decide(
-    kept: list[tuple[Fragments, Stored]], geometry: Geometry, raster: Raster, depth_format: DepthFormat
-) -> DecidedFragments:
-    """Put the fragments of all batches in drawing order, and find out which of them pass."""
-    if not kept:
-        none = np.empty(0, np.int64)
-        empty = np.empty(0, depth_format.stored_type)
-        return decide_fragments(
-            geometry, fragments_of(geometry, none, none, none), empty, raster, depth_format
-        )
-    fragments = join_fragments([f for f, _ in kept])
-    stored = np.concatenate([s for _, s in kept])
-    owner = owner_of(fragments)
-    if (owner[1:] < owner[:-1]).any():
-        order = np.argsort(owner, kind="stable")
-        fragments, stored = fragments.take(order), stored[order]
-    return decide_fragments(geometry, fragments, stored, raster, depth_format)
-
-
-def _blend(
-    color: Singles,
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    decided: DecidedFragments,
-    counts: dict[str, StageCount],
-) -> None:
-    """Blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
-    passes = decided.passes
-    fragments = decided.fragments.select(passes)
-    values = _interpolate(geometry, settings, raster, fragments, counts["interpolate"])
-    source = _shade(scene, geometry, settings, raster, fragments, values, counts["shade"])
-    with timed(counts["blend"]):
-        source = weigh_alpha(source, fragments)
-        rule = table.get("blend", blend_choice(settings)[0]).function
-        blend_stacks(color, source, np.cumsum(passes) - 1, decided.stacks, passes, rule)
-        counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
 
 
 CHUNK = 1 << 22

@@ -34,6 +34,8 @@ class Settings:
     visibility: str = "z-buffer"
     depth: str = "z-float32"
     blend: str = "opaque"
+    antialiasing: str = "none"
+    resolve_filter: str = "box"
     block_size: int = 8
     """Pixels on a side of a block (fills by blocks), 1 to 256."""
     correction_interval: int = 16

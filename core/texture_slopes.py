@@ -1,6 +1,6 @@
 """How texture coordinates change from pixel to pixel, over areas and along the lines of a wireframe."""
 
-from core.arrays import Floats
+from core.arrays import Floats, Integers
 from core.fragments.textures import uses_mipmaps
 from core.fragments.uv_slopes import uv_slopes
 from core.geometry_record import Geometry
@@ -18,16 +18,28 @@ def texture_slopes(
 
     ``None`` where no texture is looked up, or the texture filter does not ask for them.
     """
-    layout, interpolation = geometry.primitives.layout, settings.interpolation
-    if "uv" not in layout or not uses_mipmaps(settings.texture_filter):
-        return None
+    interpolation = settings.interpolation
     if isinstance(fragments, LineFragments) and interpolation != "flat":
+        if not _asks_for_slopes(geometry, settings):
+            return None
         assert geometry.outlines is not None
-        varyings = geometry.primitives.varyings[..., layout["uv"]]
+        varyings = geometry.primitives.varyings[..., geometry.primitives.layout["uv"]]
         slopes = line_slopes(geometry.outlines, varyings, fragments, raster.center, interpolation)
         return slopes.reshape(4, len(fragments))
     x, y = raster.centers(fragments.column, fragments.row)
-    uv = values[:, layout["uv"]]
-    return uv_slopes(
-        geometry.planes, geometry.primitives.values, fragments.primitive, x, y, uv, interpolation
-    )
+    return slopes_at(geometry, settings, fragments.primitive, x, y, values)
+
+
+def slopes_at(
+    geometry: Geometry, settings: Settings, primitive: Integers, x: Floats, y: Floats, values: Floats
+) -> Floats | None:
+    """Return the same (4, F), or ``None``, for primitives at window positions (F,)."""
+    if not _asks_for_slopes(geometry, settings):
+        return None
+    uv = values[:, geometry.primitives.layout["uv"]]
+    how = settings.interpolation
+    return uv_slopes(geometry.planes, geometry.primitives.values, primitive, x, y, uv, how)
+
+
+def _asks_for_slopes(geometry: Geometry, settings: Settings) -> bool:
+    return "uv" in geometry.primitives.layout and uses_mipmaps(settings.texture_filter)

@@ -9,6 +9,7 @@ from widgets import (
     formulas_numbers,
     formulas_pixel,
     formulas_raster,
+    formulas_samples,
     formulas_smooth_lines,
     formulas_vertex,
 )
@@ -23,6 +24,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
     **formulas_smooth_lines.BLEND_FORMULAS,
+    **formulas_samples.FORMULAS,
 }
 """``stage.kind.operation`` to the maker of its formula; all interpolated values share one, ``value``."""
 

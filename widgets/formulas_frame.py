@@ -127,7 +127,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     "blend.over.color": over_color,
     "blend.additive.source": additive_source,
     "blend.additive.color": additive_color,
-    "resolve.encode.clip": display_clipped,
-    "resolve.encode.encode": encoded,
-    "resolve.encode.round": rounded,
+    **{f"resolve.{kind}.clip": display_clipped for kind in ("encode", "average", "areas")},
+    **{f"resolve.{kind}.encode": encoded for kind in ("encode", "average", "areas")},
+    **{f"resolve.{kind}.round": rounded for kind in ("encode", "average", "areas")},
 }

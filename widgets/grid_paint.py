@@ -61,7 +61,7 @@ def paint_lines(
         painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
         painter.fillRect(shown, QBrush(cell_tile(cell, round(strength, 2), has_centre, theme, ratio)))
         painter.restore()
-    if samples is not None and cell >= CENTRE_CELL:
+    if samples is not None and cell >= CENTRE_CELL * len(samples) ** 0.5:
         _paint_samples(painter, placement, samples)
 
 

@@ -17,6 +17,7 @@ from widgets import (
     sentences_numbers,
     sentences_pixel,
     sentences_raster,
+    sentences_samples,
     sentences_smooth_lines,
     sentences_vertex,
 )
@@ -31,6 +32,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_lines.SENTENCES,
     **sentences_pixel.SENTENCES,
     **sentences_smooth_lines.BLEND_SENTENCES,
+    **sentences_samples.SENTENCES,
 }
 """``stage.kind.operation`` to the maker of its sentence; all interpolated values share one, ``value``."""
 

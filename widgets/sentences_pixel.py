@@ -249,6 +249,8 @@ _LIGHT: Mapping[str, Callable[[StepValues], str]] = {
     "product": product,
 }
 
+RESOLVED = ("encode", "average", "areas")
+"""Kinds of pixels that are resolved: of one sample, of several, of pieces."""
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **{f"interpolate.{kind}.numerators": numerators for kind in ("perspective", "affine")},
     **{f"interpolate.{kind}.total": total for kind in ("perspective", "affine")},
@@ -272,7 +274,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     "blend.additive.source": additive_source,
     "blend.additive.color": additive_color,
     "blend.additive.write": over_written,
-    "resolve.encode.clip": display_clipped,
-    "resolve.encode.encode": encoded,
-    "resolve.encode.round": rounded,
+    **{f"resolve.{kind}.clip": display_clipped for kind in RESOLVED},
+    **{f"resolve.{kind}.encode": encoded for kind in RESOLVED},
+    **{f"resolve.{kind}.round": rounded for kind in RESOLVED},
 }

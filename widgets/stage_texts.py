@@ -94,11 +94,11 @@ STAGE_CARDS: Mapping[str, StageCard] = {
         source="Porter and Duff 1984; Pellacini, Framebuffer processing",
     ),
     "resolve": StageCard(
-        title="Resolve: from light to display bytes",
-        gets="The colour buffer in linear light.",
-        gives="Red, green and blue as sRGB bytes, alpha as it is.",
-        purpose="Screens want their numbers on the sRGB curve, which spends them where the eye is keen.",
-        source="IEC 61966-2-1, sRGB, 1999",
+        title="Resolve: from samples and light to display bytes",
+        gets="The colour buffer in linear light, every sample of it.",
+        gives="One colour a pixel: red, green and blue as sRGB bytes, alpha as it is.",
+        purpose="Averages the samples of a pixel, and puts the mean on the sRGB curve that screens want.",
+        source="LMU 2020, Supersampling and multisampling; IEC 61966-2-1, sRGB, 1999",
     ),
 }
 """The cards of all stages."""
@@ -122,6 +122,8 @@ FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
     "visibility": ("Visibility", "Framebuffer"),
     "depth": ("Depth", "Framebuffer"),
     "blend": ("Blending", "Framebuffer"),
+    "antialiasing": ("Antialiasing", "Framebuffer"),
+    "resolve_filter": ("Resolve by", "Framebuffer"),
 }
 """What the families of methods are called, and the heading that they stand under."""
 

@@ -60,6 +60,8 @@ class StepValues:
     def pixel_name(self) -> str:
         """The pixel as it is called in a sentence."""
         column, row = self.pixel
+        if self.has("sample") and self.whole("sample") >= 0:
+            return f"Sample {self.whole('sample')} of pixel ({column}, {row})"
         return f"Pixel ({column}, {row})"
 
     def has(self, *names: str) -> bool:

@@ -20,9 +20,16 @@ def _given(label: str, meaning: str, spread: str = "") -> VariableText:
 
 
 _PIXEL = {
-    "column": _given("column", "Column of the pixel, from the left."),
-    "row": _given("row", "Row of the pixel, from the bottom."),
+    "column": _given("column", "Column of the pixel, from the left; of n × n samples that of the sample."),
+    "row": _given("row", "Row of the pixel, from the bottom; of n × n samples that of the sample."),
 }
+_SAMPLE = {
+    "sample": _given("sample", "Which of the pixel's samples it is, counted from 0 at the lower left."),
+    "sample_position": _given(
+        "place in pixel", "Where the sample lies in the pixel, from its lower left corner."
+    ),
+}
+"""Where a pixel has several samples."""
 _CENTRE = {
     "x": _given("x", "x of the pixel's centre, in pixels."),
     "y": _given("y", "y of the pixel's centre, in pixels."),
@@ -174,6 +181,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "raster": {
         **_PIXEL,
+        **_SAMPLE,
         **SPAN_VARIABLES,
         **{
             f"before_{k}": _given(f"E{k} before", "Value at the neighbour that it is reached from.")
@@ -205,6 +213,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "interpolate": {
         **_PIXEL,
+        **_SAMPLE,
         **_CENTRE,
         "numerators": VariableText("n#", "Edge function of the corners as they are.", spread="edges"),
         "total": VariableText("sum of n", "All three together."),
@@ -224,6 +233,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "shade": {
         **_PIXEL,
+        **_SAMPLE,
         "uv": _given("u, v", "Texture coordinates."),
         "texture_size": _given("texture size", "Texels from left to right and from bottom to top."),
         "texel_position": VariableText("texture place", "Texture coordinates counted in texels."),
@@ -247,10 +257,12 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "depth": {
         **_PIXEL,
+        **_SAMPLE,
         **DEPTH_VARIABLES,
     },
     "blend": {
         **_PIXEL,
+        **_SAMPLE,
         "color": VariableText("shaded colour", "Linear red, green, blue and straight alpha, as shaded."),
         "intensity": VariableText("intensity", "Share of the line's colour that the pixel gets."),
         "source": VariableText("fragment colour", "Linear red, green, blue and straight alpha."),
@@ -259,6 +271,12 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "resolve": {
         **_PIXEL,
+        "samples": VariableText(
+            "colour #", "Linear red, green, blue, alpha of the sample or piece.", spread="parts"
+        ),
+        "sample_weights": VariableText(
+            "weight #", "What the sample weighs, or the area of the piece.", spread="parts"
+        ),
         "linear": VariableText("linear", "Linear red, green, blue, alpha of the colour buffer."),
         "clipped": VariableText("cut off", "Red, green, blue between 0 and 1."),
         "encoded": VariableText("sRGB", "Red, green, blue on the sRGB curve."),

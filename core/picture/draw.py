@@ -6,6 +6,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from core.antialiased.supersampling import finer_settings, side_of
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
@@ -20,6 +21,7 @@ from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Picture, Route, Split
+from core.picture.supersampled import draw_supersampled
 from core.picture.textured import texture_colors
 from core.picture.visible import find_visible
 from core.pipeline import draw
@@ -80,6 +82,9 @@ def draw_picture(
 
     Notes
     -----
+    A supersampled picture is drawn as the bytes of its samples, which are resolved in linear light: up to one byte
+    more away than they are.
+
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
     `Route` has the colours ``palette`` or ``deferred``; with ``bytes`` and ``normals`` they are up to one away, with
     ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay between those of
@@ -97,6 +102,14 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
+    side = side_of(settings.antialiasing)
+    if (
+        side > 1
+        and not with_depth
+        and settings.pixel_center == "half"
+        and is_drawn_by_spans(finer_settings(settings))
+    ):
+        return draw_supersampled(draw_picture, scene, settings, raster, encoding, pixels, arena)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     geometry = process_geometry(scene, settings, counts, raster=raster)
@@ -174,10 +187,10 @@ def _choose_colors(job: Job) -> Colors | None:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether spans can draw a picture with these settings: all filled, in numbers that suit, no rays cast."""
+    """Tell whether spans can draw with these settings: all filled, at centres, in numbers that suit, without rays."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
     suits_spans = number_format(settings.coverage).suits_spans and settings.visibility != "ray-casting"
-    return settings.fill == "spans" and not is_outlined and suits_spans
+    return settings.fill == "spans" and not is_outlined and suits_spans and settings.antialiasing == "none"
 
 
 def _key(scene: AnyScene) -> Mesh | ClipScene:

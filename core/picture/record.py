@@ -29,7 +29,8 @@ class Route:
 
     visibility: str
     """``layer``: no pixel belongs to two triangles, so none is hidden; ``words``: nearest of all fragments;
-    ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``."""
+    ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``; ``supersampled``: a
+    picture of all samples, drawn by any of these, and resolved."""
     color: str
     """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
     lit once per visible pixel; ``texture``: packed texels in bands; ``deferred``: attributes and light once per visible

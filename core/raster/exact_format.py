@@ -40,9 +40,13 @@ class ExactFormat(NumberFormat):
 
     def set_up(self, corners: CornerPositions) -> Coefficients:
         """Return the edge functions of P triangles, (P, 3) whole numbers each, in units that suit all corners."""
-        shift = unit_shift(corners.clip) + (LATTICE_BITS if self.uses_lattice else 0)
+        shift = unit_shift(corners.clip) + (LATTICE_BITS if self._is_fine(corners) else 0)
         fitted = self.scaled(-2 * shift - 1, -2 * shift - 2, -3 * shift - 2)
         return NumberFormat.set_up(fitted, corners)
+
+    def _is_fine(self, corners: CornerPositions) -> bool:
+        """Tell whether corners are counted in 1/256 of half a pixel: some have places there."""
+        return self.uses_lattice or any(corners.shift)
 
     def held_corners(self, corners: CornerPositions) -> tuple[Held, Held, Held]:
         """Return x, y, w (3, P) of the homogeneous window in half pixels: (x + w) width, (y + w) height, w."""
@@ -53,10 +57,13 @@ class ExactFormat(NumberFormat):
         )
         width, height = corners.size
         x, y = (x + w) * width, (y + w) * height
-        if not self.uses_lattice:
+        if not self._is_fine(corners):
             return x, y, w
         # Twice the position in 1/256 pixel, times w, is a whole number of the unit divided by 2^7.
-        x, y, unit = x << LATTICE_BITS, y << LATTICE_BITS, w << LATTICE_BITS
+        moved_x, moved_y = (int(SUBPIXELS * way) for way in corners.shift)
+        x, y, unit = (x << LATTICE_BITS) + moved_x * w, (y << LATTICE_BITS) + moved_y * w, w << LATTICE_BITS
+        if not self.uses_lattice:
+            return x, y, unit
         is_snapped = corners.is_projected.T
         place = np.where(corners.is_projected[..., None], corners.decided * SUBPIXELS, 0).transpose(2, 1, 0)
         snapped_x, snapped_y = place.astype(np.int64).astype(object) * w

@@ -7,7 +7,7 @@ fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is dr
 in which numbers the edges are computed, is up to the number format (``number_format``).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,17 +38,31 @@ class CornerPositions:
     """Width and height of the image in pixels."""
     coverage: str
     """The method of the family ``coverage``: in which numbers edges are set up."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels all but ``clip`` is moved, multiples of 1/256."""
 
     def take(self, at: Integers | slice) -> "CornerPositions":
         """Return the corners of the triangles ``at`` (C,)."""
-        return CornerPositions(
-            self.homogeneous[at],
-            self.window[at],
-            self.decided[at],
-            self.is_projected[at],
-            self.clip[at],
-            self.size,
-            self.coverage,
+        return replace(
+            self,
+            homogeneous=self.homogeneous[at],
+            window=self.window[at],
+            decided=self.decided[at],
+            is_projected=self.is_projected[at],
+            clip=self.clip[at],
+        )
+
+    def moved(self, x: float, y: float) -> "CornerPositions":
+        """Return the corners ``x`` and ``y`` pixels further; what is snapped moves exactly by multiples of 1/256."""
+        way = np.array([x, y])
+        homogeneous = self.homogeneous.copy()
+        homogeneous[..., :2] += way * self.homogeneous[..., 2:]
+        return replace(
+            self,
+            homogeneous=homogeneous,
+            window=self.window + way,
+            decided=self.decided + way,
+            shift=(self.shift[0] + x, self.shift[1] + y),
         )
 
 

@@ -4,18 +4,21 @@
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from core.frame import STAGES
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.trace.binning import trace_bin
-from core.trace.blend import trace_blend, trace_resolve
+from core.trace.blend import trace_blend
 from core.trace.clip import trace_clip
 from core.trace.cull import trace_cull
 from core.trace.depth import trace_depth
 from core.trace.edges import trace_edges
 from core.trace.interpolate import trace_interpolate
 from core.trace.raster import trace_raster
+from core.trace.resolve import trace_resolve
+from core.trace.samples import trace_samples
 from core.trace.shade import trace_shade
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, Explanation, StageTrace
@@ -54,8 +57,20 @@ class Trace:
         if name not in TRACERS:
             raise ValueError(f"stage must be one of {', '.join(STAGES)}, got {name}")
         if name not in self._stages:
-            self._stages[name] = TRACERS[name](self.source)
+            self._stages[name] = self._run(name)
         return self._stages[name]
+
+    def _run(self, name: str) -> StageTrace:
+        """Trace a stage: of several samples a pixel, the stages before they are resolved have rows for each of them.
+
+        Exact areas have their own rows where they are resolved; before, the pixels' centres are followed.
+        """
+        source, antialiasing = self.source, self.source.settings.antialiasing
+        if name == "resolve" or antialiasing == "none":
+            return TRACERS[name](source)
+        if antialiasing == "area":
+            return TRACERS[name](replace(source, settings=replace(source.settings, antialiasing="none")))
+        return trace_samples(source, name, TRACERS[name])
 
 
 def trace(

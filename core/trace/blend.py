@@ -1,10 +1,9 @@
-"""Trace of blending, and of the way from linear colour to display bytes."""
+"""Trace of blending."""
 
 import numpy as np
 
 from core.blend_choice import blend_choice
 from core.framebuffer.blending import additive_pixel, over_pixel
-from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.stacks import stack_fragments
 from core.listing import listing
 from core.methods import table
@@ -73,45 +72,4 @@ def trace_blend(source: TraceSource) -> StageTrace:
         buffers=(
             BufferTrack("color", source.start.color, np.arange(len(fragments)), place, after, "color", True),
         ),
-    )
-
-
-def trace_resolve(source: TraceSource) -> StageTrace:
-    """Return one row for every pixel of the raster: linear colour to sRGB bytes."""
-    blend = trace_blend(source)
-    linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)
-    count = len(linear)
-    column, row = source.raster.position(np.arange(count))
-    clipped = np.clip(np.nan_to_num(linear[:, :3].astype(float)), 0.0, 1.0)
-    pixels = np.column_stack([encode_srgb(linear[:, :3]), encode_linear(linear[:, 3])])
-    unknown = np.zeros((*source.raster.shape, 4), np.uint8)
-    return StageTrace(
-        stage="resolve",
-        method="",
-        steps=Steps(
-            ("encode",),
-            np.zeros(count, np.int64),
-            {
-                "encode": (
-                    Operation("clip", "clip", ("linear", "clipped")),
-                    Operation("encode", "power-part", ("encoded",)),
-                    Operation("round", "round", ("bytes",)),
-                )
-            },
-            np.array([count]),
-            ends_of(row),
-        ),
-        columns={
-            "column": column,
-            "row": row,
-            "linear": linear,
-            "clipped": clipped,
-            "encoded": srgb(clipped),
-            "bytes": pixels,
-        },
-        triangle=np.full(count, -1),
-        pixel=np.stack([column, row], axis=1),
-        listings={"encode": listing(srgb_byte)},
-        marks={"nan": np.isnan(linear).any(axis=1)},
-        buffers=(BufferTrack("display", unknown, np.arange(count), np.arange(count), pixels, "bytes"),),
     )

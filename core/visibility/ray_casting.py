@@ -58,8 +58,8 @@ class RayTests:
 def run_ray_tests(
     planes: RayPlanes,
     triangle: Integers,
-    m: Integers,
-    n: Integers,
+    m: Floats,
+    n: Floats,
     layers: Iterator[tuple[int, Integers]],
     initial: Integers,
 ) -> RayTests:
@@ -68,8 +68,10 @@ def run_ray_tests(
     Parameters
     ----------
     planes : RayPlanes
-    triangle, m, n : (F,) int64
-        Triangles in the order of drawing, and the rays that meet them.
+    triangle : (F,) int64
+        In the order of drawing.
+    m, n : (F,) float64
+        The rays that meet them.
     layers : iterator
         Hits (F,) of which no two are of one pixel: how many, and their numbers; those of U pixels in their order.
     initial : (U,) int64
@@ -86,7 +88,7 @@ def run_ray_tests(
 
 
 def compare_hits(
-    planes: RayPlanes, new: Integers, old: Integers, m: Integers, n: Integers
+    planes: RayPlanes, new: Integers, old: Integers, m: Floats, n: Floats
 ) -> tuple[Integers, Integers]:
     """Return which of the triangles ``new`` and ``old`` (F,) is nearer at rays m, n (F,), and how it was decided.
 
@@ -108,7 +110,7 @@ def compare_hits(
     return sign, how
 
 
-def _compare_exactly(planes: RayPlanes, new: Integers, old: Integers, m: Integers, n: Integers) -> Integers:
+def _compare_exactly(planes: RayPlanes, new: Integers, old: Integers, m: Floats, n: Floats) -> Integers:
     """Return the signs (F,) of the doubtful ones, the rays of each pair of triangles together."""
     order = np.lexsort((old, new))
     new, old = new[order], old[order]

@@ -24,6 +24,8 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 
+RAY_UNIT = 128
+"""Steps of m and n that are told apart: those of samples at multiples of 1/256 of a pixel."""
 ROUNDING = 2.0**-49
 """Bound of the rounding in a sum of products, as a share of the sum of their sizes: sixteen roundings; nine occur."""
 UNDERFLOW = 1e-250
@@ -58,9 +60,11 @@ class RayPlanes:
     """(T,) float64, the determinant; 0 where the eye lies in the plane."""
     sizes: Floats
     """(T, 4) float64, sums of the sizes of the terms of a, b, c and d."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels the scene is moved against the raster, multiples of 1/256."""
     _exact: dict[int, ExactPlane | None] = field(default_factory=dict)
 
-    def values(self, triangle: Integers, m: Integers, n: Integers) -> tuple[Floats, Floats]:
+    def values(self, triangle: Integers, m: Floats, n: Floats) -> tuple[Floats, Floats]:
         """Return how near triangles (F,) are at the rays m, n (F,), in float64, and bounds of the error (F,).
 
         Notes
@@ -81,10 +85,14 @@ class RayPlanes:
         is_known &= np.isfinite(value) & np.isfinite(bound)
         return np.where(is_known, value, 0.0), np.where(is_known, bound, np.inf)
 
-    def rays(self, column: Integers, row: Integers, center: float) -> tuple[Integers, Integers]:
-        """Return m and n (F,) int64 of pixels (F,) whose centres lie ``center``, 0 or 1/2, from their corners."""
-        doubled = int(2 * center)
-        return 2 * column + (doubled - self.size[0]), 2 * row + (doubled - self.size[1])
+    def rays(self, column: Integers, row: Integers, center: float) -> tuple[Floats, Floats]:
+        """Return m and n (F,) float64 of pixels (F,) whose centres lie ``center``, 0 or 1/2, from their corners.
+
+        Whole numbers; where the scene is moved against the raster, multiples of 1/128.
+        """
+        (width, height), (x, y) = self.size, self.shift
+        m, n = np.float64(2 * (center - x) - width), np.float64(2 * (center - y) - height)
+        return 2 * column + m, 2 * row + n
 
     def exact(self, triangle: int) -> ExactPlane | None:
         """Return the plane of a triangle; ``None``: the eye lies in it, and no point of it is on a ray."""
@@ -92,7 +100,7 @@ class RayPlanes:
             self._exact[triangle] = exact_plane(self.clip[triangle].tolist(), self.by_w)
         return self._exact[triangle]
 
-    def compare(self, first: int, second: int, m: Sequence[int], n: Sequence[int]) -> list[int]:
+    def compare(self, first: int, second: int, m: Sequence[float], n: Sequence[float]) -> list[int]:
         """Return exactly, for rays m, n: 1 where the ``first`` triangle is nearer, -1 the ``second``, 0 both alike."""
         one, other = self.exact(first), self.exact(second)
         if one is None or other is None:
@@ -103,11 +111,14 @@ class RayPlanes:
         c = (one.c * other.d - other.c * one.d) * width * height
         if a == b == c == 0:
             return [0] * len(m)
-        differences = [a * i + b * j + c for i, j in zip(m, n, strict=True)]
+        rays = ((int(RAY_UNIT * i), int(RAY_UNIT * j)) for i, j in zip(m, n, strict=True))
+        differences = [a * i + b * j + c * RAY_UNIT for i, j in rays]
         return [(value > 0) - (value < 0) for value in differences]
 
 
-def set_up_ray_planes(clip: Floats, size: tuple[int, int], by_w: bool) -> RayPlanes:
+def set_up_ray_planes(
+    clip: Floats, size: tuple[int, int], by_w: bool, shift: tuple[float, float] = (0.0, 0.0)
+) -> RayPlanes:
     """Return the planes of triangles (T, 3, 4) in clip space over a raster of ``size``; see `RayPlanes`."""
     x, y, z, w = (clip[..., k].T for k in range(4))
     values = np.ones_like(z) if by_w else -z
@@ -123,7 +134,7 @@ def set_up_ray_planes(clip: Floats, size: tuple[int, int], by_w: bool) -> RayPla
     d = _dot(cofactors, (x, y, w))
     of_d = _dot(sizes, (np.abs(x), np.abs(y), np.abs(w)))
     largest = [*(_sum_of(size * np.abs(values)) for size in sizes), of_d]
-    return RayPlanes(clip, size, by_w, a, b, c, d, np.stack(largest, axis=1))
+    return RayPlanes(clip, size, by_w, a, b, c, d, np.stack(largest, axis=1), shift)
 
 
 def _dot(rows: Sequence[Floats], of: Sequence[Floats]) -> Floats:

@@ -1,7 +1,8 @@
 """Why a pixel looks as it does: its history from the vertices to the blended colour, for every triangle.
 
 The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
-Triangles whose box does not contain the pixel are only counted.
+Triangles whose box does not contain the pixel are only counted. Of several samples a pixel, and of exact areas, it is
+the history of the pixel's centre.
 """
 
 from core.blend_choice import blend_choice

@@ -9,6 +9,7 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, trace
+from core.antialiased.exact_area import piece_sum
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
 from core.fragments.level_of_detail import level_of_detail
@@ -22,6 +23,7 @@ from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
+from core.framebuffer.resolve import weighted_mean
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.sutherland_hodgman import clip_edge
@@ -481,7 +483,15 @@ def check_blend(traced: Trace) -> None:
 
 def check_resolve(traced: Trace) -> None:
     found = traced.stage("resolve")
-    for row in rows_of_kind(found, "encode"):
+    rules = {"average": weighted_mean, "areas": piece_sum}
+    for kind in found.steps.kinds:
+        for row in rows_of_kind(found, kind) if kind in rules else []:
+            samples, weights = found.columns["samples"][row], found.columns["sample_weights"][row]
+            values = [samples[:, k].tolist() for k in range(4)]
+            with np.errstate(invalid="ignore", over="ignore"):
+                mixed = [rules[kind](*((v, weights) if kind == "average" else (weights, v))) for v in values]
+            assert equal(mixed, found.columns["linear"][row])
+    for row in range(found.steps.row_count):
         linear, shown = found.columns["linear"][row], found.columns["bytes"][row]
         assert [srgb_byte(float(value)) for value in linear[:3]] == shown[:3].tolist()
 

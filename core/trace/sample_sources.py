@@ -1,0 +1,150 @@
+"""What the traces of several samples a pixel are made from: the pipeline, run on each of them.
+
+Multisampling: the samples of one place in all pixels are a source of their own, whose triangles are moved so that they
+lie at the pixels' centres; colours are those of the unmoved triangles. Supersampling: one source at n times the size.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from core.antialiased.multisampling import at_sample
+from core.antialiased.supersampling import finer_raster, finer_scene, finer_settings, in_squares
+from core.arrays import Floats
+from core.frame import STAGES, Frame, StageCount
+from core.framebuffer.sample_positions import ROTATED_GRID
+from core.geometry_stages import Geometry, process_geometry
+from core.pipeline import fragment_values, fragments_of, owner_of
+from core.raster.coverage import Fragments
+from core.raster.schedule import Raster
+from core.trace.source import TraceSource
+
+
+@dataclass(frozen=True, eq=False)
+class SampleSource(TraceSource):
+    """One of the four samples of every pixel."""
+
+    whole: TraceSource | None = None
+    """The pixels' own source."""
+    sample: int = 0
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The traced triangles, the sample at the pixels' centres."""
+        assert self.whole is not None
+        return at_sample(self.whole.geometry, self.sample)
+
+    @cached_property
+    def start(self) -> Frame:
+        """The buffers of the sample before the first row."""
+        assert self.whole is not None
+        frame = self.whole.start
+        samples = frame.samples
+        assert samples is not None
+        return replace(
+            frame,
+            color=samples.color[self.sample],
+            depth=samples.depth[self.sample],
+            primitive=samples.primitive[self.sample],
+            cover_count=samples.cover_count[self.sample],
+            samples=None,
+        )
+
+    @cached_property
+    def interpolated(self) -> tuple[Floats, Floats]:
+        """Weights (F, 3) and values (F, K) of the fragments, at the pixels' centres."""
+        assert self.whole is not None
+        return fragment_values(self.whole.geometry, self.settings, self.fragments, self.raster)
+
+
+@dataclass(frozen=True, eq=False)
+class CenterSource(TraceSource):
+    """What is shaded of four samples: one fragment for every triangle in a pixel, at the pixel's centre."""
+
+    samples: tuple[SampleSource, ...] = ()
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The traced triangles, not moved."""
+        assert self.samples[0].whole is not None
+        return self.samples[0].whole.geometry
+
+    @cached_property
+    def fragments(self) -> Fragments:
+        """(F) pixels with a covered sample, by owner, row and column."""
+        owner, row, column = (
+            np.concatenate(parts)
+            for parts in zip(
+                *((owner_of(f), f.row, f.column) for f in (s.fragments for s in self.samples)), strict=True
+            )
+        )
+        once = np.unique(np.stack([owner, row, column], axis=1), axis=0)
+        return fragments_of(self.geometry, once[:, 0], once[:, 2], once[:, 1])
+
+
+@dataclass(frozen=True, eq=False)
+class FinerSource(TraceSource):
+    """The samples as the pixels of a picture of n times the size."""
+
+    whole: TraceSource | None = None
+    side: int = 2
+
+    @cached_property
+    def raster(self) -> Raster:
+        """The samples of the pixels that are shown."""
+        assert self.whole is not None
+        return finer_raster(self.whole.raster, self.side)
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The traced triangles at n times the size."""
+        assert self.whole is not None
+        chosen = None if self.triangle is None else np.array([self.triangle])
+        counts = {stage: StageCount() for stage in STAGES}
+        geometry = process_geometry(self.scene, self.settings, counts, chosen)
+        return in_squares(geometry, self.whole.settings, self.side)
+
+    @cached_property
+    def start(self) -> Frame:
+        """The buffers of the samples before the first row, (n H, n W)."""
+        assert self.whole is not None
+        samples = self.whole.start.samples
+        assert samples is not None
+        return replace(
+            self.whole.start,
+            color=self._laid_out(samples.color),
+            depth=self._laid_out(samples.depth),
+            primitive=self._laid_out(samples.primitive),
+            cover_count=self._laid_out(samples.cover_count),
+            samples=None,
+        )
+
+    def _laid_out(self, by_place: np.ndarray) -> np.ndarray:
+        """Return samples (S, H, W, ...) as a picture (n H, n W, ...)."""
+        side = self.side
+        _, height, width, *channels = by_place.shape
+        squares = by_place.reshape(side, side, height, width, *channels)
+        return np.moveaxis(squares, (0, 1), (1, 3)).reshape(side * height, side * width, *channels)
+
+
+def sources_of_samples(whole: TraceSource) -> tuple[SampleSource, ...]:
+    """Return the sources of the four samples."""
+    return tuple(
+        SampleSource(
+            whole.scene,
+            whole.settings,
+            whole.triangle,
+            whole.region,
+            whole.before,
+            whole=whole,
+            sample=sample,
+        )
+        for sample in range(len(ROTATED_GRID))
+    )
+
+
+def finer_source(whole: TraceSource, side: int) -> FinerSource:
+    """Return the source of ``side`` x ``side`` samples a pixel."""
+    scene, settings = finer_scene(whole.scene, side), finer_settings(whole.settings)
+    return FinerSource(scene, settings, whole.triangle, None, whole.before, whole=whole, side=side)
