@@ -14,6 +14,8 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
 """
 
 from core.frame import STAGES, Frame
+from core.geometry.line_clip_records import ClippedLines
+from core.geometry.line_clipping import clip_lines
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
 from core.raster import fill_rule, fills, scanline, scanline_lecture, wireframe  # noqa: F401  (they register)
@@ -37,6 +39,7 @@ __all__ = [
     "STAGES",
     "Camera",
     "ClipScene",
+    "ClippedLines",
     "DirectionalLight",
     "Frame",
     "Material",
@@ -47,6 +50,7 @@ __all__ = [
     "Settings",
     "Texture",
     "Trace",
+    "clip_lines",
     "draw_lines",
     "draw_picture",
     "draw_triangles",

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.clipped_outlines import OutlineClip, clip_outlines
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
@@ -134,6 +135,21 @@ class Geometry:
     @cached_property
     def outlines(self) -> Outlines | None:
         """The edges that a wireframe draws; ``None``: triangles are filled."""
+        return self.whole_outlines if self.outline_clip is None else self.outline_clip.outlines
+
+    @cached_property
+    def outline_clip(self) -> OutlineClip | None:
+        """What line clipping did to the outlines; ``None``: they are drawn as they are."""
+        method, whole = self.settings.line_clipping, self.whole_outlines
+        if whole is None or method == "none":
+            return None
+        with timed(self.count):
+            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+            return clip_outlines(whole, method, self.vertices.size, center)
+
+    @cached_property
+    def whole_outlines(self) -> Outlines | None:
+        """The edges before line clipping; ``None``: triangles are filled."""
         if not table.get("polygon_mode", self.settings.polygon_mode).function():
             return None
         with timed(self.count):

@@ -6,6 +6,7 @@ from core.arrays import Flags, Floats
 from core.listing import listing
 from core.raster.line_records import Segments, check_segments
 from core.raster.lines import LISTINGS
+from core.raster.wireframe import line_parameter
 from core.steps import Steps, ends_of
 from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
 from core.trace.source import TraceSource
@@ -33,11 +34,11 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "window_end": outlines.window[segment, 1],
         "covered": np.ones(count, bool),
         **{name: values for name, values in vars(steps).items() if name != "t"},
-        "t": np.clip(steps.t, 0.0, 1.0),
+        "t": line_parameter(outlines, fragments, raster.center),
         "previous": _previous(steps.decision, segment),
     }
     segments = check_segments(
-        outlines.window, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
+        outlines.drawn, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
     )
     set_up = line_set_up(segments, line)
     columns |= {name: values[segment] for name, values in set_up.items()}
