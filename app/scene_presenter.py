@@ -129,7 +129,7 @@ def _no_effect(document: Document, family: str) -> str:
         return "Only fills by blocks have a block size."
     if family in ("fill", "fill_rule", "block_size") and wireframe:
         return "Wireframes are not filled."
-    if family == "line" and not wireframe:
+    if family in ("line", "line_clipping") and not wireframe:
         return "Lines are drawn where polygons are wireframes."
     if family == "provoking" and settings.interpolation != "flat":
         return "Only flat interpolation takes one corner's value."

@@ -3,7 +3,14 @@
 from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
-from widgets import formulas_frame, formulas_lines, formulas_pixel, formulas_raster, formulas_vertex
+from widgets import (
+    formulas_frame,
+    formulas_line_clipping,
+    formulas_lines,
+    formulas_pixel,
+    formulas_raster,
+    formulas_vertex,
+)
 from widgets.formula import Formula
 from widgets.step_values import StepValues
 
@@ -11,6 +18,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
     **formulas_raster.FORMULAS,
     **formulas_lines.FORMULAS,
+    **formulas_line_clipping.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
 }

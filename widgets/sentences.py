@@ -10,7 +10,14 @@ import numpy as np
 
 from core.steps import Level
 from core.trace import Explanation
-from widgets import sentences_edges, sentences_lines, sentences_pixel, sentences_raster, sentences_vertex
+from widgets import (
+    sentences_edges,
+    sentences_line_clipping,
+    sentences_lines,
+    sentences_pixel,
+    sentences_raster,
+    sentences_vertex,
+)
 from widgets.number_text import counted, joined, spoken, vector_text
 from widgets.step_values import StepValues
 
@@ -19,6 +26,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_edges.SENTENCES,
     **sentences_raster.SENTENCES,
     **sentences_lines.SENTENCES,
+    **sentences_line_clipping.SENTENCES,
     **sentences_pixel.SENTENCES,
 }
 """``stage.kind.operation`` to the maker of its sentence; all interpolated values share one, ``value``."""

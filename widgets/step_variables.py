@@ -1,36 +1,15 @@
 """The variables of a step as rows of the table: in the order of the algorithm, internals left out."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from core.trace import Explanation
+from widgets.line_clipping_variables import CLIPPING_KINDS, CLIPPING_VARIABLES
 from widgets.step_values import ATTRIBUTES, key_fields
+from widgets.variable_text import GIVEN, VariableText
 from widgets.variables import Value, Variable
-
-GIVEN = ""
-"""Marks variables that are there before the first operation."""
-
-
-@dataclass(frozen=True)
-class VariableText:
-    """How one variable of a trace is shown."""
-
-    label: str
-    """What it is called; ``#`` stands for the number of an element or edge."""
-    meaning: str
-    after: str = "itself"
-    """The variable that must be known before this one is shown; `GIVEN`: none."""
-    spread: str = ""
-    """Elements of an array that get rows of their own: ``edges`` (0, 1, 2, coloured) or ``parts``."""
-    edge: int | None = None
-    """0, 1 or 2 where the variable belongs to that edge."""
-    previous: str = ""
-    """The variable that holds its value before the step, where there was one."""
-    is_key: bool = False
-    """Whether it is a packed key, to be shown in hexadecimal."""
 
 
 def _given(label: str, meaning: str, spread: str = "") -> VariableText:
@@ -204,6 +183,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         **_CENTRE,
         **_COEFFICIENTS,
         "owns_tie": _given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
+        **CLIPPING_VARIABLES,
         **LINE_VARIABLES,
     },
     "interpolate": {
@@ -288,6 +268,7 @@ _OF_LANE_ROW = frozenset({f"{name}_{k}" for name in ("numerator", "quotient") fo
 _OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
 _OF_SPANS = frozenset(SPAN_VARIABLES) - {"start", "stop"}
 _PLANE = frozenset({"origin", "across", "up"})
+_OF_PIXEL = frozenset(_PIXEL)
 
 HIDDEN: Mapping[str, frozenset[str]] = {
     "clip.untouched": frozenset({"edge"}),
@@ -304,6 +285,7 @@ HIDDEN: Mapping[str, frozenset[str]] = {
     "raster.lane": frozenset({"column", "row", "x", "y", "a", "b", "c", "owns_tie"}) | (_OF_SPANS - _OF_LANE),
     "raster.lane-row": frozenset({"column", "x", "a", "b", "c"}) | _OF_LANE | _OF_PASS,
     "raster.pass": (_OF_SPANS - _OF_PASS) | {"owns_tie"},
+    **{f"raster.{kind}": _OF_PIXEL for kind in CLIPPING_KINDS},
     "depth.rounded": _PLANE,
     "depth.out-of-range": _PLANE,
     "depth.store": _PLANE,

@@ -8,6 +8,7 @@ from core.raster.line_records import Segments, check_segments
 from core.raster.lines import LISTINGS
 from core.raster.wireframe import line_parameter
 from core.steps import Steps, ends_of
+from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -17,7 +18,10 @@ PIXEL_METHODS = ("bresenham", "bresenham-lecture", "bresenham-float")
 
 
 def trace_lines(source: TraceSource) -> StageTrace:
-    """Return one row for every pixel of the outlines; rows of one edge of one primitive are a group."""
+    """Return one row for every pixel of the outlines; rows of one edge of one primitive are a group.
+
+    Before the pixels of an edge stand the steps of the line clipper.
+    """
     geometry, raster, line = source.geometry, source.raster, source.settings.line
     outlines, (fragments, steps) = geometry.outlines, source.lines
     assert outlines is not None
@@ -53,7 +57,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
     listings = {} if source_text is None else dict.fromkeys(operations, listing(source_text))
     every, place = np.arange(count), source.place
     unknown = np.full(raster.shape, np.nan)
-    return StageTrace(
+    found = StageTrace(
         stage="raster",
         method=f"line={line}",
         steps=Steps(
@@ -89,6 +93,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         },
         constants={"center": raster.center},
     )
+    return with_line_clipping(found, source)
 
 
 def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:

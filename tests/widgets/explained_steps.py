@@ -20,6 +20,8 @@ WINDOW = (4, 3)
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
+    "side-below": [[-0.75, -1.5, 0, 1], [0.5, -1.5, 0, 1], [1.25, 0.5, 0, 1]],
+    "past-a-corner": [[-0.5, -0.5, 0, 1], [1.75, 0.5, 0, 1], [0.5, 1.75, 0, 1]],
     "outside-left": [[-3, 0, 0, 1], [-2, 1, 0, 1], [-4, -1, 0, 1]],
     "degenerate": [[-1, -1, 0, 1], [0, 0, 0, 1], [1, 1, 0, 1]],
     "clockwise": [[-1, -1, 0, 1], [-1, 1, 0, 1], [1, -1, 0, 1]],
@@ -98,6 +100,10 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
         *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
         Settings(polygon_mode="wireframe", interpolation="affine"),
+        *[
+            Settings(polygon_mode="wireframe", line_clipping=name)
+            for name in table.names("line_clipping")[1:]
+        ],
         Settings(fill="spans", depth="fixed-38"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]
