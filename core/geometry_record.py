@@ -13,7 +13,8 @@ from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
 from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
-from core.geometry.sutherland_hodgman import Clipped, clip_primitives
+from core.geometry.polygon_clipping import DEPTH_CLIPPING, PolygonClipping
+from core.geometry.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import VertexStage
 from core.methods import table
 from core.primitives import IndexedPrimitives, Primitives
@@ -164,7 +165,10 @@ class Geometry:
         kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
         whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
-        return clip_primitives(whole, distances, self.clipped.planes).primitives.varyings
+        clipping: PolygonClipping = table.get("clipping", self.settings.clipping).function()
+        if self.clipping_inserted:
+            clipping = DEPTH_CLIPPING
+        return clipping.clip(whole, distances).primitives.varyings
 
 
 def all_projected(window: WindowVertices, corner: Integers) -> Flags:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
 from widgets import (
+    formulas_clip_order,
     formulas_frame,
     formulas_line_clipping,
     formulas_lines,
@@ -16,6 +17,7 @@ from widgets.step_values import StepValues
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
+    **formulas_clip_order.FORMULAS,
     **formulas_raster.FORMULAS,
     **formulas_lines.FORMULAS,
     **formulas_line_clipping.FORMULAS,

@@ -11,6 +11,7 @@ import numpy as np
 from core.steps import Level
 from core.trace import Explanation
 from widgets import (
+    sentences_clip_order,
     sentences_edges,
     sentences_line_clipping,
     sentences_lines,
@@ -23,6 +24,7 @@ from widgets.step_values import StepValues
 
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_vertex.SENTENCES,
+    **sentences_clip_order.SENTENCES,
     **sentences_edges.SENTENCES,
     **sentences_raster.SENTENCES,
     **sentences_lines.SENTENCES,

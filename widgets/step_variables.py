@@ -122,12 +122,15 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     "clip": {
         "plane": VariableText("plane", "Plane that is clipped against."),
         "edge": _given("edge", "Number of the edge in the polygon as it comes to the plane."),
-        "start": VariableText("start", "Clip position of the edge's start."),
-        "end": VariableText("end", "Clip position of the edge's end."),
+        "number": _given("corner", "Which corner of the triangle is divided."),
+        "clip": _given("x, y, z, w", "Clip position of the corner."),
+        "ndc": VariableText("x/w, y/w, z/w", "The corner divided by its w."),
+        "start": VariableText("start", "Position of the edge's start."),
+        "end": VariableText("end", "Position of the edge's end."),
         "start_distance": VariableText("start distance", "0 or more is inside the plane."),
         "end_distance": VariableText("end distance", "0 or more is inside the plane."),
-        "t": VariableText("t", "Where the new corner lies, from the inside end (0) to the outside end (1)."),
-        "corner": VariableText("new corner", "Clip position of the corner that the plane makes."),
+        "t": VariableText("t", "Where the new corner lies, from the end that it is computed from (0)."),
+        "corner": VariableText("new corner", "Position of the corner that the plane makes."),
     },
     "edges": {
         "corner": _given("number", "Number of the corner, and of the edge opposite to it."),
@@ -269,9 +272,12 @@ _OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
 _OF_SPANS = frozenset(SPAN_VARIABLES) - {"start", "stop"}
 _PLANE = frozenset({"origin", "across", "up"})
 _OF_PIXEL = frozenset(_PIXEL)
+_OF_CORNER = frozenset({"number", "clip"})
 
 HIDDEN: Mapping[str, frozenset[str]] = {
-    "clip.untouched": frozenset({"edge"}),
+    "clip.untouched": frozenset({"edge"}) | _OF_CORNER,
+    **{f"clip.{case}": _OF_CORNER for case in ("in-in", "in-out", "out-in", "out-out")},
+    **{f"clip.{kind}": frozenset({"edge"}) for kind in ("divided", "mirrored", "undefined")},
     "edges.orientation": frozenset({"corner", "homogeneous"}),
     "edges.edge": frozenset({"homogeneous"}),
     "edges.anchored-edge": frozenset({"homogeneous"}),

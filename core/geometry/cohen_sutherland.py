@@ -99,7 +99,7 @@ def crossing(segments: Floats, edge: Integers, window: ClipWindow) -> Floats:
     border = np.array([*window.points[[0, 1], 0], *window.points[[2, 3], 1]])[edge]
     is_level = edge >= 2
     u, v = (np.where(is_level[:, None], segments[:, :, 1 - k], segments[:, :, k]) for k in (0, 1))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(all="ignore"):
         other = v[:, 0] + (v[:, 1] - v[:, 0]) * ((border - u[:, 0]) / (u[:, 1] - u[:, 0]))
     return np.where(is_level[:, None], np.stack([other, border], axis=1), np.stack([border, other], axis=1))
 

@@ -59,7 +59,7 @@ def walk_edges(along: Floats, room: Floats, stops_early: bool, ignores: Flags | 
     A tie keeps what is there: the first of two edges that cut at the same t is the one that cut.
     """
     edge_count, count = along.shape
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         t = np.where(along == 0, np.nan, room / along)
     is_alive = np.ones(count, bool)
     enter, leave = np.zeros(count), np.ones(count)

@@ -11,6 +11,7 @@ M. Cyrus, J. Beck, *Generalized two- and three-dimensional clipping*, 1978.
 C. Yap, *Towards exact geometric computation*, 1997 (decisions by exact signs).
 """
 
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -142,7 +143,15 @@ def is_less(first: tuple[Wholes, Wholes], second: tuple[Wholes, Wholes]) -> Flag
 
 def quotient(numerator: Wholes, denominator: Wholes) -> Floats:
     """Divide whole numbers (L,), correctly rounded."""
-    return np.asarray(numerator / denominator).astype(float)
+    return np.asarray(np.frompyfunc(rounded_quotient, 2, 1)(numerator, denominator)).astype(float)
+
+
+def rounded_quotient(numerator: int, denominator: int) -> float:
+    """Divide one whole number by another above 0, correctly rounded; infinite beyond the largest float64."""
+    try:
+        return numerator / denominator
+    except OverflowError:
+        return math.copysign(math.inf, numerator)
 
 
 def _scaled(values: Wholes, shift: int) -> Floats:
@@ -187,8 +196,8 @@ def exact_listing(
                 t_e, entry = t, k  #: enter
             if along > 0 and t < t_l:
                 t_l, exit = t, k  #: leave
-        numbers = (along, room, float("nan") if t is None else t, t_e, t_l)
-        seen.append(tuple(float(number) for number in numbers))
+        crossing = math.nan if t is None else rounded_quotient(*t.as_integer_ratio())
+        seen.append((float(along), float(room), crossing, float(t_e), float(t_l)))
         if is_outside:
             return [], seen  #: outside
         if t_e > t_l:

@@ -105,6 +105,8 @@ def rare_steps() -> tuple[Step, ...]:
             for name in table.names("line_clipping")[1:]
         ],
         Settings(fill="spans", depth="fixed-38"),
+        Settings(clipping="after-divide"),
+        Settings(clipping="sutherland-hodgman-lecture"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]
     return tuple(
