@@ -137,7 +137,7 @@ def cohen_sutherland_listing(
         if codes[0] & codes[1] != 0:  #: reject
             return [], [*passes, (codes[0], codes[1], -1, -1)]
         end = 0 if codes[0] != 0 else 1  #: end
-        edge = int(FIRST_EDGE[codes[end]])  #: edge
+        edge = (codes[end] & -codes[end]).bit_length() - 1  #: edge
         if edge < 2:
             border = left if edge == 0 else right
             x, y = border, y0 + (y1 - y0) * ((border - x0) / (x1 - x0))  #: point-x
