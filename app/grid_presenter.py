@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.clip_overlays import clip_overlays
 from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
 from app.scene_edits import move_corner
 from app.session import Session
@@ -22,7 +23,10 @@ HIGHLIGHT_LIMIT = 4096
 """Pixels of a step that are outlined."""
 RESULTS = ("picture", "triangles")
 """Buffers that show how everything ends, in every stage."""
-DEFAULT_OVERLAYS = {"bin": frozenset({"blocks"}), "raster": frozenset({"tie", "nan", "spans"})}
+DEFAULT_OVERLAYS = {
+    "bin": frozenset({"blocks"}),
+    "raster": frozenset({"tie", "nan", "spans", "clip window", "clipped lines"}),
+}
 """Overlays that are on at first, by stage."""
 
 
@@ -157,6 +161,7 @@ class GridPresenter(QObject):
         spans = span_overlay(trace, session.trace.source.raster, position)
         if spans is not None:
             found.append(spans)
+        found += clip_overlays(trace, session.trace.source.raster, position)
         lines = edge_overlay(self._geometry)
         if lines is not None:
             found.append(lines)

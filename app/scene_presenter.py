@@ -143,7 +143,7 @@ def _no_effect(document: Document, family: str) -> str:
         return "Lines are interpolated with perspective at every pixel."
     if family in ("fill", "fill_rule", "block_size") and wireframe:
         return "Wireframes are not filled."
-    if family == "line" and not wireframe:
+    if family in ("line", "line_clipping") and not wireframe:
         return "Lines are drawn where polygons are wireframes."
     if family == "resolve_filter" and settings.antialiasing in ("none", "area"):
         return "Only several samples a pixel are filtered."

@@ -17,6 +17,8 @@ from core.antialiased import centers, exact_area, multisampling, supersampling  
 from core.fragments import corrected_affine  # noqa: F401  (it registers)
 from core.frame import STAGES, Frame
 from core.framebuffer import depth_formats  # noqa: F401  (it registers)
+from core.geometry.line_clip_records import ClippedLines
+from core.geometry.line_clipping import clip_lines
 from core.picture import Picture, draw_picture
 from core.pipeline import draw_triangles, render
 from core.raster import (  # noqa: F401  (they register)
@@ -47,6 +49,7 @@ __all__ = [
     "STAGES",
     "Camera",
     "ClipScene",
+    "ClippedLines",
     "DirectionalLight",
     "Frame",
     "Material",
@@ -57,6 +60,7 @@ __all__ = [
     "Settings",
     "Texture",
     "Trace",
+    "clip_lines",
     "draw_lines",
     "draw_picture",
     "draw_triangles",

@@ -7,13 +7,15 @@ from functools import cached_property
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.clipped_outlines import OutlineClip, clip_outlines
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
 from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.polygon_clipping import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.reversed_depth import reversed_clip_depth
-from core.geometry.sutherland_hodgman import Clipped, clip_primitives
+from core.geometry.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import VertexStage
 from core.methods import table
 from core.primitives import IndexedPrimitives, Primitives
@@ -164,6 +166,21 @@ class Geometry:
     @cached_property
     def outlines(self) -> Outlines | None:
         """The edges that a wireframe draws; ``None``: triangles are filled."""
+        return self.whole_outlines if self.outline_clip is None else self.outline_clip.outlines
+
+    @cached_property
+    def outline_clip(self) -> OutlineClip | None:
+        """What line clipping did to the outlines; ``None``: they are drawn as they are."""
+        method, whole = self.settings.line_clipping, self.whole_outlines
+        if whole is None or method == "none":
+            return None
+        with timed(self.count):
+            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+            return clip_outlines(whole, method, self.vertices.size, center)
+
+    @cached_property
+    def whole_outlines(self) -> Outlines | None:
+        """The edges before line clipping; ``None``: triangles are filled."""
         if not table.get("polygon_mode", self.settings.polygon_mode).function():
             return None
         with timed(self.count):
@@ -179,7 +196,10 @@ class Geometry:
         kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
         whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
-        return clip_primitives(whole, distances, self.clipped.planes).primitives.varyings
+        clipping: PolygonClipping = table.get("clipping", self.settings.clipping).function()
+        if self.clipping_inserted:
+            clipping = DEPTH_CLIPPING
+        return clipping.clip(whole, distances).primitives.varyings
 
 
 def all_projected(window: WindowVertices, corner: Integers) -> Flags:

@@ -12,7 +12,8 @@ from core.arrays import Flags, Floats, Integers
 from core.frame import StageCount
 from core.geometry.culling import cull, plane_distances
 from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
-from core.geometry.sutherland_hodgman import DEPTH_PLANES, Clipped, clip_primitives
+from core.geometry.polygon_clipping import DEPTH_CLIPPING, PolygonClipping
+from core.geometry.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 from core.geometry_record import Geometry, all_projected, clipping_distances
 from core.methods import table
@@ -29,8 +30,8 @@ __all__ = [
     "Geometry",
     "assemble",
     "check_needs",
+    "choose_clipping",
     "clip",
-    "clip_planes",
     "corner_values",
     "drawing_order",
     "face",
@@ -267,27 +268,28 @@ def clip(
     """
     joined = joined_bits(outcode, kept.corner)
     crosses_eye = has_bits(joined, BEHIND_BIT)
-    planes, inserted = clip_planes(settings, bool(crosses_eye.any()))
-    if not planes:
+    clipping, inserted = choose_clipping(settings, bool(crosses_eye.any()))
+    if not clipping.is_any:
         return kept, None, inserted
-    crossing = has_bits(joined, sum(1 << plane for plane in planes))
+    behind = BEHIND_BIT if clipping.divides else 0
+    crossing = has_bits(joined, behind | sum(1 << plane for plane in clipping.planes))
     if inserted:
         crossing &= crosses_eye
     if crossing.any():
-        clipped = clip_primitives(kept.gathered(), clipping_distances(kept, inserted), planes)
+        clipped = clipping.clip(kept.gathered(), clipping_distances(kept, inserted))
         return index_corners(clipped.primitives), clipped, inserted
     none = kept.take(np.empty(0, np.int64))
-    clipped = clip_primitives(none.gathered(), plane_distances(none.clip), planes)
+    clipped = clipping.clip(none.gathered(), plane_distances(none.clip))
     return kept, replace(clipped, primitives=kept.gathered()), inserted
 
 
-def clip_planes(settings: Settings, crosses_eye: bool) -> tuple[tuple[int, ...], str]:
-    """Return the planes to clip against, and the method that asked for them where the settings did not."""
-    planes: tuple[int, ...] = table.get("clipping", settings.clipping).function()
-    if planes or not crosses_eye:
-        return planes, ""
+def choose_clipping(settings: Settings, crosses_eye: bool) -> tuple[PolygonClipping, str]:
+    """Return how to clip, and the method that asked for it where the settings did not."""
+    clipping: PolygonClipping = table.get("clipping", settings.clipping).function()
+    if clipping.is_any or not crosses_eye:
+        return clipping, ""
     for family in ("coverage", "polygon_mode", "fill", "interpolation"):
         chosen = table.get(family, getattr(settings, family))
         if {"projected", "positive-w"} & set(chosen.needs):
-            return DEPTH_PLANES, chosen.name
-    return planes, ""
+            return DEPTH_CLIPPING, chosen.name
+    return clipping, ""

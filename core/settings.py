@@ -25,6 +25,7 @@ class Settings:
     fill: str = "spans"
     polygon_mode: str = "fill"
     line: str = "bresenham"
+    line_clipping: str = "none"
     pixel_center: str = "half"
     interpolation: str = "perspective"
     provoking: str = "last"

@@ -4,7 +4,9 @@ from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
 from widgets import (
+    formulas_clip_order,
     formulas_frame,
+    formulas_line_clipping,
     formulas_lines,
     formulas_numbers,
     formulas_pixel,
@@ -18,9 +20,11 @@ from widgets.step_values import StepValues
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_vertex.FORMULAS,
+    **formulas_clip_order.FORMULAS,
     **formulas_raster.FORMULAS,
     **formulas_numbers.FORMULAS,
     **formulas_lines.FORMULAS,
+    **formulas_line_clipping.FORMULAS,
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
     **formulas_smooth_lines.BLEND_FORMULAS,

@@ -12,7 +12,9 @@ import numpy as np
 from core.steps import Level
 from core.trace import Explanation
 from widgets import (
+    sentences_clip_order,
     sentences_edges,
+    sentences_line_clipping,
     sentences_lines,
     sentences_numbers,
     sentences_pixel,
@@ -26,10 +28,12 @@ from widgets.step_values import StepValues
 
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_vertex.SENTENCES,
+    **sentences_clip_order.SENTENCES,
     **sentences_edges.SENTENCES,
     **sentences_raster.SENTENCES,
     **sentences_numbers.SENTENCES,
     **sentences_lines.SENTENCES,
+    **sentences_line_clipping.SENTENCES,
     **sentences_pixel.SENTENCES,
     **sentences_smooth_lines.BLEND_SENTENCES,
     **sentences_samples.SENTENCES,

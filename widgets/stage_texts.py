@@ -112,6 +112,7 @@ FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
     "block_size": ("Block size", "Raster"),
     "polygon_mode": ("Polygons", "Raster"),
     "line": ("Lines", "Raster"),
+    "line_clipping": ("Line clipping", "Raster"),
     "pixel_center": ("Pixel centres", "Raster"),
     "interpolation": ("Interpolation", "Fragments"),
     "correction_interval": ("Corrected", "Fragments"),

@@ -9,6 +9,7 @@ import numpy as np
 from core.trace import Explanation
 from widgets.depth_variables import DEPTH_VARIABLES
 from widgets.fragment_variables import CORRECTED_VARIABLES, MIPMAP_VARIABLES
+from widgets.line_clipping_variables import CLIPPING_KINDS, CLIPPING_VARIABLES
 from widgets.number_bits import in_its_numbers
 from widgets.step_values import ATTRIBUTES, key_fields
 from widgets.variable_text import GIVEN, VariableText
@@ -142,12 +143,15 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     "clip": {
         "plane": VariableText("plane", "Plane that is clipped against."),
         "edge": _given("edge", "Number of the edge in the polygon as it comes to the plane."),
-        "start": VariableText("start", "Clip position of the edge's start."),
-        "end": VariableText("end", "Clip position of the edge's end."),
+        "number": _given("corner", "Which corner of the triangle is divided."),
+        "clip": _given("x, y, z, w", "Clip position of the corner."),
+        "ndc": VariableText("x/w, y/w, z/w", "The corner divided by its w."),
+        "start": VariableText("start", "Position of the edge's start."),
+        "end": VariableText("end", "Position of the edge's end."),
         "start_distance": VariableText("start distance", "0 or more is inside the plane."),
         "end_distance": VariableText("end distance", "0 or more is inside the plane."),
-        "t": VariableText("t", "Where the new corner lies, from the inside end (0) to the outside end (1)."),
-        "corner": VariableText("new corner", "Clip position of the corner that the plane makes."),
+        "t": VariableText("t", "Where the new corner lies, from the end that it is computed from (0)."),
+        "corner": VariableText("new corner", "Position of the corner that the plane makes."),
     },
     "edges": {
         "corner": _given("number", "Number of the corner, and of the edge opposite to it."),
@@ -209,6 +213,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
         **_CENTRE,
         **_COEFFICIENTS,
         "owns_tie": _given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
+        **CLIPPING_VARIABLES,
         **LINE_VARIABLES,
     },
     "interpolate": {
@@ -294,9 +299,13 @@ _OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
 _OF_SPANS = frozenset(SPAN_VARIABLES) - {"start", "stop"}
 _BEFORE = frozenset({f"before_{k}" for k in range(3)})
 _PLANE = frozenset({"origin", "across", "up"})
+_OF_PIXEL = frozenset(_PIXEL)
+_OF_CORNER = frozenset({"number", "clip"})
 
 HIDDEN: Mapping[str, frozenset[str]] = {
-    "clip.untouched": frozenset({"edge"}),
+    "clip.untouched": frozenset({"edge"}) | _OF_CORNER,
+    **{f"clip.{case}": _OF_CORNER for case in ("in-in", "in-out", "out-in", "out-out")},
+    **{f"clip.{kind}": frozenset({"edge"}) for kind in ("divided", "mirrored", "undefined")},
     "edges.orientation": frozenset({"corner", "homogeneous"}),
     "edges.determinant": frozenset({"corner", "homogeneous"}),
     "edges.inverse-edge": frozenset({"homogeneous"}),
@@ -315,6 +324,7 @@ HIDDEN: Mapping[str, frozenset[str]] = {
     "raster.lane": frozenset({"column", "row", "x", "y", "a", "b", "c", "owns_tie"}) | (_OF_SPANS - _OF_LANE),
     "raster.lane-row": frozenset({"column", "x", "a", "b", "c"}) | _OF_LANE | _OF_PASS,
     "raster.pass": (_OF_SPANS - _OF_PASS) | {"owns_tie"},
+    **{f"raster.{kind}": _OF_PIXEL for kind in CLIPPING_KINDS},
     "depth.rounded": _PLANE,
     "depth.out-of-range": _PLANE,
     "depth.store": _PLANE,

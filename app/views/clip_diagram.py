@@ -65,6 +65,13 @@ def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     found = np.flatnonzero(clipped.clipped == kept[0])
     if not len(found):
         return still(before, "No plane crosses the triangle: it goes through as it is.")
+    if clipped.is_divided:
+        # From here on the triangle is what the division made of it.
+        if not clipped.counts[0][found[0]]:
+            return still(before, "A corner cannot be divided by w: the triangle is left out.")
+        before = clipped.polygons[0][found[0], :3, :4]
+        if not clipped.planes:
+            return still(before, "The triangle as the division by w made it: no plane is clipped against.")
     return _clipped_state(trace, stage, int(found[0]), triangle, before, position)
 
 
@@ -75,7 +82,7 @@ def _clipped_state(
     assert clipped is not None
     own = np.flatnonzero(clipped.rows.polygon == which)
     # The trace's rows stand triangle by triangle in the same order within a triangle.
-    rows = np.flatnonzero(stage.triangle == triangle)
+    rows = np.flatnonzero((stage.triangle == triangle) & (stage.columns["plane"] != ""))
     done = len(own) if position is None else int(np.searchsorted(rows, stage.steps.rows_done(position)))
     current = -1 if position is None else stage.steps.row_at(position)[0]
     is_current = current >= 0 and len(rows) > 0 and rows[0] <= current <= rows[-1]

@@ -1,9 +1,10 @@
-"""Polygon clipping in clip space, plane by plane, with all attributes; and no clipping at all.
+"""Polygon clipping in clip space, plane by plane, with all attributes.
 
 Notes
 -----
-A new corner is always computed from the inside end to the outside end, so that the two triangles of an
-edge get the very same corner. Positions and attributes are linear in clip space: one t serves both.
+A new corner is computed from the inside end to the outside end, so that the two triangles of an
+edge get the very same corner; `clip_edge_in_order` does without. Positions and attributes are linear in clip space:
+one t serves both.
 
 References
 ----------
@@ -11,12 +12,12 @@ I. Sutherland, G. Hodgman, *Reentrant polygon clipping*, 1974.
 F. Pellacini, *Computer Graphics*, "polygon clipping".
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.arrays import Floats, Integers
-from core.methods import method
 from core.primitives import Primitives
 
 OUT_OUT, OUT_IN, IN_OUT, IN_IN = range(4)
@@ -46,7 +47,8 @@ class ClipRows:
     """(R,) float64, signed distance from the plane; inside is 0 or more."""
     end_distance: Floats
     t: Floats
-    """(R,) float64, where the new corner lies, from the inside end (0) to the outside end (1); NaN: there is none."""
+    """(R,) float64, where the new corner lies, from the inside end (0) to the outside end (1), or, where new corners
+    are computed in the polygon's order, from the start to the end; NaN: there is none."""
     corner: Floats
     """(R, 4 + K), the new corner; NaN where there is none."""
 
@@ -65,34 +67,13 @@ class Clipped:
     """Polygons before the first and after each plane: (Q, M, 4 + K) float64."""
     counts: tuple[Integers, ...]
     """Corners of each of those polygons: (Q,) int64."""
+    is_divided: bool = False
+    """Polygons and rows hold (x/w, y/w, z/w, 1), not clip positions, and three rows of the division come first."""
 
 
-@method(
-    "clipping",
-    "homogeneous",
-    "None (homogeneous rasterization)",
-    source="Zwicker 2016, Homogeneous rasterization; Olano and Greer 1997",
-    exact_for="any signs of w",
-)
-def no_clipping() -> tuple[int, ...]:
-    """Return the planes that are clipped against: none."""
-    return ()
-
-
-@method(
-    "clipping",
-    "sutherland-hodgman",
-    "Sutherland-Hodgman, six planes",
-    source="Sutherland and Hodgman 1974; Pellacini, polygon clipping",
-    exact_for="any signs of w",
-    breaks_where="new corners are snapped again: edges turn by up to 1/256 pixel",
-)
-def all_planes() -> tuple[int, ...]:
-    """Return the planes that are clipped against: all six of the view volume."""
-    return ALL_PLANES
-
-
-def clip_primitives(primitives: Primitives, distances: Floats, planes: tuple[int, ...]) -> Clipped:
+def clip_primitives(
+    primitives: Primitives, distances: Floats, planes: tuple[int, ...], is_canonical: bool = True
+) -> Clipped:
     """Clip what crosses a plane and cut the polygons into fans.
 
     Parameters
@@ -100,19 +81,51 @@ def clip_primitives(primitives: Primitives, distances: Floats, planes: tuple[int
     primitives : Primitives
     distances : (P, 3, 6) float64, see ``core.geometry.culling.plane_distances``
     planes : indices of ``core.geometry.culling.PLANES``
+    is_canonical : bool
+        Whether a new corner is computed from the inside end, whichever way the edge is gone along.
     """
     crossing = np.any(distances[:, :, list(planes)] < 0, axis=(1, 2))
     clipped = np.flatnonzero(crossing)
     polygon = np.concatenate([primitives.clip[clipped], primitives.varyings[clipped]], axis=2)
     count = np.full(len(clipped), 3)
+    return clip_chosen(primitives, clipped, polygon, count, planes, is_canonical, _split_corners)
+
+
+def clip_chosen(
+    primitives: Primitives,
+    clipped: Integers,
+    polygon: Floats,
+    count: Integers,
+    planes: tuple[int, ...],
+    is_canonical: bool,
+    split: Callable[[Floats], tuple[Floats, Floats]],
+) -> Clipped:
+    """Clip polygons that stand for some primitives and put the pieces in their places.
+
+    Parameters
+    ----------
+    primitives : Primitives
+    clipped : (Q,) int64
+        The primitives that the polygons stand for, ascending.
+    polygon : (Q, 3, 4 + K) float64
+        Position and values of the corners.
+    count : (Q,) int64
+        Corners of each polygon: 3, or 0 for one that is left out.
+    planes, is_canonical
+        See `clip_primitives`.
+    split : callable
+        Turns corners (C, 3, 4 + K) of pieces into clip positions (C, 3, 4) and varyings.
+    """
     polygons, counts, rows = [polygon], [count], []
     for plane in planes:
-        polygon, count, plane_rows = clip_polygons(polygon, count, plane)
+        polygon, count, plane_rows = clip_polygons(polygon, count, plane, is_canonical)
         polygons.append(polygon)
         counts.append(count)
         rows.append(plane_rows)
 
     # Fans (0, k, k + 1), each piece in the place of its triangle.
+    crossing = np.zeros(len(primitives), bool)
+    crossing[clipped] = True
     piece_count = np.where(crossing, 0, 1)
     piece_count[clipped] = np.maximum(count - 2, 0)
     source = np.repeat(np.arange(len(primitives)), piece_count)
@@ -123,13 +136,22 @@ def clip_primitives(primitives: Primitives, distances: Floats, planes: tuple[int
         at = np.searchsorted(clipped, source[of_clipped])
         k = place[of_clipped]
         corners = np.stack([polygon[at, 0], polygon[at, k + 1], polygon[at, k + 2]], axis=1)
-        result.clip[of_clipped] = corners[..., :4]
-        result.varyings[of_clipped] = corners[..., 4:]
+        result.clip[of_clipped], result.varyings[of_clipped] = split(corners)
     return Clipped(result, clipped, planes, _join(rows, polygon.shape[2]), tuple(polygons), tuple(counts))
 
 
-def clip_polygons(polygon: Floats, count: Integers, plane: int) -> tuple[Floats, Integers, ClipRows]:
+def _split_corners(corners: Floats) -> tuple[Floats, Floats]:
+    """Return the clip position and the values of corners (C, 3, 4 + K)."""
+    return corners[..., :4], corners[..., 4:]
+
+
+def clip_polygons(
+    polygon: Floats, count: Integers, plane: int, is_canonical: bool = True
+) -> tuple[Floats, Integers, ClipRows]:
     """Clip Q polygons (Q, M, 4 + K) with ``count`` (Q,) corners against one plane.
+
+    With ``is_canonical`` new corners are computed from the inside end to the outside end, else as the edge is gone
+    along.
 
     Returns
     -------
@@ -147,9 +169,9 @@ def clip_polygons(polygon: Floats, count: Integers, plane: int) -> tuple[Floats,
     end = np.take_along_axis(polygon, following[..., None], axis=1)
     case = np.where(exists, 2 * (distance >= 0) + (end_distance >= 0), OUT_OUT)
 
-    # The new corner, from the inside end to the outside end.
+    # The new corner, from the inside end to the outside end, or in the polygon's order.
     crosses = (case == OUT_IN) | (case == IN_OUT)
-    leaving = case == IN_OUT
+    leaving = (case == IN_OUT) | (not is_canonical)
     d_in, d_out = np.where(leaving, distance, end_distance), np.where(leaving, end_distance, distance)
     with np.errstate(divide="ignore", invalid="ignore"):
         t = np.where(crosses, d_in / (d_in - d_out), np.nan)
@@ -212,3 +234,16 @@ def clip_edge(start: Floats, end: Floats, start_distance: float, end_distance: f
         t = end_distance / (end_distance - start_distance)  #: t-in
         return [end + t * (start - end), end]  #: enter
     return []  #: out-out
+
+
+def clip_edge_in_order(
+    start: Floats, end: Floats, start_distance: float, end_distance: float
+) -> list[Floats]:
+    """Listing of one edge against one plane, new corners always computed from its start."""
+    if start_distance >= 0 and end_distance >= 0:  #: in-in
+        return [end]
+    if start_distance < 0 and end_distance < 0:  #: out-out
+        return []
+    t = start_distance / (start_distance - end_distance)  #: t
+    corner = start + t * (end - start)  #: corner
+    return [corner] if end_distance < 0 else [corner, end]

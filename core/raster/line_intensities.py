@@ -45,6 +45,7 @@ def run_rightwards(outlines: Outlines) -> Outlines:
     return replace(
         outlines,
         window=of_ends(outlines.window),
+        drawn=of_ends(outlines.drawn),
         w=of_ends(outlines.w),
         depth=of_ends(outlines.depth),
         shares=of_ends(outlines.shares),

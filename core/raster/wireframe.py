@@ -21,8 +21,9 @@ from core.arrays import Flags, Floats, Integers
 from core.methods import method
 from core.primitives import Primitives
 from core.raster.coverage import Fragments, join_fragments
+from core.raster.cut_lines import draw_cut_lines
 from core.raster.line_records import PIXEL_CENTERS, LinePixels, LineSteps
-from core.raster.lines import draw_lines, has_intensities, interpolate_line, segment_parameter
+from core.raster.lines import has_intensities, interpolate_line, segment_parameter
 from core.raster.schedule import Raster
 from core.raster.snapping import CornerPositions
 
@@ -76,6 +77,10 @@ class Outlines:
     """(L, 2, 3) float64, shares of the primitive's corners in the ends, in clip space."""
     window_shares: Floats
     """(L, 2, 3) float64, the same in the window: they differ where the segment was cut."""
+    drawn: Floats
+    """(L, 2, 2) float64, the part that the line method draws: all of ``window``, or what line clipping left of it."""
+    is_cut: Flags
+    """(L,) bool, line clipping cut the second end: the pixel there is drawn, for the line goes on."""
 
     def __len__(self) -> int:
         return len(self.primitive)
@@ -184,6 +189,8 @@ def set_up_outlines(
         is_in_range=np.all(np.abs(cut_z) <= reach, axis=1)[is_visible],
         shares=of_corners(cut),
         window_shares=of_corners(window_cut),
+        drawn=window[is_visible],
+        is_cut=np.zeros(int(is_visible.sum()), bool),
     )
 
 
@@ -230,15 +237,14 @@ def draw_outlines(
         A method of the family ``line``.
     """
     pixel_center = next(name for name, center in PIXEL_CENTERS.items() if center == raster.center)
-    length = np.abs(outlines.window[:, 1] - outlines.window[:, 0]).max(axis=1, initial=0.0)
+    length = np.abs(outlines.drawn[:, 1] - outlines.drawn[:, 0]).max(axis=1, initial=0.0)
     length = np.minimum(length, max(raster.width, raster.height)) + 1
     ends = np.flatnonzero(np.diff(np.cumsum(length) // BATCH, append=-1)) + 1
     ends = ends if len(ends) else np.zeros(1, np.int64)
     left, bottom, right, top = raster.bounds
     for first, end in zip([0, *ends][:-1], ends, strict=True):
-        drawn = draw_lines(
-            outlines.window[first:end], raster.width, raster.height, line, pixel_center=pixel_center
-        )
+        part = slice(int(first), int(end))
+        drawn = draw_cut_lines(outlines.drawn[part], outlines.is_cut[part], raster, line, pixel_center)
         (column, row), segment = drawn.pixels.T, drawn.owner + first
         intensity = drawn.intensities if has_intensities(line) else None
         fragments = LineFragments(outlines.primitive.take(segment), column, row, segment, intensity)

@@ -3,13 +3,26 @@
 import numpy as np
 
 from core.geometry.culling import PLANES
-from core.geometry.sutherland_hodgman import CASES, clip_edge
+from core.geometry.polygon_clipping import PolygonClipping
+from core.geometry.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
 from core.listing import listing
+from core.methods import table
 from core.steps import Operation, Steps, ends_of
+from core.trace.clip_divide import with_division
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
 KINDS = (*CASES, "untouched")
+CROSSING = (
+    (Operation("t", "t-out", ("t",)), Operation("corner", "leave", ("corner",))),
+    (Operation("t", "t-in", ("t",)), Operation("corner", "enter", ("corner",))),
+)
+"""What an edge that leaves does, and one that enters, where new corners are computed from the inside end."""
+CROSSING_IN_ORDER = (
+    Operation("t-in-order", "t", ("t",)),
+    Operation("corner-in-order", "corner", ("corner",)),
+)
+"""The same where they are computed from the edge's start."""
 
 
 def trace_clip(source: TraceSource) -> StageTrace:
@@ -22,15 +35,17 @@ def trace_clip(source: TraceSource) -> StageTrace:
     rows = clipped.rows if clipped is not None else None
     polygon = np.concatenate([crossed[rows.polygon] if rows is not None else crossed, untouched])
     order = np.argsort(polygon, kind="stable")
-    width = 4 + kept.varyings.shape[2]
 
     def column(of_rows: np.ndarray | None, missing: np.ndarray) -> np.ndarray:
         joined = missing if of_rows is None else np.concatenate([of_rows, missing])
         return np.asarray(joined[order])
 
     def numbers(name: str, *shape: int) -> np.ndarray:
+        found = None if rows is None else getattr(rows, name)
+        # Of a position and the values that go along, the position.
         return column(
-            None if rows is None else getattr(rows, name), np.full((len(untouched), *shape), np.nan)
+            found[..., :4] if found is not None and shape else found,
+            np.full((len(untouched), *shape), np.nan),
         )
 
     kind = column(None if rows is None else rows.case, np.full(len(untouched), len(CASES)))
@@ -38,35 +53,39 @@ def trace_clip(source: TraceSource) -> StageTrace:
     columns = {
         "plane": np.array([*PLANES, "none"])[plane],
         "edge": column(None if rows is None else rows.edge, np.zeros(len(untouched), np.int64)),
-        "start": numbers("start", width)[:, :4],
-        "end": numbers("end", width)[:, :4],
+        "start": numbers("start", 4),
+        "end": numbers("end", 4),
         "start_distance": numbers("start_distance"),
         "end_distance": numbers("end_distance"),
         "t": numbers("t"),
-        "corner": numbers("corner", width)[:, :4],
+        "corner": numbers("corner", 4),
     }
     distances = Operation("distances", "in-in", ("plane", "start", "end", "start_distance", "end_distance"))
+    clipping: PolygonClipping = table.get("clipping", source.settings.clipping).function()
+    is_canonical = clipping.is_canonical or bool(geometry.clipping_inserted)
+    crossing = CROSSING if is_canonical else (CROSSING_IN_ORDER, CROSSING_IN_ORDER)
     steps = Steps(
         kinds=KINDS,
         kind=kind,
         operations={
             "in-in": (distances, Operation("keep", "in-in")),
             "out-out": (distances, Operation("drop", "out-out")),
-            "in-out": (distances, Operation("t", "t-out", ("t",)), Operation("corner", "leave", ("corner",))),
-            "out-in": (distances, Operation("t", "t-in", ("t",)), Operation("corner", "enter", ("corner",))),
+            "in-out": (distances, *crossing[0]),
+            "out-in": (distances, *crossing[1]),
             "untouched": (Operation("keep", "in-in"),),
         },
         triangle_ends=ends_of(polygon[order]),
         group_ends=ends_of(polygon[order], plane),
     )
-    return StageTrace(
+    found = StageTrace(
         stage="clip",
         method=f"clipping={source.settings.clipping}",
         steps=steps,
         columns=columns,
         triangle=kept.triangle[polygon[order]],
         pixel=no_pixels(len(order)),
-        listings=dict.fromkeys(CASES, listing(clip_edge)),
+        listings=dict.fromkeys(CASES, listing(clip_edge if is_canonical else clip_edge_in_order)),
         marks={"rejected": kind == 0},
         extra={"clipped": clipped, "inserted_for": geometry.clipping_inserted},
     )
+    return with_division(found, source, polygon[order], plane)

@@ -9,7 +9,9 @@ from core.raster.line_records import Segments, check_segments, major_first
 from core.raster.lines import LISTINGS
 from core.raster.rectangle_lines import SUBPIXELS, snapped_ends
 from core.raster.smooth_lines import FILTER_TABLE, filter_entry, line_cosine
+from core.raster.wireframe import line_parameter
 from core.steps import Steps, ends_of
+from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -19,7 +21,10 @@ PIXEL_METHODS = ("bresenham", "bresenham-lecture", "bresenham-float")
 
 
 def trace_lines(source: TraceSource) -> StageTrace:
-    """Return one row for every pixel of the outlines; rows of one edge of one primitive are a group."""
+    """Return one row for every pixel of the outlines; rows of one edge of one primitive are a group.
+
+    Before the pixels of an edge stand the steps of the line clipper.
+    """
     geometry, raster, line = source.geometry, source.raster, source.settings.line
     outlines, (fragments, steps) = geometry.outlines, source.lines
     assert outlines is not None
@@ -37,14 +42,14 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "covered": np.ones(count, bool),
         **{name: values for name, values in vars(steps).items() if name != "t"},
         "fraction": steps.decision - np.floor(steps.decision),
-        "t": np.clip(steps.t, 0.0, 1.0),
+        "t": line_parameter(outlines, fragments, raster.center),
         "previous": _previous(steps.decision, segment),
     }
     if line == "gupta-sproull":
         columns["entry"] = filter_entry(steps.line_distance)
         columns["filtered"] = FILTER_TABLE.take(columns["entry"])
     segments = check_segments(
-        outlines.window, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
+        outlines.drawn, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
     )
     set_up = line_set_up(segments, line)
     columns |= {name: values[segment] for name, values in set_up.items()}
@@ -59,7 +64,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
     listings = {} if source_text is None else dict.fromkeys(operations, listing(source_text))
     every, place = np.arange(count), source.place
     unknown = np.full(raster.shape, np.nan)
-    return StageTrace(
+    found = StageTrace(
         stage="raster",
         method=f"line={line}",
         steps=Steps(
@@ -97,6 +102,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         },
         constants={"center": raster.center},
     )
+    return with_line_clipping(found, source)
 
 
 def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:

@@ -20,6 +20,8 @@ WINDOW = (4, 3)
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
+    "side-below": [[-0.75, -1.5, 0, 1], [0.5, -1.5, 0, 1], [1.25, 0.5, 0, 1]],
+    "past-a-corner": [[-0.5, -0.5, 0, 1], [1.75, 0.5, 0, 1], [0.5, 1.75, 0, 1]],
     "outside-left": [[-3, 0, 0, 1], [-2, 1, 0, 1], [-4, -1, 0, 1]],
     "degenerate": [[-1, -1, 0, 1], [0, 0, 0, 1], [1, 1, 0, 1]],
     "clockwise": [[-1, -1, 0, 1], [-1, 1, 0, 1], [1, -1, 0, 1]],
@@ -108,7 +110,13 @@ def rare_steps() -> tuple[Step, ...]:
         Settings(interpolation="affine-n", correction_interval=3),
         *[Settings(depth=depth, visibility="last-drawn") for depth in ("z-24", "reversed-z", "logarithmic")],
         Settings(polygon_mode="wireframe", depth="reversed-z"),
+        *[
+            Settings(polygon_mode="wireframe", line_clipping=name)
+            for name in table.names("line_clipping")[1:]
+        ],
         Settings(fill="spans", depth="fixed-38"),
+        Settings(clipping="after-divide"),
+        Settings(clipping="sutherland-hodgman-lecture"),
         Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
     ]
     alone = [rare_trace(name, choice) for name in RARE_CLIP for choice in choices]

@@ -24,9 +24,10 @@ from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.framebuffer.resolve import weighted_mean
+from core.geometry.after_divide import divide_corner
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
-from core.geometry.sutherland_hodgman import clip_edge
+from core.geometry.sutherland_hodgman import clip_edge, clip_edge_in_order
 from core.methods import table
 from core.raster.binning import block_verdict
 from core.raster.edge_functions import anchored_coefficients, covers, edge_coefficients
@@ -92,13 +93,18 @@ def check_cull(traced: Trace) -> None:
 def check_clip(traced: Trace) -> None:
     found = traced.stage("clip")
     c = found.columns
+    in_order = traced.source.settings.clipping == "sutherland-hodgman-lecture"
+    in_order = in_order and not traced.source.geometry.clipping_inserted
+    listed = clip_edge_in_order if in_order else clip_edge
     for kind in ("in-in", "in-out", "out-in", "out-out"):
         for row in rows_of_kind(found, kind):
-            corners = clip_edge(
-                c["start"][row], c["end"][row], c["start_distance"][row], c["end_distance"][row]
-            )
+            corners = listed(c["start"][row], c["end"][row], c["start_distance"][row], c["end_distance"][row])
             wanted = {"in-in": [c["end"][row]], "out-out": [], "in-out": [c["corner"][row]]}
             assert equal(corners, wanted.get(kind, [c["corner"][row], c["end"][row]]))
+    for kind in {"divided", "mirrored"} & set(found.steps.kinds):
+        for row in rows_of_kind(found, kind):
+            assert divide_corner(*c["clip"][row].tolist()) == tuple(c["ndc"][row])
+            assert (c["clip"][row][3] > 0) == (kind == "divided")
 
 
 def check_edges(traced: Trace) -> None:

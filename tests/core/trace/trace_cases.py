@@ -91,7 +91,7 @@ CHOICES = [{}] + [
     {family: name}
     for family in families()
     for name in table.names(family)
-    if name != getattr(Settings(), family) and family != "line"
+    if name != getattr(Settings(), family) and family not in ("line", "line_clipping")
 ]
 """Every method of triangles once, beside the defaults of the other families."""
 

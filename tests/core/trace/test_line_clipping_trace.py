@@ -1,0 +1,191 @@
+"""Traces of clipped wireframes: the rows give the picture, the listings give the rows, every edge has its steps."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as effort
+from hypothesis import strategies as st
+
+from core import ClipScene, Settings, render, trace
+from core.methods import table
+from core.raster.lines import LISTINGS as LINE_LISTINGS
+from core.steps import Level
+from core.trace import StageTrace
+from core.trace.line_clipping import CLIP_OPERATIONS, LISTINGS
+from core.trace.lines import PIXEL_METHODS
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from tests.core.trace.test_line_trace import check_fold, check_values
+from tests.core.trace.trace_cases import SCENES, settings_of, small_region
+
+CLIPPERS = table.names("line_clipping")[1:]
+SIZE = (12, 9)
+CORNERS = [(-3.5, 4.5), (7.5, -2.5), (16.5, 7.0)]
+"""A triangle that leaves a raster of `SIZE` on the left, at the bottom and on the right."""
+
+
+def clipped_wireframe(clipper: str, **choices) -> Settings:
+    return Settings(**{"polygon_mode": "wireframe", "line_clipping": clipper, **choices})
+
+
+def is_clip_row(found: StageTrace) -> np.ndarray:
+    return np.isin(np.array(found.steps.kinds)[found.steps.kind], list(CLIP_OPERATIONS))
+
+
+@pytest.mark.parametrize("line", table.names("line"))
+@pytest.mark.parametrize("clipper", CLIPPERS)
+@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "orthographic", "near-plane"])
+def test_all_rows_give_the_picture(name, clipper, line):
+    scene = SCENES[name]
+    settings = settings_of({"polygon_mode": "wireframe", "line_clipping": clipper, "line": line}, scene)
+    check_fold(trace(scene, settings), 0, 0, *scene.size)
+    check_fold(trace(scene, settings, region=small_region(scene)), *small_region(scene))
+
+
+@effort(max_examples=60)
+@given(
+    ANY_TRIANGLES,
+    st.sampled_from(CLIPPERS),
+    st.sampled_from(table.names("pixel_center")),
+    st.sampled_from(["perspective", "affine"]),
+    st.sampled_from([1.0, 1e5]),
+)
+def test_any_triangles(case, clipper, pixel_center, interpolation, scale):
+    clip, size = case
+    values = np.linspace(0, 1, clip.size).reshape(clip.shape)
+    scene = ClipScene(clip * np.array([scale, 1, 1, 1]), values, size)
+    settings = clipped_wireframe(
+        clipper, pixel_center=pixel_center, interpolation=interpolation, blend="over"
+    )
+    traced = trace(scene, settings)
+    check_fold(traced, 0, 0, *size)
+    check_listings(traced.stage("raster"), traced.source)
+    check_values(traced.stage("interpolate"), interpolation)
+
+
+def check_listings(found: StageTrace, source) -> None:
+    """Run the clipper's listing on every edge, and the line's listing on what is left of it."""
+    clip = source.geometry.outline_clip
+    lines, whole, c = clip.lines, clip.whole, found.columns
+    window, rows = lines.window, np.flatnonzero(is_clip_row(found))
+    assert set(c["segment"][rows].tolist()) == set(range(len(whole)))
+    for segment in range(len(whole)):
+        own = rows[c["segment"][rows] == segment]
+        left, seen = listed(found.method, source.settings.line_clipping, whole.window[segment], window)
+        assert bool(left) == bool(lines.is_kept[segment])
+        if left:
+            assert np.array_equal(np.asarray(left, float), lines.segments[segment])
+        check_numbers(found, own, seen)
+        check_pixels(found, np.flatnonzero(c["segment"] == segment), lines, segment, source)
+
+
+def listed(method: str, clipper: str, segment, window):
+    ends = segment.ravel().tolist()
+    if clipper in ("cohen-sutherland", "liang-barsky"):
+        return LISTINGS[clipper](*ends, *window.borders)
+    if clipper == "exact":
+        normals = [[Fraction(value) for value in normal] for normal in window.normals.tolist()]
+        return LISTINGS[clipper](ends[:2], ends[2:], normals, window.points.tolist())
+    return LISTINGS[clipper](*segment, window.normals, window.points, clipper == "cyrus-beck-lecture")
+
+
+def check_numbers(found: StageTrace, own: np.ndarray, seen) -> None:
+    c = found.columns
+    if "along" in c:
+        edges = own[~np.isnan(c["along"][own])]
+        numbers = np.stack(
+            [c[name][edges] for name in ("along", "room", "crossing_t", "t_enter", "t_leave")], 1
+        )
+        assert np.array_equal(numbers, np.reshape(seen, (-1, 5)), equal_nan=True)
+        return
+    edge = [["left", "right", "bottom", "top"].index(name) if name else -1 for name in c["border"][own]]
+    assert list(zip(c["code_start"][own], c["code_end"][own], edge, c["moved_end"][own], strict=True)) == seen
+
+
+def check_pixels(found: StageTrace, own: np.ndarray, lines, segment: int, source) -> None:
+    c, line = found.columns, source.settings.line
+    pixels = own[found.pixel[own, 0] >= 0]
+    if not lines.is_kept[segment]:
+        assert not len(pixels)
+        return
+    if not len(pixels):
+        return
+    ends = [*c["first_end"][pixels[0]], *c["second_end"][pixels[0]]]
+    ends = [int(end) for end in ends] if line in PIXEL_METHODS else ends
+    chosen = LINE_LISTINGS[line](*ends, bool(lines.cut_by[segment, 1] >= 0))
+    left, bottom, right, top = source.raster.bounds
+    inside = [(x, y) for x, y, _ in chosen if left <= x < right and bottom <= y < top]
+    assert inside == list(zip(c["column"][pixels], c["row"][pixels], strict=True))
+
+
+@pytest.mark.parametrize("clipper", CLIPPERS)
+@pytest.mark.parametrize("name", ["clip", "lit", "near-plane"])
+def test_the_listings_executed_give_the_rows(name, clipper):
+    traced = trace(SCENES[name], clipped_wireframe(clipper))
+    assert is_clip_row(traced.stage("raster")).any()
+    check_listings(traced.stage("raster"), traced.source)
+
+
+@pytest.mark.parametrize("clipper", CLIPPERS)
+def test_every_edge_is_clipped_before_its_pixels_are_drawn(clipper):
+    scene = ClipScene(clip_of_window([CORNERS], SIZE), size=SIZE)
+    found = trace(scene, clipped_wireframe(clipper)).stage("raster")
+    steps, is_clip, segment = found.steps, is_clip_row(found), found.columns["segment"]
+    assert len(steps.group_ends) == 3
+    assert segment.tolist() == sorted(segment.tolist())
+    for first, end in pairwise([0, *steps.group_ends]):
+        of_group = is_clip[first:end]
+        assert of_group[0]
+        assert (np.diff(of_group.astype(int)) <= 0).all()
+    assert set(found.columns["edge"].tolist()) == {0, 1, 2}
+    assert (found.pixel[is_clip] == -1).all()
+
+
+@pytest.mark.parametrize("clipper", CLIPPERS)
+def test_every_step_names_a_line_and_numbers_that_there_are(clipper):
+    found = trace(SCENES["clip"], clipped_wireframe(clipper)).stage("raster")
+    for position in range(1, found.steps.count + 1):
+        explanation = found.explain(position)
+        assert explanation is not None
+        assert explanation.listing is not None
+        assert explanation.line > 0, explanation.key
+        for name in explanation.changed:
+            value = explanation.values[name]
+            assert value != "" if isinstance(value, str) else np.isfinite(np.asarray(value, float)).all(), (
+                name
+            )
+    for level in Level:
+        boundaries = found.steps.boundaries(level).tolist()
+        for before, after in pairwise(boundaries):
+            assert found.steps.forward(before, level) == after
+            assert found.steps.back(after, level) == before
+
+
+@pytest.mark.parametrize("clipper", CLIPPERS)
+def test_bounds_only_narrow(clipper):
+    found = trace(SCENES["lit"], clipped_wireframe(clipper)).stage("raster")
+    c = found.columns
+    if clipper == "cohen-sutherland":
+        cuts = c["moved_end"] >= 0
+        assert cuts.any()
+        assert (c["code_start"][cuts] | c["code_end"][cuts] > 0).all()
+        return
+    kinds = np.array(found.steps.kinds)[found.steps.kind]
+    entries, exits = kinds == "clip-enter", kinds == "clip-leave"
+    assert np.array_equal(c["t_enter"][entries], np.maximum(c["bound_before"], c["crossing_t"])[entries])
+    assert np.array_equal(c["t_leave"][exits], np.minimum(c["bound_before"], c["crossing_t"])[exits])
+    assert entries.any()
+
+
+def test_a_region_is_stepped_with_the_window_of_the_whole_picture():
+    scene = SCENES["clip"]
+    settings = clipped_wireframe("liang-barsky")
+    whole, part = trace(scene, settings), trace(scene, settings, region=small_region(scene))
+    for traced in (whole, part):
+        width, height = scene.size
+        assert traced.source.geometry.outline_clip.lines.window.borders == (0, 0, width, height)
+    rows = [is_clip_row(t.stage("raster")).sum() for t in (whole, part)]
+    assert rows[0] == rows[1] > 0
+    assert render(scene, settings).cover_count.any()
