@@ -8,6 +8,7 @@ import textwrap
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -382,6 +383,11 @@ PROGRAM = """
     print(*workers.pids, flush=True)
 """
 """A script without a guard around its main part, that closes nothing."""
+HEARS_INTERRUPTS = """
+    import signal
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+"""
+"""Where the tests run in the background of a shell, interrupts are ignored, and that is inherited."""
 GO_ON = """
     while True:
         picture = workers.draw(scene, Settings(fill="spans", depth="fixed-38"))
@@ -458,11 +464,15 @@ def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing:
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
 def test_an_interrupt_reaches_the_program_and_ends_the_workers(tmp_path: Path) -> None:
     """Ctrl+C goes to every process of the terminal."""
-    with start(PROGRAM + GO_ON, tmp_path, start_new_session=True) as process:
-        worker = worker_of(process)
-        time.sleep(0.1)
-        os.killpg(process.pid, signal.SIGINT)
-        _, problems = process.communicate(timeout=30)
+    with start(HEARS_INTERRUPTS + PROGRAM + GO_ON, tmp_path, start_new_session=True) as process:
+        try:
+            worker = worker_of(process)
+            time.sleep(0.1)
+            os.killpg(process.pid, signal.SIGINT)
+            _, problems = process.communicate(timeout=30)
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
     assert process.returncode == -signal.SIGINT
     assert problems.count("Traceback") == 1
     assert problems.rstrip().endswith("KeyboardInterrupt")
