@@ -147,7 +147,12 @@ def test_blocks_test_fewer_pixels_than_brute_force_on_small_triangles() -> None:
 def test_depth_crowds_at_a_far_plane_where_1_over_w_does_not() -> None:
     points = by_method(measured("depth", dials={"far": 1e5, "gap": 1e-5, "side": 64}))
     assert points["depth=z-float32"].errors["wrong-visible"] > 50_000
-    assert points["depth=inverse-w"].errors["wrong-visible"] == 0
+    for name in {"inverse-w", "reversed-z"} & set(table.names("depth")):
+        assert points[f"depth={name}"].errors["wrong-visible"] == 0
+        assert (
+            points[f"depth={name}"].counts["pixels covered"]
+            == points["depth=z-float32"].counts["pixels covered"]
+        )
 
 
 # What the errors say
