@@ -20,9 +20,14 @@ class Overlays(QObject):
         self.key_help = KeyHelp(window)
         self.key_help.hide()
         self.key_help.closed.connect(self.key_help.hide)
-        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in ACTIONS if a.keys])
         self.ask_bar = AskBar(window)
         self.ask_bar.text_entered.connect(self._take_answer)
+
+    def show_page(self, name: str) -> None:
+        """Show the keys of a page and those of all pages."""
+        actions = [action for action in ACTIONS if action.keys and action.page in ("", name)]
+        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
+        self.ask_bar.hide()
 
     def place(self) -> None:
         """Keep what lies over the page inside of it."""
