@@ -64,6 +64,8 @@ class Point:
     """Work that does not depend on the machine: ``pixels tested``, ``operations``, ``bytes``."""
     errors: Mapping[str, float] = field(default_factory=dict)
     """By `ErrorMeasure.name`; NaN: this error is not defined for the method."""
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    """By `ErrorMeasure.name`, a sentence for every NaN: why the error is not defined."""
     refused: str = ""
     """A sentence: why there are no numbers. Empty: there are."""
 
@@ -130,6 +132,10 @@ class Study:
     """Value of the cost dial to the points there."""
     machine: Mapping[str, str] = field(default_factory=dict)
     """Processor, system, versions of Python, NumPy and Rasterscope, date."""
+    settings: Settings = field(default_factory=Settings)
+    """What all points share; a point's method changes one or a few of them."""
+    scene: str = ""
+    """What the scene that was measured on is called; empty: the work itself makes it."""
 
 
 def pareto_front(points: tuple[Point, ...], measure: str) -> tuple[Point, ...]:
