@@ -22,6 +22,8 @@ class StepRequest:
     title: str
     other: Settings | None = None
     """Settings of B, for A | B; ``None``: only A is looked at."""
+    triangle: int | None = None
+    """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
 
 
 class Page(QWidget):

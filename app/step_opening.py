@@ -47,7 +47,7 @@ class StepOpening(QObject):
         """Open what a `StepRequest` names."""
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> _Ready:
-            document = document_at(request.opening, request.title)
+            document = document_at(request.opening, request.title, request.triangle)
             return _Ready(request, document, trace_now(document, request.opening.stage))
 
         self.job.start(work)
@@ -85,24 +85,24 @@ def differences(first: Settings, second: Settings) -> dict[str, str | int]:
     return {name: getattr(second, name) for name in names if getattr(first, name) != getattr(second, name)}
 
 
-def document_at(opening: Opening, title: str) -> Document:
+def document_at(opening: Opening, title: str, triangle: int | None = None) -> Document:
     """Return a document in which the opening's pixel can be stepped.
 
-    A picture that is too large to be stepped as a whole is stepped around the pixel, and of many triangles the one
-    that is seen there.
+    A picture that is too large to be stepped as a whole is stepped around the pixel, and of many triangles only one:
+    ``triangle``, or else the one that is seen there.
     """
     document = open_document(opening.scene, title, settings=opening.settings)
     if opening.pixel is None:
         return document
     if document.raster.origin is not None or document.traced_scene.size != opening.scene.size:
-        document = replace(document, raster=_part_around(opening.scene.size, opening.pixel))
+        document = replace(document, raster=part_around(opening.scene.size, opening.pixel))
     if document.triangle_count > TRACED_TOGETHER:
-        seen = _triangle_at(document, opening.pixel)
+        seen = _triangle_at(document, opening.pixel) if triangle is None else triangle
         document = replace(document, triangle=document.triangle if seen < 0 else seen)
     return document
 
 
-def _part_around(size: tuple[int, int], pixel: tuple[int, int]) -> TeachingRaster:
+def part_around(size: tuple[int, int], pixel: tuple[int, int]) -> TeachingRaster:
     """Return a raster around a pixel, inside of the picture."""
     columns, rows = min(PART[0], size[0]), min(PART[1], size[1])
     column = min(max(pixel[0] - columns // 2, 0), size[0] - columns)

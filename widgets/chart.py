@@ -2,7 +2,7 @@
 
 from math import hypot
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
@@ -217,17 +217,17 @@ class Chart(ChartCanvas):
             places.take(QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach))
         wanted = sorted(picture.series, key=lambda s: (s.key != self._pointed, s.key not in self._marks))
         for series in wanted:
-            at = self.place_of(series.key)
-            if at is None:
+            end = self.place_of(series.key)
+            if end is None:
                 continue
             letter = self._marks.get(series.key, "")
             text = f"{letter}: {series.title}" if letter else series.title
             size = QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height())
-            found = places.find(at, size, reach)
+            found = places.find(end, size, reach)
             if found is None:
                 continue
             is_strong = series.key == self._pointed or bool(letter)
-            self._paint_leader(painter, at, found, reach)
+            self._paint_leader(painter, end, found, reach)
             painter.setPen(QColor(theme.text if is_strong else series_color(series.number)))
             painter.drawText(found, int(Qt.AlignmentFlag.AlignCenter), text)
 
@@ -239,8 +239,3 @@ class Chart(ChartCanvas):
         if hypot(end.x() - at.x(), end.y() - at.y()) > 2.2 * reach:
             painter.setPen(QPen(QColor(current_theme().outline), 1.0))
             painter.drawLine(at, end)
-
-    @Slot()
-    def close_items(self) -> None:
-        """Let pyqtgraph's scene end before the widget does."""
-        self.show_picture(None)

@@ -197,7 +197,8 @@ class ChartCanvas(pg.GraphicsView):
         for axis, scale, record, seen in zip(
             self.axes, self._scales, records, self.view.viewRange(), strict=True
         ):
-            axis.setTicks([scale.ticks(*seen, record.unit), []])
+            low, high = seen
+            axis.setTicks([scale.ticks(low, high, record.unit), []])
         self.viewport().update()
 
     @Slot()

@@ -1,7 +1,7 @@
 """Where values stand on a logarithmic axis that has places of its own for 0 and for infinity.
 
-A logarithmic axis has no 0, yet an exact method has exactly that error: it stands in a band below the axis, set apart by
-a line, and infinity in a band above. Positions are decades (log10); nothing here knows pixels.
+A logarithmic axis has no 0, yet an exact method has exactly that error: it stands in a band below the axis, set apart
+by a line, and infinity in a band above. Positions are decades (log10); nothing here knows pixels.
 """
 
 from dataclasses import dataclass
@@ -74,7 +74,9 @@ class ChartScale:
         for decade in range(floor(low), ceil(high) + 1):
             if decade % stride == 0:
                 values = (step * 10.0**decade for step in steps)
-                marks += [(log10(value), _text(value, unit)) for value in values if low <= log10(value) <= high]
+                marks += [
+                    (log10(value), _text(value, unit)) for value in values if low <= log10(value) <= high
+                ]
         return marks
 
 
@@ -103,7 +105,11 @@ def value_text(value: float, unit: str, digits: int = 4) -> str:
     """Write a value with its unit; seconds with a prefix."""
     if unit == "s" and np.isfinite(value):
         return time_text(value, digits)
-    text = f"{value:,.0f}" if value == int_or_nan(value) and 1e4 <= abs(value) < 1e9 else number_text(value, digits)
+    text = (
+        f"{value:,.0f}"
+        if value == int_or_nan(value) and 1e4 <= abs(value) < 1e9
+        else number_text(value, digits)
+    )
     return f"{text} {unit}" if unit else text
 
 

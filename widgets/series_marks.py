@@ -1,12 +1,12 @@
 """Colour and shape of a series: the shape alone tells twelve apart, the colour helps.
 
-The shapes are those of pyqtgraph. The colours keep away from what has a meaning in the program: the blue, orange and green of
-vertices, the accent of the present step.
+The shapes are those of pyqtgraph. The colours keep away from what has a meaning in the program: the blue, orange and
+green of vertices, the accent of the present step.
 """
 
+from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
-from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
 
 from widgets.theme import Theme, current_theme
 
