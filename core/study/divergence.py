@@ -178,20 +178,17 @@ def _pixel_divergence(first: StageTrace, second: StageTrace, names: tuple[str, .
     if differs.any():
         place = int(np.flatnonzero(differs)[np.argmin(both[0][differs])])
         candidates.append((int(both[0][place]), int(both[0][place]), int(both[1][place])))
-    for keys, rows, other_keys, is_first in (
-        (ours, our_rows, theirs, True),
-        (theirs, their_rows, ours, False),
-    ):
-        alone = rows[~np.isin(keys, other_keys)]
-        if len(alone):
-            at = int(alone.min())
-            candidates.append((at, at, None) if is_first else (at, None, at))
+    only_ours, only_theirs = our_rows[~np.isin(ours, theirs)], their_rows[~np.isin(theirs, ours)]
+    if len(only_ours):
+        candidates.append((int(only_ours.min()), int(only_ours.min()), None))
+    if len(only_theirs):
+        candidates.append((int(only_theirs.min()), None, int(only_theirs.min())))
     if not candidates:
         return None
-    _, *rows = min(candidates, key=lambda candidate: candidate[0])
-    if None in rows:
-        return _at_rows(first, second, *_with_uncovered(first, second, rows[0], rows[1]), names)
-    return _at_rows(first, second, rows[0], rows[1], names)
+    _, row, other = min(candidates, key=lambda candidate: candidate[0])
+    if row is None or other is None:
+        row, other = _with_uncovered(first, second, row, other)
+    return _at_rows(first, second, row, other, names)
 
 
 def _outcome_rows(stage: StageTrace) -> tuple[Integers, Integers]:

@@ -1,8 +1,8 @@
 """Measure all methods of a family on the same work: time in interleaved rounds, work counts, errors.
 
 Every method first runs once untimed (what it made then is counted and compared), then all take turns: round by round,
-each round beginning with another one, with the garbage collector off. Of a method whose runs are slow fewer are timed: it
-takes part in the first round, and in another one only while all its timed runs together stay below `BUDGET` seconds.
+each round beginning with another one, with the garbage collector off. Of a method whose runs are slow fewer are timed:
+it takes part in the first round, and in another one only while all its timed runs stay below `BUDGET` seconds together.
 """
 
 import gc
@@ -108,7 +108,8 @@ def measure(
     rounds : int
         Timed runs of every method, fewer of slow ones.
     grow : bool
-        Measure, with three rounds and without errors, at all values of the cost dial too.
+        Measure, with three rounds and without errors, at all values of the cost dial too. A method whose run takes more
+        than `BUDGET` seconds, or that is refused, is left out at larger values.
     seed : int
         Of the random numbers that the work is made from.
     machine : mapping of str to str, optional
@@ -153,8 +154,9 @@ def measure(
     for value in others:
         assert dial is not None
         elsewhere = replace(assignment, dials={**assignment.dials, dial.name: value})
+        fit = tuple(each for each in candidates if not _is_too_slow(each, growth, value))
         growth[value] = _measure_points(
-            found, elsewhere, candidates, GROWTH_ROUNDS, replace(watch, point_done=None), dial
+            found, elsewhere, fit, GROWTH_ROUNDS, replace(watch, point_done=None), dial
         )
     return Study(
         family=found.name,
@@ -174,6 +176,16 @@ def measure(
 def cost_dial(work: WorkKind) -> Dial | None:
     """Return the dial that cost grows with, if the work has one."""
     return next((dial for dial in work.dials if dial.is_cost), None)
+
+
+def _is_too_slow(candidate: Candidate, growth: Mapping[float, tuple[Point, ...]], value: float) -> bool:
+    """Tell whether one run took longer than `BUDGET` on less work, or could not be done: then more is not tried."""
+    return any(
+        point.method == candidate.method and (bool(point.refused) or float(point.seconds.min()) > BUDGET)
+        for less, points in growth.items()
+        if less < value
+        for point in points
+    )
 
 
 def _measure_points(
