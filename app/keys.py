@@ -40,6 +40,8 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Files",
     "Pages",
 )
+MEASURING = "Measuring"
+CHARTS = "Charts"
 
 ACTIONS: tuple[KeyAction, ...] = (
     *_on(
@@ -125,12 +127,51 @@ ACTIONS: tuple[KeyAction, ...] = (
             "toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True
         ),
     ),
+    *_on(
+        "compare",
+        KeyAction("measure", ("F5",), "Measure all methods of the family", MEASURING, "Compare"),
+        KeyAction("cancel_measuring", ("Shift+F5",), "Cancel measuring", MEASURING, "Compare"),
+        KeyAction("next_family", ("Ctrl+PgDown",), "Next family", MEASURING, "Compare"),
+        KeyAction("previous_family", ("Ctrl+PgUp",), "Family before", MEASURING, "Compare"),
+        KeyAction("next_error", ("E",), "Next error on the axis", CHARTS, "Compare"),
+        KeyAction("next_cost", ("X",), "Time, or the next count of work, on the axis", CHARTS, "Compare"),
+        KeyAction("show_numbers", ("T",), "Charts or numbers", CHARTS, "Compare"),
+        KeyAction("fit_charts", ("W",), "Show everything in the charts", CHARTS, "Compare"),
+        KeyAction("step_run", ("Ctrl+Return",), "Open the chosen run in the stepper", CHARTS, "Compare"),
+        KeyAction(
+            "step_divergence",
+            ("Ctrl+Shift+Return",),
+            "Step two runs to their first divergence",
+            CHARTS,
+            "Compare",
+        ),
+        KeyAction("copy_pictures", (), "Copy the pictures", CHARTS, "Compare"),
+    ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
     KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),
     KeyAction("copy_view", ("Ctrl+Shift+C",), "Copy view", FILES, "File"),
     KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
 )
+
+LOCAL_KEYS = tuple(
+    _on(
+        "compare",
+        KeyAction(
+            "chart_go", ("Left", "Right", "Up", "Down"), "In a chart: go to the neighbouring point", CHARTS
+        ),
+        KeyAction(
+            "chart_choose", ("Return",), "In a chart: open the point’s pictures, as a click does", CHARTS
+        ),
+        KeyAction(
+            "chart_add",
+            ("Shift+Return",),
+            "In a chart: lock a second point to the first, as Ctrl+click does",
+            CHARTS,
+        ),
+    )
+)
+"""What a widget does by itself while it has the keyboard: for the page of keys only."""
 
 
 def key_text(action: KeyAction) -> str:

@@ -12,7 +12,7 @@ from app.look import THEMES
 from lessons.scenes import CATALOGUE
 from widgets.theme import current_theme
 
-MENUS = ("File", "Edit", "Step", "Stage", "Raster", "View", "Help")
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "View", "Help")
 BEFORE_SEPARATORS = (
     "save_state",
     "copy_view",
@@ -21,6 +21,8 @@ BEFORE_SEPARATORS = (
     "next_view",
     "predict",
     "page_compare",
+    "previous_family",
+    "fit_charts",
 )
 """Actions that a separator follows."""
 

@@ -19,7 +19,13 @@ def _make_compare(session: Session, parent: QWidget) -> Page:
 
 PAGE_KINDS = (
     PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
-    PageKind("compare", "Compare", "Chart speed against accuracy for every family (Alt+2)", _make_compare),
+    PageKind(
+        "compare",
+        "Compare",
+        "Chart speed against accuracy for every family (Alt+2)",
+        _make_compare,
+        (".json",),
+    ),
 )
 
 

@@ -1,6 +1,6 @@
 """From a study to its two charts: error against cost, and how cost grows with the work."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -42,9 +42,9 @@ def numbers_of(points: Sequence[Point]) -> dict[str, int]:
     return {point.method: number for number, point in enumerate(points)}
 
 
-def title_of(point: Point, points: Sequence[Point]) -> str:
-    """Return what a point is called; its family stands before it where the points are of several."""
-    families = {each.method.split("=", 1)[0] for each in points}
+def title_of(point: Point, methods: Iterable[str]) -> str:
+    """Return what a point is called; its family stands before it where the ``methods`` are of several."""
+    families = {method.split("=", 1)[0] for method in methods}
     family, _, name = point.method.partition("=")
     is_plain = name in (table.names(family) if family in table.families else ())
     if len(families) > 1 and is_plain and point.title == table.get(family, name).title:
@@ -52,14 +52,21 @@ def title_of(point: Point, points: Sequence[Point]) -> str:
     return point.title
 
 
-def scatter_of(study: Study, measure_name: str, cost: str) -> ChartPicture | ChartEmpty:
-    """Return the chart of an error against a cost, with the front of the methods that no other beats in both."""
+def scatter_of(
+    study: Study, measure_name: str, cost: str, numbers: Mapping[str, int]
+) -> ChartPicture | ChartEmpty:
+    """Return the chart of an error against a cost, with the front of the methods that no other beats in both.
+
+    Parameters
+    ----------
+    numbers : mapping of str to int
+        Every method's number, those included that are still to be measured.
+    """
     measure = measure_of(study, measure_name)
-    numbers = numbers_of(study.points)
     series = tuple(
         ChartSeries(
             point.method,
-            title_of(point, study.points),
+            title_of(point, numbers),
             numbers[point.method],
             np.array([cost_value(point, cost)]),
             np.array([point.errors[measure.name]]),
@@ -92,18 +99,17 @@ def cost_axis(cost: str, unit: str) -> ChartAxis:
     return ChartAxis(cost_title(cost, unit), "s" if cost == TIME else "")
 
 
-def growth_of(study: Study, cost: str) -> ChartPicture | ChartEmpty:
+def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPicture | ChartEmpty:
     """Return the chart of a cost against the dial that it grows with, one line for each method."""
     dial = cost_dial(study.work)
     if dial is None:
         return ChartEmpty(f"“{study.work.title}” has no size that cost would grow with; choose another work.")
     if len(study.growth) < 2:
         return ChartEmpty(f"How cost grows with “{dial.title.lower()}” has not been measured.")
-    numbers = numbers_of(study.points)
     series = tuple(
         found
         for point in study.points
-        if (found := _growing(study.growth, point, title_of(point, study.points), numbers, cost)) is not None
+        if (found := _growing(study.growth, point, title_of(point, numbers), numbers, cost)) is not None
     )
     if not series:
         return ChartEmpty("Every method refused this work; the text on the left says why.")
@@ -116,7 +122,7 @@ def dial_axis(dial: Dial) -> ChartAxis:
 
 
 def _growing(
-    growth: Mapping[float, tuple[Point, ...]], point: Point, title: str, numbers: dict[str, int], cost: str
+    growth: Mapping[float, tuple[Point, ...]], point: Point, title: str, numbers: Mapping[str, int], cost: str
 ) -> ChartSeries | None:
     """Return the line of one method; ``None``: it has no numbers."""
     found: list[tuple[float, float, tuple[float, float]]] = []
