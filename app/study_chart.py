@@ -3,7 +3,7 @@
 Both axes are logarithmic. An error of exactly 0 has no logarithm: it has a place of its own below the axis.
 """
 
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 
 from app.study_axes import LogAxis, axis_of, ticks
 from app.study_labels import Box, box_around, place_labels, spread_apart
@@ -155,7 +155,7 @@ def scatter(study: Study, measure: ErrorMeasure, top: float) -> tuple[list[str],
 def front_steps(places: list[tuple[float, float]], right: float) -> list[tuple[float, float]]:
     """Return the corners of the Pareto front: up to the next point's time nothing is more accurate."""
     steps: list[tuple[float, float]] = []
-    for (x, y), following in zip(places, [*places[1:], None], strict=True):
+    for (x, y), following in zip_longest(places, places[1:]):
         steps += [(x, y), (right if following is None else following[0], y)]
     return steps
 

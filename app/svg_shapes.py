@@ -52,7 +52,8 @@ def polyline(
 
 def ground(x: float, y: float, width: float, height: float) -> str:
     """Return a patch of the ground, on which words can be read."""
-    return f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" fill="#FFFFFF" fill-opacity="0.8"/>'
+    place = f'x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}"'
+    return f'<rect {place} fill="#FFFFFF" fill-opacity="0.8"/>'
 
 
 def circle(x: float, y: float, radius: float, color: str, *, filled: bool) -> str:

@@ -4,11 +4,11 @@ import os
 import platform
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
 
 import numpy as np
 
 from app import __version__
+from core.study.machine import processor_name
 
 
 @dataclass(frozen=True)
@@ -42,17 +42,6 @@ def this_machine() -> Machine:
         numpy=np.__version__,
         program=__version__,
     )
-
-
-def processor_name() -> str:
-    """Return the processor's name, where the system tells it."""
-    table = Path("/proc/cpuinfo")
-    if table.is_file():
-        for line in table.read_text(encoding="utf-8", errors="replace").splitlines():
-            key, _, value = line.partition(":")
-            if key.strip() == "model name":
-                return " ".join(value.split())
-    return platform.processor() or platform.machine()
 
 
 def usable_cores() -> int:

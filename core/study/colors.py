@@ -58,8 +58,9 @@ class TextureTask(SampledTask):
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and the texels that are read."""
         columns = trace(self.scene, settings, region=(0, 0, 1, 1)).stage("shade").columns
-        texels = columns["texels"].shape[1] * made.statistics["shade"].incoming
-        return super().counts(settings, made) | {"texels read": int(texels)}
+        # The texels of a fragment by their columns: of one level, or of the nearer and the farther.
+        each = sum(values.shape[1] for name, values in columns.items() if name.rpartition("_")[2] == "texels")
+        return super().counts(settings, made) | {"texels read": each * made.statistics["shade"].incoming}
 
 
 def make_texture_filter(assignment: Assignment) -> TextureTask:

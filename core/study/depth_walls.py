@@ -58,7 +58,7 @@ DEPTH = StudyFamily(
             "frame",
             (
                 Dial("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), 1e4),
-                Dial("gap", "Gap, as a part of the distance", "", (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), 1e-4),
+                Dial("gap", "Gap, as a part of the distance", "", (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), 1e-5),
                 SIDES,
             ),
         ),

@@ -155,7 +155,7 @@ class _Pipeline(StudyFamily):
 def has_effect(family: str, base: Settings) -> bool:
     """Tell whether a change of a family can change the picture at all, with the other settings as they are."""
     is_outlined = bool(table.get("polygon_mode", base.polygon_mode).function())
-    if family == "line":
+    if family in ("line", "line_clipping"):
         return is_outlined
     if family in ("fill", "fill_rule"):
         return not is_outlined

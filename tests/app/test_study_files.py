@@ -1,0 +1,255 @@
+"""A study as JSON, CSV and charts: what is written is what was measured, and it opens again."""
+
+import csv
+import io
+import json
+import re
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from app.study_axes import axis_of, ticks
+from app.study_chart import study_svg
+from app.study_export import export_study, study_csv
+from app.study_files import StudyFileError, load_study, save_study
+from app.study_labels import Box, place_labels, spread_apart
+from app.study_words import digits, time_text
+from core import Settings
+from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
+from core.study.record import Dial
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    """One that has all that a study can have: growth, a refusal, an error that is not defined, several families."""
+    seconds = [
+        np.array([0.002, 0.0021, 0.0019]),
+        np.array([0.004, 0.005, 0.0041]),
+        np.array([0.001, 0.001, 0.001]),
+    ]
+    points = (
+        Point("fill=spans", "Spans", seconds[0], 10, {"pixels tested": 0}, {"wrong": 0.0, "late": 3.5}),
+        Point("fill=blocks", "Blocks", seconds[1], 10, {"pixels tested": 7}, {"wrong": 0.0, "late": 2.5}),
+        Point(
+            "coverage=float64",
+            "<Float & 64>",
+            seconds[2],
+            10,
+            {"bytes": 9},
+            {"wrong": 12.25, "late": np.nan},
+            {"late": "It has none."},
+        ),
+        Point("fill=brute-force", "Brute force", refused="It takes too long."),
+    )
+    dial = Dial("size", "Triangle size", "pixels", (2, 4, 8), 4, is_cost=True)
+    return Study(
+        family="fill",
+        title="Fills",
+        work=WorkKind("triangles", "Random triangles", "triangle", (dial,)),
+        dials={"size": 4.0},
+        seed=3,
+        measures=(ErrorMeasure("wrong", "Wrong pixels", "per million"), ErrorMeasure("late", "Late", "")),
+        points=points,
+        growth={2.0: points[:2], 4.0: points, 8.0: points[:1]},
+        machine=machine("9.8.7"),
+        settings=Settings(cull="back"),
+    )
+
+
+def as_dict(study: Study) -> dict:
+    found = dict(vars(study))
+    found["growth"] = {
+        value: [point_dict(point) for point in points] for value, points in study.growth.items()
+    }
+    found["points"] = [point_dict(point) for point in study.points]
+    return found
+
+
+def point_dict(point: Point) -> dict:
+    return vars(point) | {
+        "seconds": point.seconds.tolist(),
+        "errors": {k: repr(v) for k, v in point.errors.items()},
+    }
+
+
+def test_a_saved_study_opens_again(study: Study, tmp_path: Path) -> None:
+    save_study(tmp_path / "a.json", study)
+    again = load_study(tmp_path / "a.json")
+    assert as_dict(again) == as_dict(study)
+    save_study(tmp_path / "b.json", again)
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+
+
+def test_a_measured_study_opens_again(tmp_path: Path) -> None:
+    measured = measure("cull", dials={"rings": 4}, rounds=1, grow=False, machine=machine("1"))
+    save_study(tmp_path / "a.json", measured)
+    assert as_dict(load_study(tmp_path / "a.json")) == as_dict(measured)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda found: found.pop("points"), "a.json cannot be opened: points is missing"),
+        (lambda found: found.update(version=2), "it is of version 2, and this Rasterscope opens version 1"),
+        (lambda found: found.update(program="rasterscope"), "it is not a study of Rasterscope"),
+        (lambda found: found["settings"].update(fill="magic"), "settings: fill must be one of"),
+        (lambda found: found["settings"].update(magic="fill"), "settings: setting must be one of"),
+        (lambda found: found["points"][0].update(seconds=[-1.0]), "points.0.seconds.0 "),
+        (lambda found: found.update(user="somebody"), "user is not a known field"),
+    ],
+)
+def test_a_file_that_is_not_right_is_told_in_one_sentence(
+    study: Study, tmp_path: Path, change, message: str
+) -> None:
+    path = tmp_path / "a.json"
+    save_study(path, study)
+    found = json.loads(path.read_text())
+    change(found)
+    path.write_text(json.dumps(found))
+    with pytest.raises(StudyFileError) as problem:
+        load_study(path)
+    assert message in str(problem.value)
+    assert "\n" not in str(problem.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[1]", b"\xff\xfe"])
+def test_a_file_of_something_else_is_told(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "a.json"
+    path.write_bytes(content)
+    with pytest.raises(StudyFileError, match=r"a\.json cannot be opened: it is not a study"):
+        load_study(path)
+    with pytest.raises(StudyFileError, match="there is no such file"):
+        load_study(tmp_path / "none.json")
+
+
+def test_the_table_has_the_numbers_of_the_study(study: Study) -> None:
+    rows = list(csv.DictReader(io.StringIO(study_csv(study))))
+    assert len(rows) == 4 + 2 + 1
+    for row, point in zip(rows, study.points, strict=False):
+        assert row["method"] == point.method
+        assert row["dial_size"] == "4.0"
+        assert row["setting_cull"] == "back"
+        assert row["processor"] == study.machine["processor"]
+        if not point.is_measured:
+            assert row["refused"] == "It takes too long."
+            assert row["median_seconds_per_unit"] == row["wrong"] == ""
+            continue
+        assert float(row["median_seconds_per_unit"]) == point.median
+        assert (float(row["lower_quartile"]), float(row["upper_quartile"])) == point.spread
+        for name, value in point.errors.items():
+            assert row[name] == ("" if np.isnan(value) else repr(value))
+        for name, count in point.counts.items():
+            assert row[name] == str(count)
+        assert row["on_front_wrong"] == str(int(point in pareto_front(study.points, "wrong")))
+    assert rows[2]["not_defined"] == "late: It has none."
+    assert [row["dial_size"] for row in rows[4:]] == ["2.0", "2.0", "8.0"]
+
+
+def test_charts_match_the_numbers_and_name_everything(study: Study) -> None:
+    tree = ElementTree.fromstring(study_svg(study))
+    words = " ".join(node.text or "" for node in tree.iter() if node.tag.endswith("text"))
+    for needed in (
+        "fill=spans",
+        "fill=blocks",
+        "coverage=float64",
+        "It takes too long.",
+        "cull=back",
+        "seed 3",
+    ):
+        assert needed in words
+    for name in ("processor", "python", "numpy", "rasterscope", "date"):
+        assert study.machine[name] in words
+    circles = [node for node in tree.iter() if node.tag.endswith("circle") and node.get("r") == "5"]
+    assert len(circles) == 3
+    x = [float(node.get("cx", 0)) for node in circles]
+    y = [float(node.get("cy", 0)) for node in circles]
+    assert x[2] < x[0] < x[1]
+    assert y[0] == y[1] > y[2] + 20  # zero has a place of its own, below
+    fills = [node.get("fill") for node in circles]
+    assert fills[0] == fills[2] != fills[1]  # filled: on the front
+
+
+def test_the_chart_of_another_error_says_what_is_left_out(study: Study) -> None:
+    words = study_svg(study, "late")
+    assert "Not shown: coverage=float64. It has none." in words
+    assert words.count('r="5"') == 2
+    with pytest.raises(ValueError, match="error of fill must be one of wrong, late, got speed"):
+        study_svg(study, "speed")
+
+
+def test_a_study_without_numbers_has_an_empty_chart(study: Study) -> None:
+    empty = replace(study, points=study.points[3:], growth={})
+    assert 'r="5"' not in study_svg(empty)
+    assert "Brute" not in study_svg(empty)
+
+
+def test_files_are_written_and_say_nothing_of_the_user(
+    study: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("QT_QPA_PLATFORM", "offscreen")
+    written = export_study(study, tmp_path)
+    assert sorted(path.name for path in written) == [
+        f"study-fill-triangles{ending}" for ending in (".csv", ".json", ".png", ".svg")
+    ]
+    for path in written:
+        content = path.read_bytes()
+        assert content
+        assert str(tmp_path).encode() not in content
+        assert str(Path.home()).encode() not in content
+    png = next(path for path in written if path.suffix == ".png").read_bytes()
+    assert png.startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("count", [1, 8, 25])
+def test_names_of_marks_do_not_lie_on_each_other(count: int) -> None:
+    source = np.random.default_rng(count)
+    places = [
+        (float(x), float(y))
+        for x, y in zip(source.uniform(200, 500, count), source.uniform(200, 420, count), strict=True)
+    ]
+    area = Box(90, 80, 990, 500)
+    labels = place_labels(places, [f"name={k} of some length" for k in range(count)], area)
+    for number, label in enumerate(labels):
+        assert area.contains(label.box)
+        assert not any(label.box.overlaps(other.box) for other in labels[:number])
+        assert not any(label.box.overlaps(Box(x - 4, y - 4, x + 4, y + 4)) for x, y in places)
+
+
+def test_heights_are_spread_apart_in_their_order() -> None:
+    heights = [100.0, 101.0, 99.0, 300.0, 498.0, 499.0]
+    moved = spread_apart(heights, 14, 0, 500)
+    in_order = [moved[k] for k in sorted(range(len(heights)), key=lambda k: heights[k])]
+    assert all(after - before >= 14 - 1e-9 for before, after in pairwise(in_order))
+    assert moved[3] == 300.0
+    assert max(moved) <= 500
+
+
+@pytest.mark.parametrize("values", [[1.0], [1.0, 1.2], [1e-9, 1e3], []])
+def test_axes_hold_their_values_and_have_numbers(values: list[float]) -> None:
+    axis = axis_of(values, 100, 900)
+    assert all(100 <= axis.place(value) <= 900 for value in values)
+    assert axis.place(0.0) == 100
+    assert 1 <= len(ticks(axis)) <= 18
+    assert all(100 <= axis.place(value) <= 900 for value in ticks(axis))
+
+
+def test_numbers_as_they_are_read() -> None:
+    assert [time_text(value) for value in (2.0, 0.0123, 4.5e-6, 7e-9, 3e-10)] == [
+        "2.00 s",
+        "12.3 ms",
+        "4.50 µs",
+        "7.00 ns",
+        "0.300 ns",
+    ]
+    assert [digits(value) for value in (0, 12345.6, 0.00123, 1e-9, np.nan)] == [
+        "0",
+        "12,346",
+        "0.00123",
+        "1.00e-09",
+        "–",
+    ]
+    assert re.fullmatch(r"\d{4}-\d{2}-\d{2}", machine("1")["date"])

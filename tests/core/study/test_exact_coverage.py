@@ -1,0 +1,60 @@
+"""The exact referee of coverage against a second derivation: pixel by pixel, from the definition."""
+
+import numpy as np
+import pytest
+
+from core.study.exact.coverage import count_pixels, exact_spans
+from core.study.workloads import clip_of_window, window_mesh
+from tests.core.exact_reference import exact_coverage
+
+SIZE = (9, 7)
+
+
+def random_clip(seed: int, count: int, on_centers: bool) -> np.ndarray:
+    """Return triangles with corners on pixel centres or anywhere, some with corners behind the eye."""
+    source = np.random.default_rng(seed)
+    window = source.uniform(-4, 12, (count, 3, 2))
+    if on_centers:
+        window = np.floor(window) + 0.5
+    w = source.uniform(0.5, 3, (count, 3)) * source.choice([1, 1, 1, -1], (count, 3))
+    return clip_of_window(window, SIZE, np.full((count, 3), 0.5), w)
+
+
+@pytest.mark.parametrize("rule", ["shared-edge", "inclusive", "exclusive"])
+@pytest.mark.parametrize("is_snapped", [True, False])
+@pytest.mark.parametrize("on_centers", [True, False])
+def test_rows_solved_for_columns_are_the_pixels_tested_one_by_one(
+    rule: str, is_snapped: bool, on_centers: bool
+) -> None:
+    clip = random_clip(11, 40, on_centers)
+    triangle, column, row = exact_spans(clip, SIZE, is_snapped=is_snapped, rule=rule).pixels()
+    assert len(triangle) > 100
+    for number, corners in enumerate(clip):
+        chosen = triangle == number
+        expected = exact_coverage(corners, SIZE, rule, snaps=is_snapped)
+        assert np.array_equal(count_pixels(column[chosen], row[chosen], SIZE), expected), number
+
+
+def test_centres_on_whole_numbers() -> None:
+    clip = random_clip(5, 10, True)
+    spans = exact_spans(clip, SIZE, pixel_center="integer")
+    triangle, column, row = spans.pixels()
+    for number, corners in enumerate(clip):
+        chosen = triangle == number
+        expected = exact_coverage(corners, SIZE, doubled_center=0)
+        assert np.array_equal(count_pixels(column[chosen], row[chosen], SIZE), expected)
+
+
+@pytest.mark.parametrize("steps", [2, 1024])
+def test_a_mesh_without_gaps_covers_every_pixel_once(steps: int) -> None:
+    window = window_mesh((24, 16), 5, 3, steps)
+    level = np.ones(window.shape[:2])
+    spans = exact_spans(clip_of_window(window, (24, 16), 0.5 * level, level), (24, 16), is_snapped=False)
+    _, column, row = spans.pixels()
+    assert (count_pixels(column, row, (24, 16)) == 1).all()
+
+
+def test_nothing_is_covered_edge_on_or_behind_the_eye() -> None:
+    flat = [[-1, -1, 0, 1], [0, 0, 0, 1], [1, 1, 0, 1]]
+    behind = [[-1, -1, 0, -1], [3, -1, 0, -1], [-1, 3, 0, -1]]
+    assert len(exact_spans(np.array([flat, behind], float), SIZE).row) == 0
