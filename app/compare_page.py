@@ -1,4 +1,4 @@
-"""The page that charts speed against accuracy: families, controls, two charts, their numbers, and pictures of points."""
+"""The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
 
 from pathlib import Path
 

@@ -179,30 +179,39 @@ class StudyDesk(QObject):
 def divergence_of(shown: PointsShown) -> StepRequest | str:
     """Return what opens where two points part ways, or a sentence: they do not.
 
-    A picture that is too large to be traced as a whole is traced around the first pixel that differs.
+    A picture that is too large to be traced as a whole is traced around one pixel: the first that differs, or else those at
+    which the two runs are wrong first (what opens may be a part of the work, as one line of many).
     """
     first, second = shown.openings
     if first is None or second is None:
         return "These methods cannot be stepped."
-    size = first.scene.size
-    pixel = first_difference(shown.pictures[0], shown.pictures[1])
-    region = None
-    if size[0] > TEACHING_LIMIT[0] or size[1] > TEACHING_LIMIT[1]:
-        if pixel is None:
-            return "Both drew the same picture, and it is too large to be traced as a whole."
-        raster = part_around(size, pixel)
-        assert raster.origin is not None
-        region = (*raster.origin, raster.columns, raster.rows)
-    found = first_divergence(first.scene, first.settings, second.settings, region=region)
     names = " and ".join(point.title for point in shown.points)
-    if found is None:
-        return f"{names} never part ways on this work: every step has the same numbers."
-    at = found.pixel or pixel
-    there = Opening(first.scene, first.settings, found.stage, at)
-    is_many = scene_triangle_count(first.scene) > TRACED_TOGETHER and found.triangle >= 0
-    return StepRequest(
-        there, f"{names}, first divergence", second.settings, found.triangle if is_many else None
-    )
+    differing = first_difference(shown.pictures[0], shown.pictures[1])
+    for scene, pixel in ((first.scene, differing), (first.scene, first.pixel), (second.scene, second.pixel)):
+        region = _region(scene.size, pixel)
+        if region is None and _is_too_large(scene.size):
+            continue
+        found = first_divergence(scene, first.settings, second.settings, region=region)
+        if found is not None:
+            there = Opening(scene, first.settings, found.stage, found.pixel or pixel)
+            is_many = scene_triangle_count(scene) > TRACED_TOGETHER and found.triangle >= 0
+            triangle = found.triangle if is_many else None
+            return StepRequest(there, f"{names}, first divergence", second.settings, triangle)
+    return f"{names} do not part ways on this work: every step that was compared has the same numbers."
+
+
+def _is_too_large(size: tuple[int, int]) -> bool:
+    """Return whether a picture cannot be traced as a whole."""
+    return size[0] > TEACHING_LIMIT[0] or size[1] > TEACHING_LIMIT[1]
+
+
+def _region(size: tuple[int, int], pixel: tuple[int, int] | None) -> tuple[int, int, int, int] | None:
+    """Return the part of a large picture around a pixel; ``None``: all of it."""
+    if pixel is None or not _is_too_large(size):
+        return None
+    raster = part_around(size, pixel)
+    assert raster.origin is not None
+    return (*raster.origin, raster.columns, raster.rows)
 
 
 def first_difference(first: Pictures, second: Pictures) -> tuple[int, int] | None:

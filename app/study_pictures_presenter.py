@@ -80,7 +80,7 @@ class StudyPicturesPresenter(QObject):
             self._view.show_waiting(f"{point.title} drew nothing: {point.refused}")
         elif not result.can_run_again:
             self._view.show_waiting(
-                f"This study was saved; its scene, {result.study.scene}, is not in the file. Open that scene and measure."
+                f"This study was saved without its scene, {result.study.scene}: open that scene and measure it."
             )
         else:
             names = " and ".join(self._title(each) for each in self._chosen)

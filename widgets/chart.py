@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QWidget
 from widgets.caption_paint import paint_empty
 from widgets.chart_canvas import ChartCanvas
 from widgets.chart_records import ChartEmpty, ChartMark, ChartPicture
+from widgets.ink import faded
 from widgets.label_places import LabelPlaces
 from widgets.series_marks import series_color
 from widgets.theme import current_theme, text_font
@@ -17,6 +18,8 @@ _NEAR = 18.0
 """Pixels within which a point is pointed at."""
 _CLICK = 5.0
 """Pixels that the pointer may move between press and release of a click."""
+_FEW = 16
+"""Series, up to which names keep clear of bars too; of more, a name on a bar is better than none."""
 _ARROWS = {
     Qt.Key.Key_Left: (-1, 0),
     Qt.Key.Key_Right: (1, 0),
@@ -175,33 +178,40 @@ class Chart(ChartCanvas):
         if self.picture is None:
             paint_empty(painter, area.toRect(), self._empty.text, theme)
         else:
-            self._paint_caption(painter, self.picture)
-            self._paint_rings(painter)
+            self._paint_titles(painter, self.picture)
+            self._paint_rings(painter, self.picture)
             self._paint_names(painter, self.picture)
         if self.hasFocus() and self._shows_focus:
             painter.setPen(QPen(QColor(theme.focus), 2.0))
             painter.drawRect(area.adjusted(1, 1, -1, -1))
         painter.restore()
 
-    def _paint_caption(self, painter: QPainter, picture: ChartPicture) -> None:
-        if not picture.caption:
-            return
+    def _paint_titles(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Write what is on the axes: over the one that goes up, under the one that goes across."""
         theme = current_theme()
-        font = text_font(theme, theme.small_px)
-        area = self.plot_area()
-        text = QFontMetricsF(font).elidedText(picture.caption, Qt.TextElideMode.ElideRight, area.width() - 8)
+        font = text_font(theme)
+        metrics = QFontMetricsF(font)
+        area, whole = self.plot_area(), self.sceneRect()
         painter.setFont(font)
-        painter.setPen(QColor(theme.muted_text))
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
-        painter.drawText(area.adjusted(4, 2, -4, 0), int(flags), text)
+        painter.setPen(QColor(theme.text))
+        left, right = whole.left() + 8, whole.right() - 8
+        for record, top, flag in (
+            (picture.y_axis, whole.top() + 4, Qt.AlignmentFlag.AlignLeft),
+            (picture.x_axis, whole.bottom() - metrics.height() - 4, Qt.AlignmentFlag.AlignRight),
+        ):
+            text = metrics.elidedText(record.label, Qt.TextElideMode.ElideRight, right - left)
+            end = area.right() if flag == Qt.AlignmentFlag.AlignRight else right
+            painter.drawText(QRectF(left, top, end - left, metrics.height()), int(flag), text)
 
-    def _paint_rings(self, painter: QPainter) -> None:
+    def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Ring what is pointed at and chosen: of a line its last point."""
         theme = current_theme()
         reach = 0.9 * self.mark_size()
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        for key, at in self.places():
-            if key in self._marks or key == self._pointed:
-                painter.setPen(QPen(QColor(theme.text), 2.0 if key in self._marks else 1.4))
+        for series in picture.series:
+            at = self.place_of(series.key)
+            if at is not None and (series.key in self._marks or series.key == self._pointed):
+                painter.setPen(QPen(QColor(theme.text), 2.0 if series.key in self._marks else 1.4))
                 painter.drawEllipse(at, reach, reach)
 
     def _paint_names(self, painter: QPainter, picture: ChartPicture) -> None:
@@ -215,6 +225,9 @@ class Chart(ChartCanvas):
         places = LabelPlaces(area.adjusted(2, 2, -2, -2))
         for _, at in self.places():
             places.take(QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach))
+        if len(picture.series) <= _FEW:
+            for bar in self.bars():
+                places.take(bar)
         wanted = sorted(picture.series, key=lambda s: (s.key != self._pointed, s.key not in self._marks))
         for series in wanted:
             end = self.place_of(series.key)
@@ -228,6 +241,7 @@ class Chart(ChartCanvas):
                 continue
             is_strong = series.key == self._pointed or bool(letter)
             self._paint_leader(painter, end, found, reach)
+            painter.fillRect(found, faded(theme.panel, 0.75))
             painter.setPen(QColor(theme.text if is_strong else series_color(series.number)))
             painter.drawText(found, int(Qt.AlignmentFlag.AlignCenter), text)
 

@@ -33,7 +33,7 @@ class ChartCanvas(pg.GraphicsView):
         self.view = pg.ViewBox(enableMenu=False)
         self.axes = (pg.AxisItem("bottom"), pg.AxisItem("left"))
         layout = pg.GraphicsLayout()
-        layout.setContentsMargins(4, 8, 12, 4)
+        self._layout = layout
         layout.addItem(self.axes[1], 0, 0)
         layout.addItem(self.view, 0, 1)
         layout.addItem(self.axes[0], 1, 1)
@@ -84,6 +84,31 @@ class ChartCanvas(pg.GraphicsView):
                     found.append((key, at))
         return found
 
+    def bars(self) -> list[QRectF]:
+        """Return the rectangles in the widget that bars take."""
+        if self._picture is None or self._scales is None:
+            return []
+        found = []
+        for series in self._picture.series:
+            x, y = self._scales[0].positions(series.x), self._scales[1].positions(series.y)
+            for index in range(len(x)):
+                for spread, scale, is_across in (
+                    (series.x_spread, self._scales[0], True),
+                    (series.y_spread, self._scales[1], False),
+                ):
+                    if spread is None:
+                        continue
+                    low, high = scale.positions(spread[index])
+                    ends = (
+                        [(low, y[index]), (high, y[index])]
+                        if is_across
+                        else [(x[index], low), (x[index], high)]
+                    )
+                    if np.isfinite(ends).all():
+                        start, stop = (QPointF(self.view.mapViewToScene(QPointF(*end))) for end in ends)
+                        found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
+        return found
+
     def plot_area(self) -> QRectF:
         """Return the rectangle between the axes, in the widget."""
         return QRectF(self.view.sceneBoundingRect())
@@ -110,19 +135,12 @@ class ChartCanvas(pg.GraphicsView):
             self.viewport().update()
             return
         self._scales = _scales(picture.series)
-        self._label_axes(picture)
         self._add_separators()
         self._add_front(picture)
         for series in picture.series:
             self._add_series(series)
         self._show_ticks()
         self.viewport().update()
-
-    def _label_axes(self, picture: ChartPicture) -> None:
-        theme = current_theme()
-        style = {"color": theme.text, "font-size": f"{theme.text_px}px"}
-        for axis, record in zip(self.axes, (picture.x_axis, picture.y_axis), strict=True):
-            axis.setLabel(record.label, **style)
 
     def _add_separators(self) -> None:
         assert self._scales is not None
@@ -211,8 +229,11 @@ class ChartCanvas(pg.GraphicsView):
             axis.setTextPen(QPen(QColor(theme.text)))
             axis.setTickFont(text_font(theme, theme.small_px))
             axis.setStyle(tickLength=-4)
-        self.axes[0].setHeight(metrics.height() + 1.6 * theme.text_px + 8)
-        self.axes[1].setWidth(metrics.horizontalAdvance("1,000,000") + 1.6 * theme.text_px + 4)
+        # The titles are written by the chart: the upper one over the axis, across, so that it can be read.
+        line = QFontMetricsF(text_font(theme)).height()
+        self._layout.setContentsMargins(4, line + 8, 12, line + 6)
+        self.axes[0].setHeight(metrics.height() + 8)
+        self.axes[1].setWidth(metrics.horizontalAdvance("1,000,000") + 8)
         self._rebuild()
 
 

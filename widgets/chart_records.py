@@ -49,8 +49,6 @@ class ChartPicture:
     series: tuple[ChartSeries, ...] = ()
     front: tuple[str, ...] = ()
     """Keys of the series of one point that no other beats on both axes, the smallest x first."""
-    caption: str = ""
-    """What was measured, for a picture that stands alone."""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from widgets.marks import Mark, mark_pixmap
@@ -31,6 +31,8 @@ class FamilyList(QListWidget):
         super().__init__(parent)
         self._entries: tuple[FamilyEntry, ...] = ()
         self.setAccessibleName("Families of methods")
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.currentRowChanged.connect(self._choose)
         theme_notifier().theme_changed.connect(self._refresh)
 
@@ -52,7 +54,7 @@ class FamilyList(QListWidget):
         for row, entry in enumerate(self._entries):
             item = self.item(row)
             item.setText(entry.title)
-            item.setToolTip(entry.note)
+            item.setToolTip(f"{entry.title}\n{entry.note}")
             mark = mark_pixmap(Mark.RIGHT, side, self.devicePixelRatioF())
             if not entry.is_measured:
                 mark.fill("transparent")

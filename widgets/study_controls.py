@@ -107,12 +107,12 @@ class StudyControls(QWidget):
         self._work_row = QWidget(self)
         self._work_flow = FlowLayout(self._work_row, 12)
         self._work_flow.addWidget(self._labelled("Work", self.work_box))
+        self._work_flow.addWidget(self._labelled("Rounds", self.rounds_box))
+        self._work_flow.addWidget(self._labelled("Seed", self.seed_box))
         axes = QWidget(self)
         flow = FlowLayout(axes, 12)
         flow.addWidget(self._labelled("Error", self.measure_box))
         flow.addWidget(self._labelled("Cost", self.cost_box))
-        flow.addWidget(self._labelled("Rounds", self.rounds_box))
-        flow.addWidget(self._labelled("Seed", self.seed_box))
         for widget in (self.measure_button, self.cancel_button, self.progress, self.doing):
             flow.addWidget(widget)
         for row in (self._work_row, axes):
@@ -165,9 +165,9 @@ class StudyControls(QWidget):
                 control.hide()
                 control.deleteLater()
             self._dials = {dial.name: DialControl(dial, self._work_row) for dial in dials}
-            for control in self._dials.values():
+            for place, control in enumerate(self._dials.values()):
                 control.value_chosen.connect(self.dial_chosen)
-                self._work_flow.addWidget(control)
+                self._work_flow.insert_widget(place + 1, control)
                 control.show()
         for dial in dials:
             self._dials[dial.name].show_value(dial.value)
