@@ -24,7 +24,7 @@ from core.trace import trace
 
 TEXELS = 256
 """Texels on a side of the texture."""
-DENSITIES = Dial("density", "Texels for a pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 2)
+DENSITIES = Dial("density", "Texels for a pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 4)
 SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
 
 
@@ -68,13 +68,14 @@ def make_texture_filter(assignment: Assignment) -> TextureTask:
 
     Notes
     -----
-    The samples of the reference are bilinear: between texel centres the texture is taken to be linear.
+    Magnified, the texture is taken to be linear between texel centres, as OpenGL's bilinear filter does; with a texel
+    or more for a pixel each texel is a square of one colour, whose mean over a pixel is what mipmaps keep.
     """
     side = int(assignment.dials["side"])
     repeats = side * assignment.dials["density"] / TEXELS
     ratio = 1.0 if assignment.work == "facing" else 4.0
     scene = textured_quad(side, ratio, repeats, checkerboard(TEXELS, assignment.seed))
-    base = Settings(texture_filter="bilinear")
+    base = Settings(texture_filter="bilinear" if assignment.dials["density"] < 1 else "nearest")
     return TextureTask(scene, side * side, base, ("shade",), "shade")
 
 
