@@ -92,8 +92,6 @@ class ComparePage(Page):
         self.charts.setStretchFactor(0, 3)
         self.charts.setStretchFactor(1, 2)
         self.charts.setSizes([600, 400])
-        for chart in (self.scatter, self.growth):
-            chart.setMinimumSize(240, 160)
         self.shown_text.setWordWrap(True)
         self.shown_text.setProperty("role", "muted")
         self.shown_text.setAccessibleName("What the charts show")

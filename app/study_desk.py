@@ -179,8 +179,8 @@ class StudyDesk(QObject):
 def divergence_of(shown: PointsShown) -> StepRequest | str:
     """Return what opens where two points part ways, or a sentence: they do not.
 
-    A picture that is too large to be traced as a whole is traced around one pixel: the first that differs, or else those at
-    which the two runs are wrong first (what opens may be a part of the work, as one line of many).
+    A picture that is too large to be traced as a whole is traced around one pixel: the first that differs, or else
+    those at which the two runs are wrong first (what opens may be a part of the work, as one line of many).
     """
     first, second = shown.openings
     if first is None or second is None:

@@ -17,7 +17,12 @@ def error_text(value: float, measure: ErrorMeasure) -> str:
     if isnan(value):
         return "not defined"
     number = "∞" if isinf(value) else digits(value, 4)
-    return f"{number} {measure.unit}".rstrip()
+    # A unit such as 1/255 is a fraction: 0.5/255.
+    return (
+        f"{number}{measure.unit[1:]}"
+        if measure.unit.startswith("1/")
+        else f"{number} {measure.unit}".rstrip()
+    )
 
 
 def point_text(study: Study, point: Point) -> str:

@@ -184,7 +184,7 @@ def _one(shown: PointsShown, title: str) -> PicturesRecord:
     pictures = shown.pictures[0]
     scale = _scale(pictures.result, pictures.reference)
     return PicturesRecord(
-        heading=f"<b>{title}</b>: {_amount(pictures.difference)}",
+        heading=f"{title}: {_amount(pictures.difference)}",
         buffers=(
             _buffer("picture", pictures.result, scale),
             _buffer("reference", pictures.reference, scale),
@@ -203,7 +203,7 @@ def _two(shown: PointsShown, titles: list[str]) -> PicturesRecord:
     amount = difference_of(first.result, second.result)
     scale = _scale(first.result, second.result)
     return PicturesRecord(
-        heading=f"<b>A: {titles[0]}</b> and <b>B: {titles[1]}</b>: {_amount(amount)}",
+        heading=f"A: {titles[0]} and B: {titles[1]}: {_amount(amount)}",
         buffers=(
             _buffer("A", first.result, scale),
             _buffer("B", second.result, scale),

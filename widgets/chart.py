@@ -20,6 +20,8 @@ _CLICK = 5.0
 """Pixels that the pointer may move between press and release of a click."""
 _FEW = 16
 """Series, up to which names keep clear of bars too; of more, a name on a bar is better than none."""
+_FURTHER = (1.0, 2.5, 5.0, 8.0, 12.0)
+"""How far from its mark a name may stand, in halves of the mark's width; further off a line leads to it."""
 _ARROWS = {
     Qt.Key.Key_Left: (-1, 0),
     Qt.Key.Key_Right: (1, 0),
@@ -179,6 +181,7 @@ class Chart(ChartCanvas):
             paint_empty(painter, area.toRect(), self._empty.text, theme)
         else:
             self._paint_titles(painter, self.picture)
+            self._paint_pointed_line(painter, self.picture)
             self._paint_rings(painter, self.picture)
             self._paint_names(painter, self.picture)
         if self.hasFocus() and self._shows_focus:
@@ -202,6 +205,17 @@ class Chart(ChartCanvas):
             text = metrics.elidedText(record.label, Qt.TextElideMode.ElideRight, right - left)
             end = area.right() if flag == Qt.AlignmentFlag.AlignRight else right
             painter.drawText(QRectF(left, top, end - left, metrics.height()), int(flag), text)
+
+    def _paint_pointed_line(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Draw the line that is pointed at once more, bold: it stands out among many."""
+        for series in picture.series:
+            if series.key == self._pointed and len(series.x) > 1:
+                places = [self.place_of(series.key, index) for index in range(len(series.x))]
+                painter.setPen(QPen(QColor(series_color(series.number)), 3.5))
+                painter.save()
+                painter.setClipRect(self.plot_area())
+                painter.drawPolyline([at for at in places if at is not None])
+                painter.restore()
 
     def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:
         """Ring what is pointed at and chosen: of a line its last point."""
@@ -236,7 +250,7 @@ class Chart(ChartCanvas):
             letter = self._marks.get(series.key, "")
             text = f"{letter}: {series.title}" if letter else series.title
             size = QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height())
-            found = places.find(end, size, reach)
+            found = places.find(end, size, reach, _FURTHER)
             if found is None:
                 continue
             is_strong = series.key == self._pointed or bool(letter)

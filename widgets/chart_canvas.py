@@ -232,6 +232,7 @@ class ChartCanvas(pg.GraphicsView):
         # The titles are written by the chart: the upper one over the axis, across, so that it can be read.
         line = QFontMetricsF(text_font(theme)).height()
         self._layout.setContentsMargins(4, line + 8, 12, line + 6)
+        self.setMinimumSize(18 * theme.text_px, 11 * theme.text_px)
         self.axes[0].setHeight(metrics.height() + 8)
         self.axes[1].setWidth(metrics.horizontalAdvance("1,000,000") + 8)
         self._rebuild()

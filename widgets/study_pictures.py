@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from widgets.elided_label import ElidedLabel
 from widgets.grid_buffer import GridBuffer
 from widgets.linked_grids import LinkedGrids
 
@@ -38,9 +39,7 @@ class StudyPictures(QWidget):
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
         self._record: PicturesRecord | None = None
-        self.heading = QLabel(self)
-        self.heading.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.heading.setWordWrap(True)
+        self.heading = ElidedLabel(self)
         self.linked = LinkedGrids(WORDS, self)
         self.values = QLabel(self)
         self.values.setProperty("role", "muted")
