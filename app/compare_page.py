@@ -6,7 +6,6 @@ from PySide6.QtCore import QByteArray, Qt, Slot
 from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QSplitter,
     QTabWidget,
@@ -26,6 +25,7 @@ from app.study_pictures_presenter import StudyPicturesPresenter
 from app.study_presenter import StudyPresenter
 from core.study.record import Study
 from widgets.chart import Chart
+from widgets.elided_label import ElidedLabel
 from widgets.family_list import FamilyList
 from widgets.readout import Readout
 from widgets.study_controls import StudyControls
@@ -48,7 +48,7 @@ class ComparePage(Page):
         self.controls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
         self.table, self.pictures = StudyTable(self), StudyPictures(self)
-        self.shown_text = QLabel(self)
+        self.shown_text = ElidedLabel(self)
         charts = (self.scatter, self.growth)
         self.studies = StudyPresenter(
             session, self.desk, self.families, self.controls, charts, self.table, self.readout, self
@@ -92,7 +92,6 @@ class ComparePage(Page):
         self.charts.setStretchFactor(0, 3)
         self.charts.setStretchFactor(1, 2)
         self.charts.setSizes([600, 400])
-        self.shown_text.setWordWrap(True)
         self.shown_text.setProperty("role", "muted")
         self.shown_text.setAccessibleName("What the charts show")
         self.tabs = QTabWidget(self)

@@ -87,7 +87,9 @@ def study_text(study: Study, path: str = "") -> str:
         parts += [f"<b>{escape(title_of(point, names))}</b>. {escape(point.refused)}" for point in refused]
     reasons = dict.fromkeys(reason for point in study.points for reason in point.reasons.values())
     parts += [escape(reason) for reason in reasons]
-    parts += [f"{escape(settings_sentence(study))}.", f"{escape(machine_sentence(study))}."]
+    parts.append(f"{escape(settings_sentence(study))}.")
+    if study.machine:
+        parts.append(f"{escape(machine_sentence(study))}.")
     return _paragraphs(parts)
 
 

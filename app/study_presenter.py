@@ -182,7 +182,9 @@ class StudyPresenter(QObject):
             parts.append(f"{counted(refused, 'method')} refused this work.")
         if self.choice.family is not None and not self.choice.is_set_as(study):
             parts.append("The controls are set otherwise by now: measure to see that.")
-        return " ".join([*parts, f"{machine_sentence(study)}."])
+        if study.machine:
+            parts.append(f"{machine_sentence(study)}.")
+        return " ".join(parts)
 
     def choose(self, method: str) -> None:
         """Keep the figures of a method in the readout while nothing else is pointed at; empty: of none."""

@@ -141,22 +141,16 @@ class Chart(ChartCanvas):
             event.ignore()
 
     def _go(self, across: int, down: int) -> None:
-        """Point at the next point in a direction: far sideways counts more than far ahead."""
-        places = self.places()
-        if not places:
+        """Point at the next series to one side: by x where ``across``, else by y; of a line its last point counts."""
+        found = [] if self.picture is None else [(s.key, self.place_of(s.key)) for s in self.picture.series]
+        places = [(at.x(), at.y(), key) for key, at in found if at is not None]
+        ranked = sorted(places if across else ((y, x, key) for x, y, key in places))
+        keys = [key for _, _, key in ranked]
+        if self._pointed not in keys:
+            self._point_at(keys[0] if keys else "")
             return
-        here = next((at for key, at in places if key == self._pointed), None)
-        if here is None:
-            self._point_at(min(places, key=lambda place: place[1].x())[0])
-            return
-        best: tuple[float, str] | None = None
-        for key, at in places:
-            dx, dy = at.x() - here.x(), at.y() - here.y()
-            ahead, aside = (dx * across, dy) if across else (dy * down, dx)
-            if ahead > 0.5 and key != self._pointed:
-                best = min(best or (float("inf"), ""), (ahead + 2 * abs(aside), key))
-        if best is not None:
-            self._point_at(best[1])
+        index = keys.index(self._pointed) + across + down
+        self._point_at(keys[min(max(index, 0), len(keys) - 1)])
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Show the ring if the focus came by a key."""

@@ -19,6 +19,8 @@ _BAND = 0.16
 _FEW_DECADES = 2.5
 """Of a range of fewer decades 1, 2 and 5 are labelled, else the decades alone."""
 _MOST_DECADES = 7
+_LEAST, _MOST = -307, 307
+"""Decades of normal float64 numbers."""
 _PREFIXES = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"), (1e-12, "ps"))
 
 
@@ -71,12 +73,10 @@ class ChartScale:
             return marks
         steps = (1, 2, 5) if high - low < _FEW_DECADES else (1,)
         stride = max(1, ceil((high - low) / _MOST_DECADES))
-        for decade in range(floor(low), ceil(high) + 1):
-            if decade % stride == 0:
-                values = (step * 10.0**decade for step in steps)
-                marks += [
-                    (log10(value), _text(value, unit)) for value in values if low <= log10(value) <= high
-                ]
+        for decade in range(max(floor(low), _LEAST), min(ceil(high), _MOST) + 1):
+            for step in steps if decade % stride == 0 else ():
+                if low <= decade + log10(step) <= high:
+                    marks.append((decade + log10(step), _text(step * 10.0**decade, unit)))
         return marks
 
 
@@ -99,23 +99,6 @@ def time_text(seconds: float, digits: int = 4) -> str:
     if seconds == 0:
         size, name = _PREFIXES[0]
     return f"{number_text(seconds / size, digits)} {name}"
-
-
-def value_text(value: float, unit: str, digits: int = 4) -> str:
-    """Write a value with its unit; seconds with a prefix."""
-    if unit == "s" and np.isfinite(value):
-        return time_text(value, digits)
-    text = (
-        f"{value:,.0f}"
-        if value == int_or_nan(value) and 1e4 <= abs(value) < 1e9
-        else number_text(value, digits)
-    )
-    return f"{text} {unit}" if unit else text
-
-
-def int_or_nan(value: float) -> float:
-    """Return the whole number nearest to a finite value, else NaN."""
-    return float(round(value)) if np.isfinite(value) else float("nan")
 
 
 def _text(value: float, unit: str) -> str:

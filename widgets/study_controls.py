@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -17,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.dial_control import DialChoice, DialControl
+from widgets.elided_label import ElidedLabel
 from widgets.flow_layout import FlowLayout
 from widgets.message_bar import Progress
 
@@ -75,8 +77,9 @@ class StudyControls(QWidget):
         self.progress = QProgressBar(self)
         self.progress.setTextVisible(False)
         self.progress.setFixedSize(160, 8)
-        self.doing = QLabel(self)
+        self.doing = ElidedLabel(self)
         self.doing.setProperty("role", "muted")
+        self.doing.setFixedWidth(320)
         self._dials: dict[str, DialControl] = {}
         self._lay_out()
         self.work_box.activated.connect(self._choose_work)
@@ -134,6 +137,15 @@ class StudyControls(QWidget):
         row.addWidget(control)
         return pair
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep room for all lines of controls."""
+        super().resizeEvent(event)
+        self._keep_height()
+
+    def _keep_height(self) -> None:
+        """Ask for the height that this width needs: a splitter does not ask by itself."""
+        self.setMinimumHeight(self.heightForWidth(self.width()))
+
     # Showing.
 
     def show_choices(self, choices: StudyChoices) -> None:
@@ -150,6 +162,7 @@ class StudyControls(QWidget):
             number.blockSignals(False)
         self._show_dials(choices.dials)
         self.measure_button.setEnabled(choices.can_measure)
+        self._keep_height()
 
     def dial(self, name: str) -> DialControl:
         """Return the control of a dial."""
@@ -183,6 +196,7 @@ class StudyControls(QWidget):
             self.progress.setValue(progress.done)
             self.progress.setAccessibleName(progress.text)
             self.doing.setText(progress.text)
+        self._keep_height()
 
     # What the user chose.
 

@@ -2,17 +2,15 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSortFilterProxyModel, Qt, Signal, Slot
+from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QKeySequence, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
 from widgets.series_marks import series_icon
 from widgets.theme import current_theme, theme_notifier
 
-Index = QModelIndex | QPersistentModelIndex
-_SORT = int(Qt.ItemDataRole.UserRole)
-_FULL = _SORT + 1
-_KEY = _SORT + 2
+_FULL = int(Qt.ItemDataRole.UserRole)
+_KEY = _FULL + 1
 _NOTE_WIDTH = 360
 """Pixels that the last column takes at least; a long sentence is read in the tooltip."""
 
@@ -39,20 +37,6 @@ class TableRecord:
     rows: tuple[tuple[Cell, ...], ...]
 
 
-class _Sorted(QSortFilterProxyModel):
-    """Sorts numbers by size; words, and rows without a number, stand behind them."""
-
-    def lessThan(self, left: Index, right: Index) -> bool:
-        """Compare two cells."""
-        a, b = left.data(_SORT), right.data(_SORT)
-        if a is None and b is None:
-            return str(left.data()).casefold() < str(right.data()).casefold()
-        if a is None or b is None:
-            # Behind the numbers whichever way they are sorted.
-            return (a is not None) == (self.sortOrder() == Qt.SortOrder.AscendingOrder)
-        return bool(a < b)
-
-
 class StudyTable(QTableView):
     """Shows a :class:`TableRecord`; Ctrl+C copies the chosen rows, or all of them."""
 
@@ -63,12 +47,12 @@ class StudyTable(QTableView):
         super().__init__(parent)
         self._record = TableRecord((), (), ())
         self._items = QStandardItemModel(self)
-        self._sorted = _Sorted(self)
-        self._sorted.setSourceModel(self._items)
-        self.setModel(self._sorted)
+        self._order: tuple[int, bool] | None = None
+        """Column that the rows are sorted by, and whether from the largest down; ``None``: as they were measured."""
+        self.setModel(self._items)
         self.setAccessibleName("Numbers of the study")
-        self.horizontalHeader().setSortIndicator(-1, Qt.SortOrder.AscendingOrder)
-        self.setSortingEnabled(True)
+        self.horizontalHeader().setSectionsClickable(True)
+        self.horizontalHeader().sectionClicked.connect(self._sort_by)
         self.setAlternatingRowColors(True)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -91,10 +75,10 @@ class StudyTable(QTableView):
     def text(self) -> str:
         """Return the chosen rows, or all, with their headings: cells apart by tabs, numbers with all digits."""
         rows = sorted({index.row() for index in self.selectionModel().selectedRows()})
-        rows = rows or list(range(self._sorted.rowCount()))
+        rows = rows or list(range(self._items.rowCount()))
         lines = ["\t".join(self._record.head)]
         for row in rows:
-            cells = (self._sorted.index(row, column).data(_FULL) for column in range(len(self._record.head)))
+            cells = (self._items.index(row, column).data(_FULL) for column in range(len(self._record.head)))
             lines.append("\t".join(cells))
         return "\n".join(lines) + "\n"
 
@@ -115,8 +99,8 @@ class StudyTable(QTableView):
         side = current_theme().text_px + 3
         self._items.clear()
         self._items.setHorizontalHeaderLabels(list(record.head))
-        for number, (key, cells) in enumerate(zip(record.keys, record.rows, strict=True)):
-            items = [_item(cell, key) for cell in cells]
+        for number in self._row_order():
+            items = [_item(cell, record.keys[number]) for cell in record.rows[number]]
             items[0].setIcon(series_icon(number, side, self.devicePixelRatioF()))
             self._items.appendRow(items)
         self.verticalHeader().setDefaultSectionSize(side + 10)
@@ -124,8 +108,33 @@ class StudyTable(QTableView):
         last = len(record.head) - 1
         if last >= 0:
             self.horizontalHeader().resizeSection(last, _NOTE_WIDTH)
-        header = self.horizontalHeader()
-        self._sorted.sort(header.sortIndicatorSection(), header.sortIndicatorOrder())
+        self.horizontalHeader().setSortIndicatorShown(self._order is not None)
+
+    def _row_order(self) -> list[int]:
+        """Return the rows as they stand: numbers by size, words by the alphabet, what has no number last."""
+        rows = list(range(len(self._record.rows)))
+        if self._order is None or self._order[0] >= len(self._record.head):
+            return rows
+        column, is_falling = self._order
+        cells = [row[column] for row in self._record.rows]
+        numbers = sorted(
+            (row for row in rows if cells[row].value is not None), key=lambda row: cells[row].value or 0.0
+        )
+        words = sorted(
+            (row for row in rows if cells[row].value is None), key=lambda row: cells[row].text.casefold()
+        )
+        if is_falling:
+            (numbers or words).reverse()
+        return numbers + words
+
+    @Slot(int)
+    def _sort_by(self, column: int) -> None:
+        """Sort by a column, from the smallest up; a second click turns that round."""
+        is_falling = self._order == (column, False)
+        self._order = (column, is_falling)
+        order = Qt.SortOrder.DescendingOrder if is_falling else Qt.SortOrder.AscendingOrder
+        self.horizontalHeader().setSortIndicator(column, order)
+        self._rebuild()
 
     @Slot(QModelIndex)
     def _choose(self, index: QModelIndex) -> None:
@@ -134,7 +143,6 @@ class StudyTable(QTableView):
 
 def _item(cell: Cell, key: str) -> QStandardItem:
     item = QStandardItem(cell.text)
-    item.setData(cell.value, _SORT)
     item.setData(cell.full or cell.text, _FULL)
     item.setData(key, _KEY)
     item.setToolTip(cell.full or cell.text)
