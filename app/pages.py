@@ -2,13 +2,18 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QTabBar, QVBoxLayout, QWidget
 
 from app.session import Session
 from core.settings import Settings
-from core.study.record import Opening
+
+if TYPE_CHECKING:
+    from core.study.record import (
+        Opening,
+    )  # At run time all studies would come along: not before they are wanted.
 
 Handlers = Mapping[str, Callable[[], object]]
 """What to call for actions of ``app.keys.ACTIONS``, by name."""
@@ -18,7 +23,7 @@ Handlers = Mapping[str, Callable[[], object]]
 class StepRequest:
     """What another page wants to see on the Step page."""
 
-    opening: Opening
+    opening: "Opening"
     title: str
     other: Settings | None = None
     """Settings of B, for A | B; ``None``: only A is looked at."""

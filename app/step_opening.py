@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -12,9 +13,11 @@ from app.step_page import StepPage
 from app.tracing import trace_now
 from app.workers import Job, Progress
 from core import Settings, Trace
-from core.study.record import Opening
 from core.trace import TraceSource
 from widgets.message_bar import Message, MessageKind
+
+if TYPE_CHECKING:
+    from core.study.record import Opening  # As in app.pages.
 
 PART = (48, 36)
 """Columns and rows that are stepped around a pixel of a picture that is too large to be stepped as a whole."""
@@ -85,7 +88,7 @@ def differences(first: Settings, second: Settings) -> dict[str, str | int]:
     return {name: getattr(second, name) for name in names if getattr(first, name) != getattr(second, name)}
 
 
-def document_at(opening: Opening, title: str, triangle: int | None = None) -> Document:
+def document_at(opening: "Opening", title: str, triangle: int | None = None) -> Document:
     """Return a document in which the opening's pixel can be stepped.
 
     A picture that is too large to be stepped as a whole is stepped around the pixel, and of many triangles only one:
