@@ -32,7 +32,7 @@ def paint_alone(widget: QWidget, painter: QPainter, *, as_vectors: bool = True) 
     elif is_grid or isinstance(widget, FormulaView | TextureView):
         painter.drawImage(QRectF(widget.rect()), seen_image(widget, SHARPNESS))
     else:
-        widget.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)
+        QWidget.render(widget, painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawWindowBackground)
 
 
 def paint_tree(widget: QWidget, painter: QPainter, seen: QRect | None = None) -> None:
@@ -70,5 +70,6 @@ def seen_image(widget: QWidget, scale: float) -> QImage:
     image = QImage(widget.size() * scale, QImage.Format.Format_ARGB32_Premultiplied)
     image.setDevicePixelRatio(scale)
     image.fill(0)
-    widget.render(image, QPoint())
+    # As a widget: a graphics view has a method of its own by this name, which draws its scene only.
+    QWidget.render(widget, image, QPoint())
     return image

@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.export import copy_widget, export_widget
 from app.mesh_files import EXTENSIONS, OpeningCancelledError
 from app.open_any import Opened, open_any
+from app.page_table import page_endings
+from app.pages import Pages
 from app.state_files import EXTENSION, State, StateFileError, save_state
 from app.step_page import StepPage
 from app.stepping_presenter import Bookmark
@@ -27,10 +29,13 @@ class FileDesk(QObject):
     """A ``Message`` about what became of a file."""
     file_used = Signal(str)
     """Path of a file that was opened or saved."""
+    path_chosen = Signal(str)
+    """Path of a file that the user wants to open."""
 
-    def __init__(self, page: StepPage, messages: MessageBar, window: QWidget) -> None:
+    def __init__(self, page: StepPage, pages: Pages, messages: MessageBar, window: QWidget) -> None:
         super().__init__(window)
         self._page, self._session, self._messages = page, page.session, messages
+        self._pages = pages
         self.job = Job(self)
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.progress.opening_cancelled.connect(self._tell_cancelled)
@@ -44,13 +49,13 @@ class FileDesk(QObject):
 
     def ask_file(self) -> None:
         """Ask for a mesh or state file and open it."""
-        endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION))
+        endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION, *page_endings()))
         folder = str(Path(self._session.document.path).parent) if self._session.document.path else ""
         path, _ = QFileDialog.getOpenFileName(
-            self._page.window(), "Open", folder, f"Meshes and states ({endings});;All files (*)"
+            self._page.window(), "Open", folder, f"Meshes, states and studies ({endings});;All files (*)"
         )
         if path:
-            self.open_path(path)
+            self.path_chosen.emit(path)
 
     @Slot(str)
     def open_path(self, target: str) -> None:
@@ -151,7 +156,7 @@ class FileDesk(QObject):
     def export_to(self, path: str) -> None:
         """Export the current view by the ending of the file."""
         try:
-            export_widget(self._page.main_view(), path)
+            export_widget(self._pages.current.main_view(), path)
         except (OSError, ValueError) as error:
             self._tell(f"The view was not exported: {error}", MessageKind.ERROR)
         else:
@@ -159,4 +164,4 @@ class FileDesk(QObject):
 
     def copy_view(self) -> None:
         """Put the current view on the clipboard as a picture."""
-        copy_widget(self._page.main_view())
+        copy_widget(self._pages.current.main_view())

@@ -1,6 +1,7 @@
 """The one table of keys: menus, tooltips and the ``?`` page are made from it."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from core.frame import STAGES
 from widgets.stage_texts import SHORT_TITLES
@@ -20,9 +21,16 @@ class KeyAction:
     menu: str = ""
     """Menu that it stands in; empty: none."""
     is_checkable: bool = False
+    page: str = ""
+    """The page on which it does something; empty: all of them."""
 
 
-STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES = (
+def _on(page: str, *actions: KeyAction) -> Iterator[KeyAction]:
+    """Yield actions as those of one page."""
+    return (replace(action, page=page) for action in actions)
+
+
+STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Stepping",
     "Pixels",
     "Stages",
@@ -30,53 +38,72 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES = (
     "View",
     "Edit",
     "Files",
+    "Pages",
 )
+MEASURING = "Measuring"
+CHARTS = "Charts"
 
 ACTIONS: tuple[KeyAction, ...] = (
-    KeyAction("step_forward", ("Right",), "Step forward", STEPPING, "Step"),
-    KeyAction("step_back", ("Left",), "Step back", STEPPING, "Step"),
-    KeyAction("larger_forward", ("Shift+Right", "F10"), "Larger step forward (over)", STEPPING, "Step"),
-    KeyAction("larger_back", ("Shift+Left", "Ctrl+F10"), "Larger step back", STEPPING, "Step"),
-    KeyAction("level_in", ("Down", "F11"), "Smaller steps (into)", STEPPING, "Step"),
-    KeyAction("level_out", ("Up", "Shift+F11"), "Larger steps (out)", STEPPING, "Step"),
-    KeyAction("go_first", ("Home",), "Go to the start of the stage", STEPPING, "Step"),
-    KeyAction("go_last", ("End",), "Go to the end of the stage", STEPPING, "Step"),
-    KeyAction("toggle_play", ("Space",), "Play or pause", STEPPING, "Step"),
-    KeyAction("faster", ("+", "="), "Play faster", STEPPING),
-    KeyAction("slower", ("-",), "Play slower", STEPPING),
-    KeyAction("visited_back", ("Ctrl+[",), "Back to where the cursor was before the jump", STEPPING, "Step"),
-    KeyAction("visited_forward", ("Ctrl+]",), "Forward again", STEPPING, "Step"),
-    KeyAction("next_at_pin", ("J",), "Next step at the pinned pixel", RUNNING, "Step"),
-    KeyAction("previous_at_pin", ("K",), "Previous step at the pinned pixel", RUNNING, "Step"),
-    KeyAction("next_event", ("N",), "Next event of the chosen kind", RUNNING, "Step"),
-    KeyAction("previous_event", ("Shift+N",), "Previous event of the chosen kind", RUNNING, "Step"),
-    KeyAction("run_forward", ("F5",), "Run to the next breakpoint", RUNNING, "Step"),
-    KeyAction("run_back", ("Ctrl+F5",), "Run back to the last breakpoint", RUNNING, "Step"),
-    KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
-    KeyAction("edit_condition", ("Ctrl+F9",), "Breakpoint on a condition…", RUNNING, "Step"),
-    KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
-    *(
-        KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
-        for k in range(10)
-    ),
-    *(
+    *_on(
+        "step",
+        KeyAction("step_forward", ("Right",), "Step forward", STEPPING, "Step"),
+        KeyAction("step_back", ("Left",), "Step back", STEPPING, "Step"),
+        KeyAction("larger_forward", ("Shift+Right", "F10"), "Larger step forward (over)", STEPPING, "Step"),
+        KeyAction("larger_back", ("Shift+Left", "Ctrl+F10"), "Larger step back", STEPPING, "Step"),
+        KeyAction("level_in", ("Down", "F11"), "Smaller steps (into)", STEPPING, "Step"),
+        KeyAction("level_out", ("Up", "Shift+F11"), "Larger steps (out)", STEPPING, "Step"),
+        KeyAction("go_first", ("Home",), "Go to the start of the stage", STEPPING, "Step"),
+        KeyAction("go_last", ("End",), "Go to the end of the stage", STEPPING, "Step"),
+        KeyAction("toggle_play", ("Space",), "Play or pause", STEPPING, "Step"),
+        KeyAction("faster", ("+", "="), "Play faster", STEPPING),
+        KeyAction("slower", ("-",), "Play slower", STEPPING),
         KeyAction(
-            f"stage_{k}", (str((k + 1) % 10),) if k < 10 else (), SHORT_TITLES[stage], STAGE_GROUP, "Stage"
-        )
-        for k, stage in enumerate(STAGES)
+            "visited_back", ("Ctrl+[",), "Back to where the cursor was before the jump", STEPPING, "Step"
+        ),
+        KeyAction("visited_forward", ("Ctrl+]",), "Forward again", STEPPING, "Step"),
+        KeyAction("next_at_pin", ("J",), "Next step at the pinned pixel", RUNNING, "Step"),
+        KeyAction("previous_at_pin", ("K",), "Previous step at the pinned pixel", RUNNING, "Step"),
+        KeyAction("next_event", ("N",), "Next event of the chosen kind", RUNNING, "Step"),
+        KeyAction("previous_event", ("Shift+N",), "Previous event of the chosen kind", RUNNING, "Step"),
+        KeyAction("run_forward", ("F5",), "Run to the next breakpoint", RUNNING, "Step"),
+        KeyAction("run_back", ("Ctrl+F5",), "Run back to the last breakpoint", RUNNING, "Step"),
+        KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
+        KeyAction("edit_condition", ("Ctrl+F9",), "Breakpoint on a condition…", RUNNING, "Step"),
+        KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
+        *(
+            KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
+            for k in range(10)
+        ),
+        *(
+            KeyAction(
+                f"stage_{k}",
+                (str((k + 1) % 10),) if k < 10 else (),
+                SHORT_TITLES[stage],
+                STAGE_GROUP,
+                "Stage",
+            )
+            for k, stage in enumerate(STAGES)
+        ),
+        KeyAction("next_stage", ("Ctrl+PgDown",), "Next stage", STAGE_GROUP, "Stage"),
+        KeyAction("previous_stage", ("Ctrl+PgUp",), "Previous stage", STAGE_GROUP, "Stage"),
+        KeyAction("pin_left", ("Alt+Left",), "Move the pin left", POINTING),
+        KeyAction("pin_right", ("Alt+Right",), "Move the pin right", POINTING),
+        KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
+        KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
+        KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
     ),
-    KeyAction("next_stage", ("Ctrl+PgDown",), "Next stage", STAGE_GROUP, "Stage"),
-    KeyAction("previous_stage", ("Ctrl+PgUp",), "Previous stage", STAGE_GROUP, "Stage"),
-    KeyAction("pin_left", ("Alt+Left",), "Move the pin left", POINTING),
-    KeyAction("pin_right", ("Alt+Right",), "Move the pin right", POINTING),
-    KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
-    KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
-    KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
-    KeyAction("unpin", ("Escape",), "Close what is on top, or take the pin away", POINTING),
-    KeyAction("fit_view", ("W",), "Show the whole raster", VIEWING, "View"),
-    KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
-    KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
-    KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
+    KeyAction("unpin", ("Escape",), "Close what is on top, stop what runs, or take the pin away", POINTING),
+    *_on(
+        "step",
+        KeyAction("fit_view", ("W",), "Show the whole raster", VIEWING, "View"),
+        KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
+        KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
+        KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
+    ),
+    KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
+    KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
+    KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
+    KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Page before", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
     KeyAction(
         "presenter",
@@ -89,13 +116,36 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
     KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
-    KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
-    KeyAction(
-        "toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True
+    *_on(
+        "step",
+        KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
+        KeyAction(
+            "toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True
+        ),
+        KeyAction("focus_all", ("A",), "Step all triangles", EDITING, "Raster"),
+        KeyAction(
+            "toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True
+        ),
     ),
-    KeyAction("focus_all", ("A",), "Step all triangles", EDITING, "Raster"),
-    KeyAction(
-        "toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True
+    *_on(
+        "compare",
+        KeyAction("measure", ("F5",), "Measure all methods of the family", MEASURING, "Compare"),
+        KeyAction("cancel_measuring", ("Shift+F5",), "Cancel measuring", MEASURING, "Compare"),
+        KeyAction("next_family", ("Ctrl+PgDown",), "Next family", MEASURING, "Compare"),
+        KeyAction("previous_family", ("Ctrl+PgUp",), "Family before", MEASURING, "Compare"),
+        KeyAction("next_error", ("E",), "Next error on the axis", CHARTS, "Compare"),
+        KeyAction("next_cost", ("X",), "Time, or the next count of work, on the axis", CHARTS, "Compare"),
+        KeyAction("show_numbers", ("T",), "Charts or numbers", CHARTS, "Compare"),
+        KeyAction("fit_charts", ("W",), "Show everything in the charts", CHARTS, "Compare"),
+        KeyAction("step_run", ("Ctrl+Return",), "Open the chosen run in the stepper", CHARTS, "Compare"),
+        KeyAction(
+            "step_divergence",
+            ("Ctrl+Shift+Return",),
+            "Step two runs to their first divergence",
+            CHARTS,
+            "Compare",
+        ),
+        KeyAction("copy_pictures", (), "Copy the pictures", CHARTS, "Compare"),
     ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
@@ -103,6 +153,25 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("copy_view", ("Ctrl+Shift+C",), "Copy view", FILES, "File"),
     KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
 )
+
+LOCAL_KEYS = tuple(
+    _on(
+        "compare",
+        KeyAction(
+            "chart_go", ("Left", "Right", "Up", "Down"), "In a chart: go to the neighbouring point", CHARTS
+        ),
+        KeyAction(
+            "chart_choose", ("Return",), "In a chart: open the point’s pictures, as a click does", CHARTS
+        ),
+        KeyAction(
+            "chart_add",
+            ("Shift+Return",),
+            "In a chart: lock a second point to the first, as Ctrl+click does",
+            CHARTS,
+        ),
+    )
+)
+"""What a widget does by itself while it has the keyboard: for the page of keys only."""
 
 
 def key_text(action: KeyAction) -> str:

@@ -8,7 +8,7 @@ from types import TracebackType
 
 from PySide6.QtCore import QByteArray, QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from app.document import Document
 from app.document_edits import DocumentEdits
@@ -17,9 +17,12 @@ from app.key_focus import has_use_for
 from app.look import Look, the_application
 from app.menus import Menus
 from app.overlays import Overlays
+from app.page_table import PAGE_KINDS, page_of_file
+from app.pages import Page, Pages
 from app.preferences import Preferences, preferences_folder, save_preferences, with_recent_file
 from app.session import Session
 from app.state_files import EXTENSION, StateFileError, save_state
+from app.step_opening import StepOpening
 from app.step_page import StepPage
 from core.scene import ClipScene
 from core.steps import Level
@@ -36,37 +39,36 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.preferences = preferences or Preferences()
         self.session = Session(document, self)
-        self.page = StepPage(self.session, self)
         self.messages = MessageBar(self)
+        self.pages = Pages(PAGE_KINDS, self.session, self.messages, self)
+        step_page = self.pages.page("step")
+        assert isinstance(step_page, StepPage)
+        self.page = step_page
         self._has_mouse_focus = False
-        central = self._lay_out()
+        self._lay_out()
         self.menus = Menus(self)
         self.menus.show_recent(self.preferences.recent_files)
         self.look = Look(self)
         self.edits = DocumentEdits(self.session, self)
-        self.overlays = Overlays(self.page, central, self)
-        self.files = FileDesk(self.page, self.messages, self)
+        self.overlays = Overlays(self.page, self.pages, self)
+        self.files = FileDesk(self.page, self.pages, self.messages, self)
+        self.opening = StepOpening(self.session, self.page, self)
         self.setAcceptDrops(True)
         self.setMinimumSize(900, 600)
         self._connect()
+        self._take_page(self.page)
+        self._show_page("step")
         self._show_document()
 
     # Layout.
 
-    def _lay_out(self) -> QWidget:
-        central = QWidget(self)
-        layout = QVBoxLayout(central)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.messages)
-        layout.addWidget(self.page, 1)
-        self.setCentralWidget(central)
+    def _lay_out(self) -> None:
+        self.setCentralWidget(self.pages)
         self.messages.clear()
         self.pointed = QLabel(self)
         self.pointed.setContentsMargins(0, 0, 8, 0)
         self.statusBar().addPermanentWidget(self.pointed)
         self.statusBar().setSizeGripEnabled(False)
-        return central
 
     def _connect(self) -> None:
         session, page, menus = self.session, self.page, self.menus
@@ -76,19 +78,22 @@ class MainWindow(QMainWindow):
         session.pin_changed.connect(self._show_pointed)
         session.cursor_changed.connect(self._show_pointed)
         session.edit_failed.connect(self._edit_failed)
-        page.message_sent.connect(self.tell)
-        page.edit_refused.connect(self._warn)
+        self.pages.page_made.connect(self._take_page)
+        self.pages.page_changed.connect(self._show_page)
         page.timeline.speed_changed.connect(self._remember_speed)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
         page.view_bar.currentChanged.connect(self._show_view)
         menus.action_chosen.connect(self.run_action)
-        menus.scene_chosen.connect(self.files.open_path)
-        menus.recent_chosen.connect(self.files.open_path)
+        menus.scene_chosen.connect(self.open_path)
+        menus.recent_chosen.connect(self.open_path)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.look.set_theme)
         self.look.theme_changed.connect(self._remember_theme)
+        self.opening.message_sent.connect(self._show_message)
+        self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
         self.edits.edit_pointless.connect(self._tell_pointless)
+        self.files.path_chosen.connect(self.open_path)
         self.files.message_sent.connect(self._show_message)
         self.files.file_used.connect(self._remember_file)
         self.files.progress.edit_cancelled.connect(self._edit_cancelled)
@@ -100,56 +105,26 @@ class MainWindow(QMainWindow):
     @Slot(str)
     def run_action(self, name: str) -> None:
         """Do what the key of this name does."""
-        stepping = self.page.stepping
-        for prefix, handler in (("stage_", stepping.choose_stage), ("bookmark_", stepping.go_to_bookmark)):
-            if name.startswith(prefix):
-                handler(int(name.removeprefix(prefix)))
-                return
-        self._handlers()[name]()
+        if name.startswith("page_"):
+            self.pages.show_page(name.removeprefix("page_"))
+            self.menus.show_page(self.pages.current_name)
+        else:
+            {**self._handlers(), **self.pages.current.handlers()}[name]()
 
     def _handlers(self) -> dict[str, Callable[[], object]]:
-        """Return what the actions of ``app.keys.ACTIONS`` do, those with a number in their name excepted."""
-        page, session, stepping = self.page, self.session, self.page.stepping
+        """Return what the actions of ``app.keys.ACTIONS`` do that a page cannot do alone."""
         return {
-            "step_forward": lambda: stepping.step(1),
-            "step_back": lambda: stepping.step(-1),
-            "larger_forward": lambda: stepping.step_larger(1),
-            "larger_back": lambda: stepping.step_larger(-1),
-            "level_in": lambda: stepping.change_level(1),
-            "level_out": lambda: stepping.change_level(-1),
-            "go_first": lambda: stepping.go_to_end(-1),
-            "go_last": lambda: stepping.go_to_end(1),
-            "toggle_play": stepping.toggle_play,
-            "faster": lambda: page.timeline.change_speed(1),
-            "slower": lambda: page.timeline.change_speed(-1),
-            "visited_back": session.go_back,
-            "visited_forward": session.go_forward,
-            "next_at_pin": lambda: stepping.run_to_pin(1),
-            "previous_at_pin": lambda: stepping.run_to_pin(-1),
-            "next_event": lambda: stepping.run_to_event(1),
-            "previous_event": lambda: stepping.run_to_event(-1),
-            "run_forward": lambda: stepping.run_to_breakpoint(1),
-            "run_back": lambda: stepping.run_to_breakpoint(-1),
-            "toggle_breakpoint": stepping.toggle_pixel_breakpoint,
+            "next_page": lambda: self.pages.show_next(1),
+            "previous_page": lambda: self.pages.show_next(-1),
             "edit_condition": self.overlays.ask_condition,
-            "toggle_bookmark": stepping.toggle_bookmark,
-            "next_stage": lambda: session.next_stage(1),
-            "previous_stage": lambda: session.next_stage(-1),
-            "pin_left": lambda: session.nudge_pin(-1, 0),
-            "pin_right": lambda: session.nudge_pin(1, 0),
-            "pin_up": lambda: session.nudge_pin(0, 1),
-            "pin_down": lambda: session.nudge_pin(0, -1),
             "go_to_pixel": self.overlays.ask_pixel,
             "unpin": self.dismiss,
-            "fit_view": page.grid.fit,
-            "next_view": page.next_view,
-            "compare": self.toggle_compare,
             "predict": self.toggle_predict,
             "toggle_theme": self.look.toggle_theme,
             "presenter": self.toggle_presenter,
             "show_keys": self.overlays.toggle_keys,
-            "undo": session.undo,
-            "redo": session.redo,
+            "undo": self.session.undo,
+            "redo": self.session.redo,
             "fit_region": self.edits.fit_region,
             "toggle_shared": self.edits.toggle_shared,
             "focus_all": self.edits.focus_all,
@@ -212,14 +187,8 @@ class MainWindow(QMainWindow):
             self.files.progress.cancel()
         elif self.messages.isVisible():
             self.messages.clear()
-        elif self.page.timeline.is_playing():
-            self.page.timeline.show_playing(False)
         else:
-            self.session.set_pin(None)
-
-    def toggle_compare(self) -> None:
-        """Show A | B | difference, or the pixels again."""
-        self.page.show_view("pixels" if self.page.current_view() == "compare" else "compare")
+            self.pages.current.dismiss()
 
     def toggle_predict(self) -> None:
         """Ask before showing, or stop asking."""
@@ -231,6 +200,27 @@ class MainWindow(QMainWindow):
         """Fill the screen with large type, or go back to the window."""
         self.look.toggle_presenter()
         self.menus.show_checked("presenter", self.isFullScreen())
+
+    # Pages.
+
+    @Slot(object)
+    def _take_page(self, page: Page) -> None:
+        """Listen to a page that has just been made, and give its panes the sizes that they had."""
+        page.message_sent.connect(self.tell)
+        page.edit_refused.connect(self._warn)
+        page.step_requested.connect(self.opening.open_request)
+        page.restore_layout(self.preferences.layout)
+
+    @Slot(str)
+    def _show_page(self, name: str) -> None:
+        """Let the keys and menus be those of the page that is shown now."""
+        self.menus.show_page(name)
+        self.overlays.show_page(name)
+        self._show_pointed()
+
+    @Slot()
+    def _show_step(self) -> None:
+        self.pages.show_page("step")
 
     # Showing the state.
 
@@ -255,7 +245,8 @@ class MainWindow(QMainWindow):
 
     @Slot()
     def _show_pointed(self) -> None:
-        pixel = self.session.hover or self.session.pin
+        is_stepping = self.pages.current is self.page
+        pixel = (self.session.hover or self.session.pin) if is_stepping else None
         self.pointed.setText(
             f"pixel ({pixel[0]}, {pixel[1]})   {self.page.pointed_text(pixel)}" if pixel else ""
         )
@@ -273,10 +264,12 @@ class MainWindow(QMainWindow):
         """Put window and panes where they were left."""
         if geometry := self.preferences.geometry:
             self.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii")))
-        self.page.restore_layout(self.preferences.layout)
+        for page in self.pages.made:
+            page.restore_layout(self.preferences.layout)
         self.page.inspector.set_folded(self.preferences.folded_cards)
         self.page.timeline.show_speed(self.preferences.speed)
         self.session.set_level(Level(self.preferences.level))
+        self.pages.show_page(self.preferences.page)
 
     @Slot(float)
     def _remember_speed(self, speed: float) -> None:
@@ -294,11 +287,13 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember window, panes and scene, end all work, then close."""
-        self.page.timeline.show_playing(False)
+        layout = dict(self.preferences.layout)
+        for page in self.pages.made:
+            page.stop()
+            layout |= page.layout_state()
         self.files.shut_down()
+        self.opening.shut_down()
         self.session.tracing.shut_down()
-        self.page.comparing.stop()
-        self.page.views.stop()
         try:
             last = preferences_folder() / f"last{EXTENSION}"
             last.parent.mkdir(parents=True, exist_ok=True)
@@ -306,7 +301,8 @@ class MainWindow(QMainWindow):
             self.preferences = self.preferences.model_copy(
                 update={
                     "geometry": self.saveGeometry().toBase64().toStdString(),
-                    "layout": self.page.layout_state(),
+                    "layout": layout,
+                    "page": self.pages.current_name,
                     "last_state": str(last),
                     "folded_cards": self.page.inspector.folded(),
                     "level": int(self.session.cursor.level),
@@ -348,4 +344,14 @@ class MainWindow(QMainWindow):
         if len(paths) > 1:
             self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
         if paths:
-            self.files.open_path(paths[0])
+            self.open_path(paths[0])
+
+    @Slot(str)
+    def open_path(self, path: str) -> None:
+        """Open a scene or a state, or what a page knows how to show, on that page."""
+        name = page_of_file(path)
+        if name:
+            self.pages.show_page(name)
+            self.pages.current.open_path(path)
+        else:
+            self.files.open_path(path)

@@ -12,8 +12,18 @@ from app.look import THEMES
 from lessons.scenes import CATALOGUE
 from widgets.theme import current_theme
 
-MENUS = ("File", "Edit", "Step", "Stage", "Raster", "View", "Help")
-BEFORE_SEPARATORS = ("save_state", "copy_view", "redo", "visited_forward", "next_view", "predict")
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "View", "Help")
+BEFORE_SEPARATORS = (
+    "save_state",
+    "copy_view",
+    "redo",
+    "visited_forward",
+    "next_view",
+    "predict",
+    "page_compare",
+    "previous_family",
+    "fit_charts",
+)
 """Actions that a separator follows."""
 
 
@@ -37,6 +47,7 @@ class Menus(QObject):
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.theme_group = QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
+        self._menus = menus
         for entry in ACTIONS:
             made = self._make_action(entry, window)
             if entry.menu:
@@ -100,6 +111,17 @@ class Menus(QObject):
     def show_enabled(self, name: str, is_enabled: bool) -> None:
         """Show whether an action can be done now."""
         self.actions_by_name[name].setEnabled(is_enabled)
+
+    def show_page(self, name: str) -> None:
+        """Offer the actions of a page and those of all pages; the others' keys are free for what is on the page."""
+        for entry in ACTIONS:
+            if entry.page:
+                self.show_enabled(entry.name, entry.page == name)
+            if entry.name.startswith("page_"):
+                self.show_checked(entry.name, entry.name == f"page_{name}")
+        for title, menu in self._menus.items():
+            pages = {entry.page for entry in ACTIONS if entry.menu == title}
+            menu.menuAction().setEnabled(bool(pages & {"", name}))
 
     def show_recent(self, paths: Sequence[str]) -> None:
         """Show the files that were open last."""

@@ -3,7 +3,7 @@
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QWidget
 
-from app.keys import ACTIONS, key_text
+from app.keys import ACTIONS, LOCAL_KEYS, key_text
 from app.step_page import StepPage
 from core.conditions import variable_names
 from widgets.ask_bar import AskBar
@@ -20,9 +20,14 @@ class Overlays(QObject):
         self.key_help = KeyHelp(window)
         self.key_help.hide()
         self.key_help.closed.connect(self.key_help.hide)
-        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in ACTIONS if a.keys])
         self.ask_bar = AskBar(window)
         self.ask_bar.text_entered.connect(self._take_answer)
+
+    def show_page(self, name: str) -> None:
+        """Show the keys of a page and those of all pages."""
+        actions = [action for action in (*ACTIONS, *LOCAL_KEYS) if action.keys and action.page in ("", name)]
+        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
+        self.ask_bar.hide()
 
     def place(self) -> None:
         """Keep what lies over the page inside of it."""

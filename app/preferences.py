@@ -33,6 +33,8 @@ class Preferences(BaseModel):
     """Stages whose card is folded."""
     last_state: str = ""
     """State file with what was open last; empty: none."""
+    page: str = "step"
+    """Page that was shown last."""
     level: Annotated[int, Field(ge=0, le=4)] = 3
     """Level of stepping, a ``core.steps.Level``."""
     speed: Annotated[float, Field(gt=0)] = 4.0

@@ -1,6 +1,6 @@
 """The stepping page: rail, scene, grids, inspector and timeline around one session."""
 
-from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QThread, Signal, Slot
+from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QThread, Slot
 from PySide6.QtWidgets import (
     QComboBox,
     QLabel,
@@ -18,10 +18,12 @@ from PySide6.QtWidgets import (
 from app.compare_presenter import ComparePresenter
 from app.grid_presenter import GridPresenter
 from app.inspector_presenter import InspectorPresenter
+from app.pages import Handlers, Page
 from app.pixel_menu import PixelMenu
 from app.prediction_presenter import PredictionPresenter
 from app.scene_presenter import ScenePresenter
 from app.session import Session
+from app.step_actions import step_handlers
 from app.stepping_presenter import EVENT_TITLES, SteppingPresenter
 from app.views.stage_views import StageViews
 from widgets.buffer_strip import BufferStrip
@@ -42,13 +44,8 @@ from widgets.timeline import Timeline
 from widgets.variables import VariablesView
 
 
-class StepPage(QWidget):
+class StepPage(Page):
     """All panes of the stepping page and their presenters."""
-
-    message_sent = Signal(str)
-    """Something to tell the user."""
-    edit_refused = Signal(str)
-    """Why an edit came to nothing."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -314,6 +311,10 @@ class StepPage(QWidget):
         """Show the next main view."""
         self.view_bar.setCurrentIndex((self.view_bar.currentIndex() + 1) % self.view_bar.count())
 
+    def toggle_compare(self) -> None:
+        """Show A | B | difference, or the pixels again."""
+        self.show_view("pixels" if self.current_view() == "compare" else "compare")
+
     def set_predicting(self, is_on: bool) -> None:
         """Hide what comes next until it has been predicted, or show everything."""
         if is_on:
@@ -336,7 +337,30 @@ class StepPage(QWidget):
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
-    # Remembered layout.
+    # As a page of the window.
+
+    def handlers(self) -> Handlers:
+        """Return what the keys of this page do."""
+        return step_handlers(self)
+
+    def dismiss(self) -> bool:
+        """Stop playing, or else take the pin away."""
+        if self.timeline.is_playing():
+            self.timeline.show_playing(False)
+            return True
+        has_pin = self.session.pin is not None
+        self.session.set_pin(None)
+        return has_pin
+
+    def leave(self) -> None:
+        """Play no further."""
+        self.timeline.show_playing(False)
+
+    def stop(self) -> None:
+        """Play no further, and end drawing in the background."""
+        self.timeline.show_playing(False)
+        self.comparing.stop()
+        self.views.stop()
 
     def layout_state(self) -> dict[str, str]:
         """Return the splitters' positions as texts."""

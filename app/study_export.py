@@ -65,6 +65,16 @@ def point_cells(study: Study, point: Point) -> dict[str, object]:
     return cells
 
 
+def study_picture(study: Study, measure: str | None, ending: str) -> bytes:
+    """Return the charts as the content of an SVG (``.svg``) or else a PNG file; ``measure`` as in `export_study`."""
+    svg = study_svg(study, measure)
+    if ending == ".svg":
+        return svg.encode()
+    picture = BytesIO()
+    write_png(picture, svg)
+    return picture.getvalue()
+
+
 def export_study(study: Study, folder: Path, measure: str | None = None) -> list[Path]:
     """Write a study into a folder as CSV, JSON, SVG and PNG; files of the same name are replaced.
 
@@ -79,10 +89,8 @@ def export_study(study: Study, folder: Path, measure: str | None = None) -> list
         If a file cannot be written; the message is one sentence.
     """
     stem = folder / f"study-{study.family}-{study.work.name}"
-    svg = study_svg(study, measure)
-    picture = BytesIO()
-    write_png(picture, svg)
-    contents = {".csv": study_csv(study).encode(), ".svg": svg.encode(), ".png": picture.getvalue()}
+    contents = {ending: study_picture(study, measure, ending) for ending in (".svg", ".png")}
+    contents[".csv"] = study_csv(study).encode()
     written = []
     for ending, content in contents.items():
         path = stem.with_name(stem.name + ending)

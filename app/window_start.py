@@ -63,7 +63,7 @@ def run_window(target: str | None = None) -> int:
         if text:
             window.tell(text, MessageKind.WARNING)
     if target is not None:
-        window.files.open_path(target)
+        window.open_path(target)
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close()

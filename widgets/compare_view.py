@@ -4,13 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import Overlay
-from widgets.grid_view import GridView
-from widgets.pixel_grid import PixelGrid
+from widgets.linked_grids import LinkedGrids
 from widgets.settings_panel import Setting
 
 
@@ -46,18 +45,14 @@ class CompareView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.grids = tuple(PixelGrid(self) for _ in range(3))
-        self.titles = tuple(QLabel(self) for _ in range(3))
+        self.linked = LinkedGrids(("A", "B", "Difference"), self)
+        self.grids, self.titles = self.linked.grids, self.linked.titles
         self.buffer_box, self.family_box, self.value_box = (QComboBox(self) for _ in range(3))
         self.summary = QLabel(self)
         self._settings: tuple[Setting, ...] = ()
-        names = ("A", "B", "Difference")
-        for name, grid in zip(names, self.grids, strict=True):
-            grid.setAccessibleName(f"Pixel grid {name}")
-            grid.pixel_hovered.connect(self.pixel_hovered)
-            grid.pixel_left.connect(self.pixel_left)
-            grid.pixel_clicked.connect(self.pixel_clicked)
-            grid.view_changed.connect(self._link_views)
+        self.linked.pixel_hovered.connect(self.pixel_hovered)
+        self.linked.pixel_left.connect(self.pixel_left)
+        self.linked.pixel_clicked.connect(self.pixel_clicked)
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
             (self.family_box, "Family of B", "What B does otherwise than A"),
@@ -89,21 +84,11 @@ class CompareView(QWidget):
         row.addWidget(reset)
         row.addWidget(swap)
         row.addStretch(1)
-        grids = QGridLayout()
-        grids.setSpacing(8)
-        for column, (title, grid) in enumerate(zip(self.titles, self.grids, strict=True)):
-            title.setWordWrap(True)
-            title.setAlignment(Qt.AlignmentFlag.AlignBottom)
-            title.setProperty("role", "muted")
-            grids.addWidget(title, 0, column)
-            grids.addWidget(grid, 1, column)
-            grids.setColumnStretch(column, 1)
-        grids.setRowStretch(1, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 4, 0, 0)
         layout.setSpacing(8)
         layout.addLayout(row)
-        layout.addLayout(grids, 1)
+        layout.addWidget(self.linked, 1)
         layout.addWidget(self.summary)
 
     def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
@@ -134,43 +119,27 @@ class CompareView(QWidget):
     def show_comparison(self, comparison: Comparison) -> None:
         """Show both pictures and their difference."""
         buffers = (comparison.first, comparison.second, comparison.difference)
-        for grid, buffer in zip(self.grids, buffers, strict=True):
-            grid.show_buffer(buffer)
         titles = (comparison.first_title, comparison.second_title, "Difference")
-        for label, title in zip(self.titles, titles, strict=True):
-            label.setText(title)
+        self.linked.show_buffers(buffers, titles)
         self.grids[2].show_overlays(comparison.marks)
         self.summary.setText(comparison.summary)
 
     def show_refusal(self, text: str) -> None:
         """Show no pictures, and why."""
-        for grid in self.grids:
-            grid.show_buffer(None)
-            grid.show_overlays(())
-        for label, title in zip(self.titles, ("A", "B", "Difference"), strict=True):
-            label.setText(title)
+        self.linked.show_nothing()
         self.summary.setText(text)
 
     def set_pixel_center(self, pixel_center: str) -> None:
         """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
-        for grid in self.grids:
-            grid.set_pixel_center(pixel_center)
+        self.linked.set_pixel_center(pixel_center)
 
     def show_geometry(self, geometry: GridGeometry | None) -> None:
         """Show the triangles in all grids."""
-        for grid in self.grids:
-            grid.show_geometry(geometry)
+        self.linked.show_geometry(geometry)
 
     def show_pointing(self, pin: tuple[int, int] | None, hover: tuple[int, int] | None) -> None:
         """Mark pin and hover in all grids."""
-        for grid in self.grids:
-            grid.show_pin(pin)
-            grid.show_hover(hover)
-
-    @Slot(object)
-    def _link_views(self, view: GridView) -> None:
-        for grid in self.grids:
-            grid.set_view(view)
+        self.linked.show_pointing(pin, hover)
 
     @Slot()
     def _show_values(self) -> None:

@@ -4,6 +4,8 @@ from PySide6.QtCore import QPointF, QRectF, QSizeF
 
 _DIRECTIONS = ((1, -1), (1, 1), (-1, -1), (-1, 1), (0, -1), (0, 1), (1, 0), (-1, 0))
 
+FURTHER = (1.0, 2.5, 5.0)
+
 
 class LabelPlaces:
     """Remembers what is taken in an area and finds free places in it."""
@@ -16,20 +18,23 @@ class LabelPlaces:
         """Keep a rectangle free of words."""
         self._taken.append(rect)
 
-    def find(self, point: QPointF, size: QSizeF, reach: float) -> QRectF | None:
+    def find(
+        self, point: QPointF, size: QSizeF, reach: float, further: tuple[float, ...] = FURTHER
+    ) -> QRectF | None:
         """Return a rectangle of ``size`` beside ``point``, ``reach`` away from it, or None if all is taken.
 
-        A point outside of the area has no place.
+        Where that is taken, ``further`` away: multiples of ``reach``, the nearest first. A point outside of the area
+        has no place.
         """
         if not self._area.adjusted(-1, -1, 1, 1).contains(point):
             return None
-        for further in (1.0, 2.5, 5.0):
+        for times in further:
             for across, down in _DIRECTIONS:
                 rect = QRectF(QPointF(), size)
                 rect.moveCenter(
                     QPointF(
-                        point.x() + across * (reach * further + size.width() / 2),
-                        point.y() + down * (reach * further + size.height() / 2),
+                        point.x() + across * (reach * times + size.width() / 2),
+                        point.y() + down * (reach * times + size.height() / 2),
                     )
                 )
                 if self._area.contains(rect) and not any(rect.intersects(other) for other in self._taken):

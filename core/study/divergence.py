@@ -130,7 +130,9 @@ def _differing(
     for number, name in enumerate(names):
         ours, theirs = first.columns[name][rows], second.columns[name][others]
         found[number] = (
-            _differs(ours, theirs).reshape(len(rows), -1).any(axis=1) if ours.shape == theirs.shape else True
+            _differs(ours, theirs).any(axis=tuple(range(1, ours.ndim)))
+            if ours.shape == theirs.shape
+            else True
         )
     return found
 

@@ -138,14 +138,28 @@ class Study:
     """What the scene that was measured on is called; empty: the work itself makes it."""
 
 
-def pareto_front(points: tuple[Point, ...], measure: str) -> tuple[Point, ...]:
-    """Return the measured points that no other beats in both median time and the error ``measure``, fastest first."""
+def pareto_front(points: tuple[Point, ...], measure: str, count: str = "") -> tuple[Point, ...]:
+    """Return the measured points that no other beats in both cost and the error ``measure``, cheapest first.
+
+    Parameters
+    ----------
+    points : tuple of Point
+    measure : str
+        Key of `Point.errors`.
+    count : str, optional
+        What the methods are charged with: a key of `Point.counts`; their median time by default.
+    """
     ranked = sorted(
-        (point for point in points if point.is_measured and np.isfinite(point.errors.get(measure, np.nan))),
-        key=lambda point: (point.median, point.errors[measure]),
+        (
+            (float(point.counts[count]) if count else point.median, point.errors[measure], place)
+            for place, point in enumerate(points)
+            if point.is_measured
+            and np.isfinite(point.errors.get(measure, np.nan))
+            and (not count or count in point.counts)
+        ),
     )
     front: list[Point] = []
-    for point in ranked:
-        if not front or point.errors[measure] < front[-1].errors[measure]:
-            front.append(point)
+    for _, error, place in ranked:
+        if not front or error < front[-1].errors[measure]:
+            front.append(points[place])
     return tuple(front)

@@ -40,6 +40,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         current_theme().name,
         QGuiApplication.clipboard().image().size().width(),
         window.statusBar().currentMessage(),
+        window.pages.current_name,
     )
 
 
@@ -70,11 +71,16 @@ def prepare(window: MainWindow, name: str) -> None:
         session.set_level(Level.GROUP)
     elif name in ("run_forward", "run_back", "next_event"):
         session.go_to(400)
+    elif name == "page_step":
+        window.pages.show_page("compare")
     elif name == "copy_view":
         QGuiApplication.clipboard().clear()
 
 
-@pytest.mark.parametrize("action", [a for a in ACTIONS if a.keys], ids=lambda action: action.name)
+STEPPED = [action for action in ACTIONS if action.keys and action.page in ("", "step")]
+
+
+@pytest.mark.parametrize("action", STEPPED, ids=lambda action: action.name)
 def test_every_key_does_something(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, action: KeyAction
 ) -> None:

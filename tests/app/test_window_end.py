@@ -34,6 +34,7 @@ sys.exit(window_start.run_window({target!r}))
         ("sphere", "window.session.set_setting('fill', 'brute-force')"),
         ("torus", "window.files.open_path('knot')"),
         ("/nowhere/gone.obj", "pass"),
+        ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
     ],
 )
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:

@@ -1,0 +1,265 @@
+"""The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, Qt, Slot
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QPushButton,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.export import copy_widget, export_widget
+from app.file_writing import whole_file
+from app.pages import Handlers, Page
+from app.session import Session
+from app.study_charts import TIME
+from app.study_desk import StudyDesk
+from app.study_export import study_csv, study_picture
+from app.study_files import EXTENSION, StudyFileError, load_study, save_study
+from app.study_pictures_presenter import StudyPicturesPresenter
+from app.study_presenter import StudyPresenter
+from core.study.record import Study
+from widgets.chart import Chart
+from widgets.elided_label import ElidedLabel
+from widgets.family_list import FamilyList
+from widgets.readout import Readout
+from widgets.study_controls import StudyControls
+from widgets.study_pictures import StudyPictures
+from widgets.study_table import StudyTable
+
+FILE_KINDS = (
+    "Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
+    "Study, to be opened again (*.json);;Page as it is seen (*.pdf)"
+)
+
+
+class ComparePage(Page):
+    """All panes of the Compare page and their presenters."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.desk = StudyDesk(self)
+        self.families, self.readout = FamilyList(self), Readout("Figures", self)
+        self.controls = StudyControls(self)
+        self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
+        self.table, self.pictures = StudyTable(self), StudyPictures(self)
+        self.shown_text = ElidedLabel(self)
+        charts = (self.scatter, self.growth)
+        self.studies = StudyPresenter(
+            session, self.desk, self.families, self.controls, charts, self.table, self.readout, self
+        )
+        self.opened = StudyPicturesPresenter(self.studies, self.desk, charts, self.table, self.pictures, self)
+        self._lay_out()
+        self.setFocusProxy(self.scatter)
+        self.studies.shown_text_changed.connect(self.shown_text.setText)
+        self.studies.message_sent.connect(self.message_sent)
+        self.studies.refused.connect(self.edit_refused)
+        self.opened.message_sent.connect(self.message_sent)
+        self.opened.refused.connect(self.edit_refused)
+        self.opened.step_requested.connect(self.step_requested)
+
+    # Layout.
+
+    def _lay_out(self) -> None:
+        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
+        self.columns.addWidget(self._left())
+        self.columns.addWidget(self._main())
+        self.columns.setStretchFactor(1, 1)
+        self.columns.setSizes([264, 1000])
+        page = QVBoxLayout(self)
+        page.setContentsMargins(8, 4, 8, 8)
+        page.setSpacing(8)
+        page.addWidget(self.columns, 1)
+
+    def _left(self) -> QWidget:
+        self.left = QSplitter(Qt.Orientation.Vertical, self)
+        self.left.addWidget(self.families)
+        self.left.addWidget(self.readout)
+        self.left.setStretchFactor(1, 1)
+        self.left.setSizes([300, 360])
+        self.left.setMinimumWidth(160)
+        return self.left
+
+    def _main(self) -> QWidget:
+        self.charts = QSplitter(Qt.Orientation.Horizontal, self)
+        self.charts.addWidget(self.scatter)
+        self.charts.addWidget(self.growth)
+        self.charts.setStretchFactor(0, 3)
+        self.charts.setStretchFactor(1, 2)
+        self.charts.setSizes([600, 400])
+        self.shown_text.setProperty("role", "muted")
+        self.shown_text.setAccessibleName("What the charts show")
+        self.tabs = QTabWidget(self)
+        self.tabs.setDocumentMode(True)
+        self.tabs.tabBar().setDrawBase(False)
+        self.tabs.addTab(self.charts, "Charts")
+        self.tabs.addTab(self.table, "Numbers")
+        self.tabs.setCornerWidget(self._buttons())
+        top = QWidget(self)
+        layout = QVBoxLayout(top)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        layout.addWidget(self.controls)
+        layout.addWidget(self.tabs, 1)
+        layout.addWidget(self.shown_text)
+        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows.addWidget(top)
+        self.rows.addWidget(self.pictures)
+        self.rows.setStretchFactor(0, 3)
+        self.rows.setStretchFactor(1, 2)
+        self.rows.setSizes([440, 280])
+        return self.rows
+
+    def _buttons(self) -> QWidget:
+        corner = QWidget(self)
+        row = QHBoxLayout(corner)
+        row.setContentsMargins(0, 0, 0, 4)
+        row.setSpacing(8)
+        self.export_button = QPushButton("Export…", corner)
+        self.export_button.setToolTip("Write the charts, the numbers or the whole study to a file (Ctrl+E)")
+        self.export_button.clicked.connect(self.ask_export)
+        self.copy_button = QPushButton("Copy", corner)
+        self.copy_button.setToolTip("Put the charts, or the numbers with all their digits, on the clipboard")
+        self.copy_button.clicked.connect(self.copy)
+        for button in (self.export_button, self.copy_button):
+            row.addWidget(button)
+        return corner
+
+    # As a page of the window.
+
+    def handlers(self) -> Handlers:
+        """Return what the keys of this page do."""
+        return {
+            "measure": self.studies.measure,
+            "cancel_measuring": self.studies.cancel,
+            "next_family": lambda: self.studies.show_neighbour(1),
+            "previous_family": lambda: self.studies.show_neighbour(-1),
+            "next_error": self.studies.show_next_measure,
+            "next_cost": self.studies.show_next_cost,
+            "show_numbers": self.toggle_numbers,
+            "fit_charts": self.fit_charts,
+            "step_run": self.opened.step,
+            "step_divergence": self.opened.step_to_divergence,
+            "copy_pictures": self.opened.copy,
+            "export_view": self.ask_export,
+            "copy_view": self.copy,
+        }
+
+    def dismiss(self) -> bool:
+        """Stop measuring, or else close the pictures."""
+        if self.desk.is_measuring:
+            self.studies.cancel()
+            return True
+        is_open = bool(self.opened.chosen)
+        self.opened.close()
+        return is_open
+
+    def main_view(self) -> QWidget:
+        """Return what is copied: the charts."""
+        return self.charts
+
+    def stop(self) -> None:
+        """End measuring and drawing."""
+        self.desk.shut_down()
+
+    def layout_state(self) -> dict[str, str]:
+        """Return the splitters' positions as texts."""
+        return {
+            name: splitter.saveState().toBase64().toStdString()
+            for name, splitter in self._splitters().items()
+        }
+
+    def restore_layout(self, state: dict[str, str]) -> None:
+        """Put the splitters where they were."""
+        for name, splitter in self._splitters().items():
+            if name in state:
+                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))
+
+    def _splitters(self) -> dict[str, QSplitter]:
+        return {
+            "compare columns": self.columns,
+            "compare left": self.left,
+            "compare charts": self.charts,
+            "compare rows": self.rows,
+        }
+
+    def toggle_numbers(self) -> None:
+        """Show the table instead of the charts, or the charts again."""
+        self.tabs.setCurrentIndex(1 - self.tabs.currentIndex())
+        (self.table if self.tabs.currentIndex() else self.scatter).setFocus(
+            Qt.FocusReason.ShortcutFocusReason
+        )
+
+    def fit_charts(self) -> None:
+        """Show everything in both charts."""
+        self.scatter.fit()
+        self.growth.fit()
+
+    # Files.
+
+    def open_path(self, path: str) -> None:
+        """Open a saved study and show it as what it is."""
+        try:
+            study = load_study(path)
+        except StudyFileError as error:
+            self.edit_refused.emit(f"{error}. What is shown stays as it was.")
+            return
+        self.studies.take_saved(study, Path(path).name)
+
+    @Slot()
+    def ask_export(self) -> None:
+        """Ask where the study is to go, and write it there."""
+        study = self._finished()
+        if study is None:
+            return
+        name = f"study-{study.family}-{study.work.name}.png"
+        path, _ = QFileDialog.getSaveFileName(self.window(), "Export study", name, FILE_KINDS)
+        if path:
+            self.export_to(path)
+
+    def export_to(self, path: str) -> None:
+        """Write the study by the ending of the file."""
+        study = self._finished()
+        if study is None:
+            return
+        try:
+            self._write(study, path)
+        except (OSError, ValueError) as error:
+            self.edit_refused.emit(f"The study was not exported: {error}")
+        else:
+            self.message_sent.emit(f"Exported {Path(path).name}.")
+
+    def _write(self, study: Study, path: str) -> None:
+        ending, choice = Path(path).suffix.lower(), self.studies.choice
+        if ending == EXTENSION:
+            save_study(path, study)
+        elif ending == ".csv":
+            with whole_file(path) as file:
+                file.write(study_csv(study).encode())
+        elif ending in (".svg", ".png") and choice.cost == TIME:
+            with whole_file(path) as file:
+                file.write(study_picture(study, choice.measure, ending))
+        else:
+            export_widget(self.charts, path)
+
+    def _finished(self) -> Study | None:
+        result = self.studies.result
+        if result is None or self.studies.is_partial:
+            self.message_sent.emit("There is nothing to export yet: measure first (F5).")
+            return None
+        return result.study
+
+    @Slot()
+    def copy(self) -> None:
+        """Put the charts on the clipboard as a picture, or the numbers as text."""
+        if self.tabs.currentIndex():
+            self.table.copy()
+            self.message_sent.emit("Copied the numbers.")
+        else:
+            copy_widget(self.charts)
+            self.message_sent.emit("Copied the charts.")

@@ -1,0 +1,122 @@
+"""Opening on the Step page what another page shows: one method's run, at the place that matters."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.document import TRACED_TOGETHER, Document, TeachingRaster, open_document
+from app.pages import StepRequest
+from app.session import Session
+from app.step_page import StepPage
+from app.tracing import trace_now
+from app.workers import Job, Progress
+from core import Settings, Trace
+from core.trace import TraceSource
+from widgets.message_bar import Message, MessageKind
+
+if TYPE_CHECKING:
+    from core.study.record import Opening  # As in app.pages.
+
+PART = (48, 36)
+"""Columns and rows that are stepped around a pixel of a picture that is too large to be stepped as a whole."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Ready:
+    request: StepRequest
+    document: Document
+    trace: Trace
+
+
+class StepOpening(QObject):
+    """Traces what is asked for off the GUI thread, then shows it; undo leads back to what was open."""
+
+    message_sent = Signal(object)
+    """A ``Message``: why it could not be opened."""
+    opened = Signal()
+    """It is on the Step page now."""
+
+    def __init__(self, session: Session, page: StepPage, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._page = session, page
+        self.job = Job(self)
+        self.job.succeeded.connect(self._show)
+        self.job.failed.connect(self._refuse)
+
+    @Slot(object)
+    def open_request(self, request: StepRequest) -> None:
+        """Open what a `StepRequest` names."""
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> _Ready:
+            document = document_at(request.opening, request.title, request.triangle)
+            return _Ready(request, document, trace_now(document, request.opening.stage))
+
+        self.job.start(work)
+
+    def shut_down(self) -> None:
+        """Cancel and wait for the thread."""
+        self.job.shut_down()
+
+    @Slot(object)
+    def _show(self, ready: _Ready) -> None:
+        opening, other = ready.request.opening, ready.request.other
+        self._page.timeline.show_playing(False)
+        self._session.open(ready.document, ready.trace)
+        self._page.stepping.forget_places()
+        self._session.set_stage(opening.stage, 0)
+        if opening.pixel is not None and self._session.has_pixel(opening.pixel):
+            self._session.set_pin(opening.pixel)
+            self._page.stepping.step_into(opening.stage, *opening.pixel)
+        if other is not None:
+            self._page.comparing.set_differences(differences(opening.settings, other))
+        self._page.show_view("pixels" if other is None else "compare")
+        self.opened.emit()
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        said = f"It cannot be stepped: {error} The open scene stays as it was."
+        self.message_sent.emit(Message(MessageKind.WARNING, said))
+
+
+def differences(first: Settings, second: Settings) -> dict[str, str | int]:
+    """Return the families in which two settings differ, with the second's values."""
+    names = (field.name for field in fields(Settings))
+    return {name: getattr(second, name) for name in names if getattr(first, name) != getattr(second, name)}
+
+
+def document_at(opening: "Opening", title: str, triangle: int | None = None) -> Document:
+    """Return a document in which the opening's pixel can be stepped.
+
+    A picture that is too large to be stepped as a whole is stepped around the pixel, and of many triangles only one:
+    ``triangle``, or else the one that is seen there.
+    """
+    document = open_document(opening.scene, title, settings=opening.settings)
+    if opening.pixel is None:
+        return document
+    if document.raster.origin is not None or document.traced_scene.size != opening.scene.size:
+        document = replace(document, raster=part_around(opening.scene.size, opening.pixel))
+    if document.triangle_count > TRACED_TOGETHER:
+        seen = _triangle_at(document, opening.pixel) if triangle is None else triangle
+        document = replace(document, triangle=document.triangle if seen < 0 else seen)
+    return document
+
+
+def part_around(size: tuple[int, int], pixel: tuple[int, int]) -> TeachingRaster:
+    """Return a raster around a pixel, inside of the picture."""
+    columns, rows = min(PART[0], size[0]), min(PART[1], size[1])
+    column = min(max(pixel[0] - columns // 2, 0), size[0] - columns)
+    row = min(max(pixel[1] - rows // 2, 0), size[1] - rows)
+    return TeachingRaster(columns, rows, (column, row))
+
+
+def _triangle_at(document: Document, pixel: tuple[int, int]) -> int:
+    """Return the triangle that is seen at a pixel, -1: none."""
+    source = TraceSource(document.traced_scene, document.settings, None, document.region)
+    first_column, first_row, end_column, end_row = source.raster.bounds
+    if not (first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row):
+        return -1
+    return int(source.picture.primitive[pixel[1] - first_row, pixel[0] - first_column])

@@ -1,0 +1,365 @@
+"""The Compare page's measuring: which family, on what work, its charts and numbers as they come."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.session import Session
+from app.study_charts import growth_of, numbers_of, scatter_of
+from app.study_choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
+from app.study_desk import StudyDesk, StudyOrder, StudyResult
+from app.study_figures import point_text, study_text, table_of
+from app.study_words import machine_sentence, work_sentence
+from core.settings import Settings
+from core.study.record import Point, Study
+from widgets.chart import Chart
+from widgets.chart_records import ChartEmpty, ChartPicture
+from widgets.family_list import FamilyList
+from widgets.message_bar import Progress
+from widgets.number_text import counted
+from widgets.readout import Readout
+from widgets.study_controls import StudyControls
+from widgets.study_table import StudyTable, TableRecord
+
+NOTHING = "Error against cost, one mark for each method. Choose the work above, then press Measure (F5)."
+NO_GROWTH = (
+    "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
+)
+PERCENT = 100
+
+
+class StudyPresenter(QObject):
+    """Keeps the choices and results of all families and shows those of one."""
+
+    message_sent = Signal(str)
+    refused = Signal(str)
+    shown_changed = Signal()
+    """Another study is shown, or another family: chosen points are gone."""
+    shown_text_changed = Signal(str)
+    """What the charts show, in words."""
+
+    def __init__(
+        self,
+        session: Session,
+        desk: StudyDesk,
+        families: FamilyList,
+        controls: StudyControls,
+        charts: tuple[Chart, Chart],
+        numbers: StudyTable,
+        readout: Readout,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._desk = session, desk
+        self._families, self._controls = families, controls
+        self._charts, self._table, self._readout = charts, numbers, readout
+        self._choices = choices_of_all()
+        self._current = next(iter(self._choices))
+        self._running: str = ""
+        """Family that is being measured; empty: none."""
+        self._partial: Study | None = None
+        """What has been measured by now, of the family that is being measured."""
+        self._numbers: Mapping[str, int] = {}
+        self._pointed = ""
+        self._chosen = ""
+        self._connect()
+        self.refresh()
+
+    def _connect(self) -> None:
+        controls, desk = self._controls, self._desk
+        self._families.family_chosen.connect(self.show_family)
+        controls.work_chosen.connect(self._choose_work)
+        controls.dial_chosen.connect(self._choose_dial)
+        controls.measure_chosen.connect(self._choose_measure)
+        controls.cost_chosen.connect(self._choose_cost)
+        controls.rounds_chosen.connect(self._choose_rounds)
+        controls.seed_chosen.connect(self._choose_seed)
+        controls.measuring_requested.connect(self.measure)
+        controls.cancel_requested.connect(self.cancel)
+        desk.progressed.connect(self._show_progress)
+        desk.point_measured.connect(self._take_point)
+        desk.measured.connect(self._take_result)
+        desk.measuring_failed.connect(self._fail)
+        desk.measuring_ended.connect(self._end)
+        for chart in self._charts:
+            chart.series_hovered.connect(self._point_at)
+            chart.series_left.connect(self._point_away)
+
+    # What is shown.
+
+    @property
+    def choice(self) -> FamilyChoice:
+        """The family that is shown."""
+        return self._choices[self._current]
+
+    @property
+    def result(self) -> StudyResult | None:
+        """What has been measured of it, or opened."""
+        return self.choice.result
+
+    @property
+    def is_partial(self) -> bool:
+        """Whether the family that is shown is being measured."""
+        return self._running == self._current
+
+    @property
+    def study(self) -> Study | None:
+        """The study that is shown: a finished one, or as much as has been measured by now."""
+        if self.is_partial:
+            return self._partial
+        return None if self.result is None else self.result.study
+
+    def point(self, method: str) -> Point | None:
+        """Return a point of the study that is shown."""
+        points = () if self.study is None else self.study.points
+        return next((point for point in points if point.method == method), None)
+
+    @Slot(str)
+    def show_family(self, name: str) -> None:
+        """Show another family."""
+        if name != self._current:
+            self._current = name
+            self._pointed = self._chosen = ""
+            self.refresh()
+            self.shown_changed.emit()
+
+    def show_neighbour(self, direction: int) -> None:
+        """Show the next family of the list, or the one before."""
+        names = list(self._choices)
+        self.show_family(names[(names.index(self._current) + direction) % len(names)])
+
+    def show_next_measure(self) -> None:
+        """Show the next error on the vertical axis."""
+        names = [name for name, _ in self.choice.measures]
+        self._choose_measure(names[(names.index(self.choice.measure) + 1) % len(names)])
+
+    def show_next_cost(self) -> None:
+        """Show the next cost on the horizontal axis: time, or a count of work."""
+        names = [name for name, _ in controls_of(self.choice).costs]
+        self._choose_cost(names[(names.index(self.choice.cost) + 1) % len(names)])
+
+    def refresh(self) -> None:
+        """Show the family, its controls and its study."""
+        self._families.show_families([entry_of(choice) for choice in self._choices.values()], self._current)
+        self._controls.show_choices(controls_of(self.choice))
+        self._show_study()
+
+    def _show_study(self) -> None:
+        study, choice = self.study, self.choice
+        if not self.is_partial and study is not None:
+            self._numbers = numbers_of(study.points)
+        scatter: ChartPicture | ChartEmpty
+        growth: ChartPicture | ChartEmpty
+        if study is None:
+            scatter = ChartEmpty("Measuring …" if self.is_partial else NOTHING)
+            growth = ChartEmpty(NO_GROWTH)
+            self._table.show_table(TableRecord((), (), ()))
+        else:
+            scatter = scatter_of(study, choice.measure, choice.cost, self._numbers)
+            growth = growth_of(study, choice.cost, self._numbers)
+            if self.is_partial:
+                growth = ChartEmpty("Measured after the points of the other chart.")
+            self._table.show_table(table_of(study))
+        for chart, picture in zip(self._charts, (scatter, growth), strict=True):
+            if isinstance(picture, ChartEmpty):
+                chart.show_empty(picture)
+            else:
+                chart.show_picture(picture)
+        self._show_readout()
+        self.shown_text_changed.emit(self._shown_text())
+
+    def _shown_text(self) -> str:
+        study = self.study
+        if study is None:
+            return ""
+        parts = [f"{work_sentence(study)}; seed {study.seed}."]
+        if self.is_partial:
+            parts.append(f"{counted(len(study.points), 'method')} measured by now.")
+            return " ".join(parts)
+        refused = sum(bool(point.refused) for point in study.points)
+        if refused:
+            parts.append(f"{counted(refused, 'method')} refused this work.")
+        if self.choice.family is not None and not self.choice.is_set_as(study):
+            parts.append("The controls are set otherwise by now: measure to see that.")
+        if study.machine:
+            parts.append(f"{machine_sentence(study)}.")
+        return " ".join(parts)
+
+    def choose(self, method: str) -> None:
+        """Keep the figures of a method in the readout while nothing else is pointed at; empty: of none."""
+        self._chosen = method
+        self._show_readout()
+
+    @Slot(str)
+    def _point_at(self, method: str) -> None:
+        self._pointed = method
+        self._show_pointed()
+
+    @Slot()
+    def _point_away(self) -> None:
+        self._pointed = ""
+        self._show_pointed()
+
+    def _show_pointed(self) -> None:
+        for chart in self._charts:
+            chart.show_pointed(self._pointed)
+        self._show_readout()
+
+    def _show_readout(self) -> None:
+        study = self.study
+        if study is None:
+            self._readout.show_text(_about(self.choice))
+            return
+        point = self.point(self._pointed) or self.point(self._chosen)
+        path = self.result.path if self.result is not None and not self.is_partial else ""
+        self._readout.show_text(study_text(study, path) if point is None else point_text(study, point))
+        for chart in self._charts:
+            chart.setAccessibleDescription("" if point is None else point.title)
+
+    # Choosing.
+
+    @Slot(str)
+    def _choose_work(self, name: str) -> None:
+        self.choice.work = name
+        self.refresh()
+
+    @Slot(str, float)
+    def _choose_dial(self, name: str, value: float) -> None:
+        self.choice.dials[self.choice.work, name] = value
+        self.shown_text_changed.emit(self._shown_text())
+
+    @Slot(str)
+    def _choose_measure(self, name: str) -> None:
+        self.choice.measure = name
+        self.refresh()
+
+    @Slot(str)
+    def _choose_cost(self, name: str) -> None:
+        self.choice.cost = name
+        self.refresh()
+
+    @Slot(int)
+    def _choose_rounds(self, rounds: int) -> None:
+        self.choice.rounds = rounds
+
+    @Slot(int)
+    def _choose_seed(self, seed: int) -> None:
+        self.choice.seed = seed
+        self.shown_text_changed.emit(self._shown_text())
+
+    # Measuring.
+
+    @Slot()
+    def measure(self) -> None:
+        """Measure the family that is shown on the chosen work."""
+        choice = self.choice
+        if choice.family is None:
+            self.refused.emit(
+                "This version has no such family: a saved study can be looked at, not measured again."
+            )
+            return
+        order = StudyOrder(choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed)
+        settings = choice.family.base
+        if choice.family.takes_scene:
+            document = self._session.document
+            settings = document.settings
+            order = replace(
+                order, scene=document.scene, settings=settings, scene_title=document.title or "scene"
+            )
+        self._desk.cancel()
+        self._running = choice.name
+        self._partial = None
+        self._numbers = {
+            each.method: number for number, each in enumerate(choice.family.candidates(settings))
+        }
+        self._blank = _unmeasured(choice, order)
+        self._pointed = self._chosen = ""
+        self._controls.show_progress(Progress("Preparing", 0, 0))
+        self.shown_changed.emit()
+        self._show_study()
+        self._desk.measure(order)
+
+    @Slot()
+    def cancel(self) -> None:
+        """Stop measuring; what was measured before is shown again."""
+        if self._desk.is_measuring:
+            self._desk.cancel()
+            self.message_sent.emit("Measuring was cancelled; what was measured before is as it was.")
+
+    @Slot(object, str)
+    def _show_progress(self, fraction: float | None, doing: str) -> None:
+        if self._running:
+            done = 0 if fraction is None else round(fraction * PERCENT)
+            self._controls.show_progress(Progress(doing, done, 0 if fraction is None else PERCENT))
+
+    @Slot(object)
+    def _take_point(self, point: Point) -> None:
+        points = {each.method: each for each in (self._partial or self._blank).points} | {point.method: point}
+        in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
+        self._partial = replace(self._blank, points=tuple(in_order))
+        if self.is_partial:
+            self._show_study()
+
+    @Slot(object)
+    def _take_result(self, result: StudyResult) -> None:
+        choice = self._choices[result.study.family]
+        choice.take(result)
+        self._finish()
+        self.message_sent.emit(f"Measured {choice.title.lower()}.")
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        self._finish()
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self.refused.emit(f"It could not be measured: {error} What was measured before is as it was.")
+
+    @Slot()
+    def _end(self) -> None:
+        """Go back to what was measured before, unless a result or a reason follows."""
+        self._finish()
+
+    def _finish(self) -> None:
+        self._running, self._partial = "", None
+        self._controls.show_progress(None)
+        self.refresh()
+
+    # Saved studies.
+
+    def take_saved(self, study: Study, path: str) -> None:
+        """Show a study that was opened from a file, as the result of its family."""
+        if study.family not in self._choices:
+            self._choices[study.family] = choice_of_saved(study)
+        self._choices[study.family].take(StudyResult(study, path=path))
+        self._current = study.family
+        self._pointed = self._chosen = ""
+        self.refresh()
+        self.shown_changed.emit()
+
+
+def _unmeasured(choice: FamilyChoice, order: StudyOrder) -> Study:
+    """Return a study of what is about to be measured, without any point."""
+    assert choice.family is not None
+    return Study(
+        family=choice.name,
+        title=choice.family.title,
+        work=choice.work_kind,
+        dials=order.dials,
+        seed=order.seed,
+        measures=choice.family.measures,
+        points=(),
+        settings=order.settings or Settings(),
+        scene=order.scene_title,
+    )
+
+
+def _about(choice: FamilyChoice) -> str:
+    """Return what can be compared here, as rich text."""
+    works = "".join(f"<li>{work.title}</li>" for work in choice.works)
+    errors = "".join(f"<li>{title}</li>" for _, title in choice.measures)
+    return (
+        f"<b>{choice.title}</b><p>All methods of this family do the same work; each is timed and compared with an "
+        f"exact reference.</p>Work:<ul style='margin-left:-24px'>{works}</ul>"
+        f"Errors:<ul style='margin-left:-24px'>{errors}</ul>"
+    )

@@ -1,0 +1,258 @@
+"""The ground of a chart: two logarithmic axes, series of marks and lines, all in the colours of the theme."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, Qt, Slot
+from PySide6.QtGui import QColor, QFontMetricsF, QPen
+from PySide6.QtWidgets import QWidget
+
+from core.arrays import Floats
+from widgets.chart_records import ChartPicture, ChartSeries
+from widgets.chart_scale import ChartScale, scale_of
+from widgets.series_marks import series_color, series_growth, series_shape
+from widgets.theme import current_theme, text_font, theme_notifier
+
+pg.setConfigOptions(imageAxisOrder="row-major", antialias=True)
+
+MARK_SIZE = 0.95
+"""Width of a mark, in heights of the text."""
+_DASHES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine, Qt.PenStyle.DashDotLine)
+
+
+class ChartCanvas(pg.GraphicsView):
+    """Draws a :class:`~widgets.chart_records.ChartPicture`; wheel zooms, drag pans, double click shows all again."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._picture: ChartPicture | None = None
+        self._scales: tuple[ChartScale, ChartScale] | None = None
+        self._items: list[pg.GraphicsObject] = []
+        self._places: dict[str, Floats] = {}
+        self.view = pg.ViewBox(enableMenu=False)
+        self.axes = (pg.AxisItem("bottom"), pg.AxisItem("left"))
+        layout = pg.GraphicsLayout()
+        self._layout = layout
+        layout.addItem(self.axes[1], 0, 0)
+        layout.addItem(self.view, 0, 1)
+        layout.addItem(self.axes[0], 1, 1)
+        self.setCentralItem(layout)
+        for axis in self.axes:
+            axis.linkToView(self.view)
+            axis.enableAutoSIPrefix(False)
+        self.view.sigRangeChanged.connect(self._show_ticks)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self._follow_theme()
+
+    @property
+    def picture(self) -> ChartPicture | None:
+        """What is shown."""
+        return self._picture
+
+    def show_picture(self, picture: ChartPicture | None) -> None:
+        """Show series on axes that hold all of them."""
+        axes = None if self._picture is None else (self._picture.x_axis, self._picture.y_axis)
+        self._picture = picture
+        self._rebuild()
+        if picture is not None and (axes != (picture.x_axis, picture.y_axis) or not self._is_zoomed()):
+            self.fit()
+
+    def fit(self) -> None:
+        """Show everything."""
+        if self._scales is not None:
+            across, up = self._scales
+            self.view.setRange(xRange=(across.start, across.stop), yRange=(up.start, up.stop), padding=0)
+            self._fitted = self.view.viewRange()
+        self.viewport().update()
+
+    def place_of(self, key: str, index: int = -1) -> QPointF | None:
+        """Return where a point of a series is in the widget; ``None``: it has no place."""
+        places = self._places.get(key)
+        if places is None or not np.isfinite(places[index]).all():
+            return None
+        return QPointF(self.view.mapViewToScene(QPointF(*places[index].tolist())))
+
+    def places(self) -> list[tuple[str, QPointF]]:
+        """Return the key and the place in the widget of every point that can be seen."""
+        area = self.plot_area().adjusted(-1, -1, 1, 1)
+        found = []
+        for key, places in self._places.items():
+            for index in range(len(places)):
+                at = self.place_of(key, index)
+                if at is not None and area.contains(at):
+                    found.append((key, at))
+        return found
+
+    def bars(self) -> list[QRectF]:
+        """Return the rectangles in the widget that bars take."""
+        if self._picture is None or self._scales is None:
+            return []
+        found = []
+        for series in self._picture.series:
+            x, y = self._scales[0].positions(series.x), self._scales[1].positions(series.y)
+            for index in range(len(x)):
+                for spread, scale, is_across in (
+                    (series.x_spread, self._scales[0], True),
+                    (series.y_spread, self._scales[1], False),
+                ):
+                    if spread is None:
+                        continue
+                    low, high = scale.positions(spread[index])
+                    ends = (
+                        [(low, y[index]), (high, y[index])]
+                        if is_across
+                        else [(x[index], low), (x[index], high)]
+                    )
+                    if np.isfinite(ends).all():
+                        start, stop = (QPointF(self.view.mapViewToScene(QPointF(*end))) for end in ends)
+                        found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
+        return found
+
+    def plot_area(self) -> QRectF:
+        """Return the rectangle between the axes, in the widget."""
+        return QRectF(self.view.sceneBoundingRect())
+
+    def mark_size(self) -> float:
+        """Return the width of a mark in pixels."""
+        return MARK_SIZE * current_theme().text_px
+
+    # Building.
+
+    def _is_zoomed(self) -> bool:
+        return self._scales is not None and self.view.viewRange() != getattr(self, "_fitted", None)
+
+    def _rebuild(self) -> None:
+        for item in self._items:
+            self.view.removeItem(item)
+        self._items.clear()
+        self._places.clear()
+        picture = self._picture
+        for axis in self.axes:
+            axis.setVisible(picture is not None)
+        if picture is None:
+            self._scales = None
+            self.viewport().update()
+            return
+        self._scales = _scales(picture.series)
+        self._add_separators()
+        self._add_front(picture)
+        for series in picture.series:
+            self._add_series(series)
+        self._show_ticks()
+        self.viewport().update()
+
+    def _add_separators(self) -> None:
+        assert self._scales is not None
+        pen = _cosmetic(QPen(QColor(current_theme().outline), 1.0, Qt.PenStyle.DotLine))
+        for scale, angle in zip(self._scales, (90, 0), strict=True):
+            for position in scale.separators:
+                self._add(pg.InfiniteLine(position, angle=angle, pen=pen))
+
+    def _add_front(self, picture: ChartPicture) -> None:
+        """Draw the front as a step line: right of it and above it some other method is better in both."""
+        assert self._scales is not None
+        by_key = {series.key: series for series in picture.series}
+        if not picture.front:
+            return
+        across, up = self._scales
+        x = across.positions(np.array([by_key[key].x[0] for key in picture.front]))
+        y = up.positions(np.array([by_key[key].y[0] for key in picture.front]))
+        steps_x = np.repeat(np.append(x, across.stop), 2)[:-1]
+        steps_y = np.append(up.stop, np.repeat(y, 2))
+        pen = QPen(QColor(current_theme().muted_text), 1.5, Qt.PenStyle.DashLine)
+        self._add(pg.PlotCurveItem(steps_x, steps_y, pen=_cosmetic(pen)))
+
+    def _add_series(self, series: ChartSeries) -> None:
+        assert self._scales is not None
+        across, up = self._scales
+        x, y = across.positions(series.x), up.positions(series.y)
+        self._places[series.key] = np.column_stack([x, y])
+        color = QColor(series_color(series.number))
+        if len(x) > 1:
+            style = _DASHES[series.number % len(_DASHES)]
+            pen = _cosmetic(QPen(color, 1.5, style))
+            self._add(pg.PlotCurveItem(x, y, pen=pen, connect="finite"))
+        self._add_bars(series, x, y, color)
+        seen = np.isfinite(x) & np.isfinite(y)
+        # Without its cache every mark is drawn as a path: sharp in every size, and in files.
+        marks = pg.ScatterPlotItem(useCache=False)
+        marks.setData(
+            x[seen],
+            y[seen],
+            symbol=series_shape(series.number),
+            size=self.mark_size() * series_growth(series.number) * (1.0 if len(x) == 1 else 0.7),
+            brush=color,
+            pen=QPen(Qt.PenStyle.NoPen),
+        )
+        self._add(marks)
+
+    def _add_bars(self, series: ChartSeries, x: Floats, y: Floats, color: QColor) -> None:
+        assert self._scales is not None
+        pen = _cosmetic(QPen(color, 1.5))
+        for spread, scale, is_across in (
+            (series.x_spread, self._scales[0], True),
+            (series.y_spread, self._scales[1], False),
+        ):
+            if spread is None:
+                continue
+            low, high = scale.positions(spread[:, 0]), scale.positions(spread[:, 1])
+            at = x if is_across else y
+            low, high = np.nan_to_num(at - low), np.nan_to_num(high - at)
+            ends = {"left": low, "right": high} if is_across else {"bottom": low, "top": high}
+            self._add(pg.ErrorBarItem(x=x, y=y, pen=pen, **ends))
+
+    def _add(self, item: pg.GraphicsObject) -> None:
+        self._items.append(item)
+        self.view.addItem(item, ignoreBounds=True)
+
+    @Slot()
+    def _show_ticks(self) -> None:
+        """Label what can be seen."""
+        if self._scales is None or self._picture is None:
+            return
+        records = (self._picture.x_axis, self._picture.y_axis)
+        for axis, scale, record, seen in zip(
+            self.axes, self._scales, records, self.view.viewRange(), strict=True
+        ):
+            low, high = seen
+            axis.setTicks([scale.ticks(low, high, record.unit), []])
+        self.viewport().update()
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        theme = current_theme()
+        self.setBackground(theme.panel)
+        metrics = QFontMetricsF(text_font(theme, theme.small_px))
+        for axis in self.axes:
+            axis.setPen(QPen(QColor(theme.outline)))
+            axis.setTextPen(QPen(QColor(theme.text)))
+            axis.setTickFont(text_font(theme, theme.small_px))
+            axis.setStyle(tickLength=-4)
+        # The titles are written by the chart: the upper one over the axis, across, so that it can be read.
+        line = QFontMetricsF(text_font(theme)).height()
+        self._layout.setContentsMargins(4, line + 8, 12, line + 6)
+        self.setMinimumSize(18 * theme.text_px, 11 * theme.text_px)
+        self.axes[0].setHeight(metrics.height() + 8)
+        self.axes[1].setWidth(metrics.horizontalAdvance("1,000,000") + 8)
+        self._rebuild()
+
+
+def _scales(series: Sequence[ChartSeries]) -> tuple[ChartScale, ChartScale]:
+    """Return the scales that hold all points and bars."""
+    found = []
+    for axis in ("x", "y"):
+        values = [np.empty(0)]
+        for one in series:
+            values.append(getattr(one, axis))
+            spread = getattr(one, f"{axis}_spread")
+            if spread is not None:
+                values.append(spread.ravel())
+        found.append(scale_of(np.concatenate(values)))
+    return found[0], found[1]
+
+
+def _cosmetic(pen: QPen) -> QPen:
+    """Return a pen whose width is in pixels, whatever the scale."""
+    pen.setCosmetic(True)
+    return pen
