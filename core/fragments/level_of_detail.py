@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from numpy import log2
+from numpy import log2 as binary_logarithm
 
 from core.arrays import Floats, Integers
 from core.fragments.textures import uses_mipmaps
@@ -130,4 +130,4 @@ def level_of_detail(
     up_u, up_v = du_dy * width, dv_dy * height
     right = sqrt(right_u * right_u + right_v * right_v)  #: lengths
     up = sqrt(up_u * up_u + up_v * up_v)
-    return right, up, log2(max(right, up))  #: lod
+    return right, up, binary_logarithm(max(right, up))  #: lod
