@@ -10,6 +10,8 @@ from widgets.step_values import StepValues
 
 _NAMES = ("u_x", "v_x", "u_y", "v_y")
 """The slopes: u_x is how u changes with a pixel to the right."""
+_LOGARITHM = r"\log_{{2}}"
+"""In double brackets, since a single 2 below a symbol has the colour of corner 2."""
 
 
 def slopes(step: StepValues) -> Formula:
@@ -67,7 +69,10 @@ def level_of_detail(step: StepValues) -> Formula:
         r"\quad",
         (r"\lambda", step.number("lod")),
         "=",
-        (r"\log_2 \max(\rho_x, \rho_y)", rf"\log_2 \max({', '.join(map(number_latex, lengths))})"),
+        (
+            rf"{_LOGARITHM} \max(\rho_x, \rho_y)",
+            rf"{_LOGARITHM} \max({', '.join(map(number_latex, lengths))})",
+        ),
     )
 
 

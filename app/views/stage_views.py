@@ -8,11 +8,11 @@ from app.views.clip_diagram import clip_diagram, clip_state
 from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
 from app.views.scene_presenter import ScenePresenter
-from app.views.texture_footprint import no_texture_reason, texture_of, texture_picture
+from app.views.texture_footprint import no_texture_reason, texture_of, texture_pictures
 from core import STAGES
 from widgets.scene_view import SceneView
 from widgets.space_view import SpaceView
-from widgets.texture_view import TextureView
+from widgets.texture_levels import TextureLevels
 
 TITLES = {"scene": "3D scene", "clip": "Clip space", "pyramid": "(x, y, w)", "texture": "Texture"}
 
@@ -34,7 +34,7 @@ class StageViews(QObject):
             SceneView(),
             SpaceView(),
             SpaceView(),
-            TextureView(),
+            TextureLevels(),
         )
         self._clip.setAccessibleName("Clip space")
         self._pyramid.setAccessibleName("Homogeneous rasterization: triangle in (x, y, w)")
@@ -138,9 +138,7 @@ class StageViews(QObject):
             pixel = pixels[0] if pixels else None
             self._pyramid.show_diagram(pyramid_diagram(session.trace.source, triangle, pixel))
         else:
-            picture, reason = texture_picture(session)
-            self._texture.empty_text = reason
-            self._texture.show_picture(picture)
+            self._texture.show_pictures(*texture_pictures(session))
 
     def _clip_position(self) -> int | None:
         """Return how much of the clipping is done at the cursor; None: all of it."""

@@ -224,7 +224,7 @@ def test_what_does_not_apply_says_why(show):
     assert views.is_available("scene") == (True, "")
     is_available, reason = views.is_available("texture")
     assert not is_available
-    assert widget.picture() is None
+    assert widget.pictures() == ()
     assert widget.accessibleDescription() == reason
     with pytest.raises(ValueError, match="view must be one of"):
         views.is_available("nothing")
@@ -233,9 +233,9 @@ def test_what_does_not_apply_says_why(show):
 def test_show_brings_a_hidden_view_up_to_date(show):
     _, views, _ = show("clip", "textured-floor")
     texture = views.widgets[3][2]
-    assert texture.picture() is None
+    assert texture.pictures() == ()
     views.show("texture")
-    assert texture.picture() is not None
+    assert len(texture.pictures()) == 1
 
 
 @pytest.mark.parametrize("name", ["torus", "intersecting", "textured-floor"])
