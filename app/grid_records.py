@@ -7,6 +7,7 @@ import numpy as np
 from app.document import Document
 from core import Trace
 from core.framebuffer.display import to_display
+from core.raster.number_format import number_format
 from core.raster.schedule import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.trace import BufferTrack, StageTrace
 from widgets.depth_texts import depth_text
@@ -90,13 +91,14 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
     window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * 256) / 256
+    snaps = number_format(document.settings.coverage).corner_kind == "snapped"
     wanted = document.triangle if document.triangle is not None else focus
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
         triangles=np.arange(len(corners)).reshape(-1, 3),
         focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
-        snapped=(snapped - origin) if document.settings.coverage == "snapped" else None,
+        snapped=(snapped - origin) if snaps else None,
     )
 
 
