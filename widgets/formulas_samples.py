@@ -68,34 +68,35 @@ def _sum(symbol: str, value: float, summands: list[tuple[str, float]]) -> Formul
     return equation(*parts)
 
 
-def _products(letter: str, shares: list[tuple[float, float]], channel: int) -> list[Part]:
-    parts: list[Part] = []
-    for place, (weight, value) in enumerate(shares[:MOST]):
-        parts += ["+"] if place else []
-        parts += [
-            (rf"{letter}_{{{NAMES[place]}}}", weight),
-            r"\cdot",
-            (rf"{CHANNELS[channel]}_{{{NAMES[place]}}}", value),
-        ]
-    parts += ["+", (r"\dots", r"\dots")] if len(shares) > MOST else []
-    return parts
-
-
 def mean(step: StepValues) -> Formula:
     """The weighted mean, in the channel where the samples differ most."""
     channel = _channel(step)
     shares = _shares(step, channel)
     total = sum(weight for weight, _ in shares)
-    quotient = (r"\frac{1}{W}", rf"\frac{{1}}{{{number_latex(total)}}}")
     result = (CHANNELS[channel], step.vector("linear")[channel])
-    return equation(result, "=", quotient, r"\cdot", "(", *_products("w", shares, channel), ")")
+    parts: list[Part] = [result, "="]
+    for place, (weight, value) in enumerate(shares[:MOST]):
+        parts += ["+"] if place else []
+        share = rf"\frac{{{number_latex(weight)}}}{{{number_latex(total)}}}"
+        parts += [
+            (rf"\frac{{w_{NAMES[place]}}}{{W}}", share),
+            r"\cdot",
+            (rf"{CHANNELS[channel]}_{NAMES[place]}", value),
+        ]
+    parts += ["+", (r"\dots", r"\dots")] if len(shares) > MOST else []
+    return equation(*parts)
 
 
 def area_sum(step: StepValues) -> Formula:
     """The sum of areas times colours."""
     channel = _channel(step)
-    result = (CHANNELS[channel], step.vector("linear")[channel])
-    return equation(result, "=", *_products("A", _shares(step, channel), channel))
+    parts: list[Part] = [(CHANNELS[channel], step.vector("linear")[channel]), "="]
+    shares = _shares(step, channel)
+    for place, (area, value) in enumerate(shares[:MOST]):
+        parts += ["+"] if place else []
+        parts += [(rf"A_{NAMES[place]}", area), r"\cdot", (rf"{CHANNELS[channel]}_{NAMES[place]}", value)]
+    parts += ["+", (r"\dots", r"\dots")] if len(shares) > MOST else []
+    return equation(*parts)
 
 
 FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {

@@ -168,7 +168,7 @@ def _tracks(
     elif track.name == "coverage":
         return [
             _any_sample(track, before, rows, place, values),
-            _covered_samples(track, rows, place, sample, values),
+            _covered_samples(before.shape, rows, place, sample, values),
         ]
     return [BufferTrack(track.name, before, rows, place, values, track.kind, track.starts_known)]
 
@@ -185,16 +185,14 @@ def _any_sample(
 
 
 def _covered_samples(
-    track: BufferTrack, rows: Integers, place: Integers, sample: Integers, values: Floats
+    shape: tuple[int, ...], rows: Integers, place: Integers, sample: Integers, values: Floats
 ) -> BufferTrack:
-    """Return how many samples of every pixel are covered by now."""
+    """Return how many samples of every pixel are covered by now: a buffer of ``shape`` from writes (k,)."""
     covered = np.flatnonzero(values > 0)
     key = place[covered] * (int(sample.max(initial=0)) + 1) + sample[covered]
     new = covered[occurrence(key) == 0]
     counted = 1.0 + occurrence(place[new])
-    return BufferTrack(
-        "samples", np.full(track.initial.shape, np.nan), rows[new], place[new], counted, "count"
-    )
+    return BufferTrack("samples", np.full(shape, np.nan), rows[new], place[new], counted, "count")
 
 
 def _at_samples(columns: dict[str, NDArray[Any]], sample: Integers) -> dict[str, NDArray[Any]]:

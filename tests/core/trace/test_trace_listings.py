@@ -1,5 +1,6 @@
 """The listings, executed, give the numbers of the rows bit for bit."""
 
+from dataclasses import replace
 from math import isnan
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, trace
 from core.antialiased.exact_area import piece_sum
+from core.antialiased.supersampling import side_of
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
 from core.fragments.level_of_detail import level_of_detail
@@ -41,8 +43,9 @@ from core.raster.snapping import snap_one
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.surface import viewpoint
-from core.trace import StageTrace, Trace
+from core.trace import TRACERS, StageTrace, Trace, TraceSource
 from core.trace.binning import bounding_box, outer_box
+from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.texture_columns import slope_kind
 from core.trace.transform import divide_and_map
 from core.visibility.ray_casting import hit_is_nearer
@@ -513,8 +516,38 @@ CHECKS = (
     check_shade,
     check_depth,
     check_blend,
-    check_resolve,
 )
+CENTER_CHECKS = (check_interpolate, check_shade)
+
+
+class OnePart:
+    """The stages of one source, as the traces of several samples are joined from."""
+
+    def __init__(self, source: TraceSource) -> None:
+        self.source = source
+
+    def stage(self, name: str) -> StageTrace:
+        return TRACERS[name](self.source)
+
+
+def check_all(traced: Trace) -> None:
+    """Execute the listings of all stages: of several samples, on what the rows of each were made from."""
+    source = traced.source
+    side = side_of(source.settings.antialiasing)
+    check_resolve(traced)
+    if side > 1:
+        parts = [(finer_source(source, side), CHECKS)]
+    elif source.settings.antialiasing == "msaa-4":
+        samples = sources_of_samples(source)
+        of_sample = tuple(check for check in CHECKS if check not in CENTER_CHECKS)
+        parts = [(sample, of_sample) for sample in samples]
+        centers = CenterSource(source.scene, source.settings, source.triangle, source.region, samples=samples)
+        parts.append((centers, CENTER_CHECKS))
+    else:
+        parts = [(replace(source, settings=replace(source.settings, antialiasing="none")), CHECKS)]
+    for part, checks in parts:
+        for check in checks:
+            check(OnePart(part))
 
 
 @pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
@@ -522,8 +555,7 @@ CHECKS = (
 def test_listings_of_all_stages(name, choice):
     scene = SCENES[name]
     traced = trace(scene, settings_of(choice, scene), region=small_region(scene))
-    for check in CHECKS:
-        check(traced)
+    check_all(traced)
 
 
 @pytest.mark.parametrize("name", [name for name in SCENES if name not in ("clip", "lit", "orthographic")])
@@ -531,8 +563,7 @@ def test_listings_of_all_stages(name, choice):
 def test_listings_on_the_built_in_scenes(name, fill):
     depth = "fixed-38" if fill == "spans" else "z-float32"
     traced = trace(SCENES[name], Settings(fill=fill, depth=depth), region=small_region(SCENES[name]))
-    for check in CHECKS:
-        check(traced)
+    check_all(traced)
 
 
 FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", "spans", "incremental"])
@@ -554,5 +585,4 @@ def test_listings_on_any_triangles(case, fill, clipping, coverage, depth):
         scene,
         Settings(fill=fill, clipping=clipping, coverage=coverage, depth=depth, block_size=2, blend="over"),
     )
-    for check in CHECKS:
-        check(traced)
+    check_all(traced)
