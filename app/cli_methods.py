@@ -64,7 +64,7 @@ def text_of(method: Method) -> str:
         account += f" Needs {', '.join(method.needs)}."
     account += f" [{method.source}]"
     body = textwrap.fill(account, WIDTH, initial_indent="    ", subsequent_indent="    ")
-    return f"{head:<34}{marked}\n{body}"
+    return f"{head:<38}{marked}\n{body}"
 
 
 def is_default(method: Method) -> bool:
