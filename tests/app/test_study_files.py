@@ -187,10 +187,7 @@ def test_a_study_without_numbers_has_an_empty_chart(study: Study) -> None:
     assert "Brute" not in study_svg(empty)
 
 
-def test_files_are_written_and_say_nothing_of_the_user(
-    study: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("QT_QPA_PLATFORM", "offscreen")
+def test_files_are_written_and_say_nothing_of_the_user(study: Study, tmp_path: Path, qapp) -> None:
     written = export_study(study, tmp_path)
     assert sorted(path.name for path in written) == [
         f"study-fill-triangles{ending}" for ending in (".csv", ".json", ".png", ".svg")
