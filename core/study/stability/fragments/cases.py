@@ -108,9 +108,8 @@ def judge_colors(
     severity = mean if of_mean else largest
     remark = f"colours are off by {mean:.3g}/255 in the mean and {largest:.3g}/255 at most"
     if severity <= tolerance:
-        return Judgement(
-            Verdict(Outcome.RIGHT, severity, f"{remark}: within {tolerance:g}/255"), counts & (difference < 0)
-        )
+        verdict = Verdict(Outcome.RIGHT, severity, f"{remark}: within {tolerance:g}/255")
+        return Judgement(verdict, np.zeros(counts.shape, bool))
     return Judgement(Verdict(Outcome.WRONG_PICTURE, severity, remark), counts & (difference > tolerance))
 
 

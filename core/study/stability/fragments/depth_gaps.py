@@ -134,8 +134,8 @@ BY_DISTANCE = CaseExperiment(
         ),
         FORMATS,
         "Z needs a gap that grows with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
-        "or float32. 1/w, the logarithm and reversed z need one that grows with the distance; 38 bits need 2^-25 "
-        "of it, ray casting none.",
+        "and with float32, 2^-31 with 38 bits on planes. 1/w, the logarithm and reversed z need one that grows "
+        "with the distance only; ray casting needs none.",
     ),
     make_by_distance,
     "depth",
@@ -152,8 +152,8 @@ BY_RANGE = CaseExperiment(
             Axis("gap", "Gap, as a part of the distance", "", decades(-7, -2), True),
         ),
         FORMATS,
-        "Z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap; 1/w, the logarithm, "
-        "reversed z and 38 bits hold for a gap of 10^-6 of the distance at any range up to 10^6.",
+        "Z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap; 1/w, the logarithm and "
+        "reversed z hold for a gap of 10^-6 of the distance at any range up to 10^6, and 38 bits of z do so far.",
     ),
     make_by_range,
     "depth",

@@ -11,7 +11,6 @@ import numpy as np
 
 from core.arrays import Floats, Integers
 from core.pipeline import render
-from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_fragments, exact_visible
 from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, judge_order
@@ -29,11 +28,12 @@ class OrderCase(Case):
 
     def __init__(self, clip: Floats) -> None:
         self.scene = flat_scene(clip, (SIDE, SIDE))
+        self._clip = clip
 
     @cached_property
     def nearest(self) -> Integers:
         """(H, W) int64, the triangle that is seen."""
-        return exact_visible(exact_fragments(self.scene.clip, self.scene.size), self.scene.size)
+        return exact_visible(exact_fragments(self._clip, self.scene.size), self.scene.size)
 
     def judge(self, settings: Settings) -> Judgement:
         """Count the pixels that show a triangle which is hidden."""
@@ -49,7 +49,7 @@ def circle_of_bars(overlap: float, lift: float) -> Floats:
     Parameters
     ----------
     overlap : float
-        How far a bar reaches beyond the places where it meets the others, in half lengths; below 0: it does not.
+        How far a bar's axis reaches beyond those of the others, in half lengths; far below 0 they do not meet.
     lift : float
         Each bar is farther by this part of a bar's own depth than the one before: lifted enough, one lies wholly
         before the next, and there is no circle.
@@ -110,7 +110,10 @@ CIRCLE = CaseExperiment(
         "off the next?",
         (
             Axis(
-                "overlap", "Overlap, in half lengths", "", (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+                "overlap",
+                "Reach beyond the crossings, in half lengths",
+                "",
+                (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
             ),
             Axis("lift", "Lift, in depths of a bar", "", (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.1, 1.5)),
         ),

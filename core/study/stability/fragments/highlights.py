@@ -46,10 +46,11 @@ class HighlightCase(Case):
         """Return which part of the highlight is missing at its brightest pixel."""
         shown = drawn_colors(self.scene, settings)[..., 0]
         missing = max(float(self._wanted[self._where, 0].max() - shown[self._where].max()) / SPECULAR, 0.0)
-        outcome = Outcome.RIGHT if missing <= TOLERANCE else Outcome.WRONG_PICTURE
         remark = f"{100 * missing:.3g} % of the highlight is missing, over {int(self._where.sum())} pixels"
+        if missing <= TOLERANCE:
+            return Judgement(Verdict(Outcome.RIGHT, missing, remark), np.zeros(self._where.shape, bool))
         dark = self._where & (self._wanted[..., 0] - shown > TOLERANCE * SPECULAR)
-        return Judgement(Verdict(outcome, missing, remark), dark)
+        return Judgement(Verdict(Outcome.WRONG_PICTURE, missing, remark), dark)
 
 
 def make_highlight(place: tuple[float, ...], seed: int) -> HighlightCase:

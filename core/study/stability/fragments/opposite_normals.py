@@ -26,7 +26,7 @@ SIZE = (65, 3)
 MATERIAL = Material(ambient=0.1, diffuse=0.8, specular=0.0, shininess=1.0)
 TOLERANCE = 8.0
 """Largest colour error, in 1/255, that is taken as right."""
-LIGHT = np.array([0.3, -0.2, -1.0])
+LIGHT = DirectionalLight(np.array([0.3, -0.2, -1.0]))
 
 
 class NormalsCase(Case):
@@ -35,7 +35,6 @@ class NormalsCase(Case):
     def __init__(self, angle: float, parts: int) -> None:
         width, height = SIZE
         aspect = width / height
-        self._angle = angle
         x = np.linspace(-aspect, aspect, parts + 1)
         positions = np.array([[at, y, 0.0] for at in x for y in (-1.0, 1.0)])
         normals = np.repeat(turned_normals(np.linspace(0, 1, parts + 1), angle), 2, axis=0)
@@ -52,22 +51,21 @@ class NormalsCase(Case):
             near=0.5,
             far=2.0,
         )
-        self.scene = Scene((mesh,), camera, (DirectionalLight(LIGHT),), SIZE)
-        self.wanted = self._evenly_lit()
-
-    def _evenly_lit(self) -> Floats:
-        """Return the colours (H, W, 3) of normals that turn evenly."""
-        width, height = SIZE
-        normal = turned_normals((np.arange(width) + 0.5) / width, self._angle)
-        place = np.zeros((width, 3))
-        diffuse, specular = light_surface(
-            place, normal, np.array([0.0, 0.0, 1e9]), self.scene.lights, MATERIAL, False
-        )
-        return np.broadcast_to(diffuse + specular, (height, width, 3))
+        self.scene = Scene((mesh,), camera, (LIGHT,), SIZE)
+        self.wanted = evenly_lit(angle)
 
     def judge(self, settings: Settings) -> Judgement:
         """Compare the colours with those of normals that turn evenly."""
         return judge_colors(drawn_colors(self.scene, settings)[..., :3], self.wanted, TOLERANCE)
+
+
+def evenly_lit(angle: float) -> Floats:
+    """Return the colours (H, W, 3) of normals that turn evenly by ``angle`` degrees from left to right."""
+    width, height = SIZE
+    normal = turned_normals((np.arange(width) + 0.5) / width, angle)
+    # The light comes from infinitely far away, and nothing is mirrored: the place does not matter.
+    diffuse, _ = light_surface(np.zeros((width, 3)), normal, np.ones(3), (LIGHT,), MATERIAL, False)
+    return np.broadcast_to(diffuse, (height, width, 3))
 
 
 def turned_normals(part: Floats, angle: float) -> Floats:
