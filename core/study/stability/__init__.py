@@ -1,6 +1,7 @@
 """Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
 
 from core.study.stability.experiment import Experiment, Verdict, experiments
+from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 from core.study.stability.stress import StressCancelledError, count_outcomes, stress
 
@@ -17,3 +18,6 @@ __all__ = [
     "experiments",
     "stress",
 ]
+
+for each in FRAGMENT_EXPERIMENTS:
+    experiments.add(each)
