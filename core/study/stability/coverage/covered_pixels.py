@@ -2,13 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from core.arrays import Integers
 from core.frame import STAGES, StageCount
-from core.geometry_stages import process_geometry
-from core.pipeline import render
+from core.geometry_stages import Geometry, process_geometry
+from core.pipeline import covered
+from core.raster.schedule import make_raster
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.coverage import count_pixels, exact_spans
@@ -19,22 +21,17 @@ from core.study.stability.record import ExperimentInfo, Outcome
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""
+Wanted = Callable[[ClipScene], Integers]
+"""How often each pixel of a scene is to be covered, (H, W) int64."""
 
 
-def as_given(scene: ClipScene, settings: Settings) -> Integers:
+def as_given(scene: ClipScene) -> Integers:
     """Return (H, W) int64, how many triangles cover each pixel in rational arithmetic, corners where they are."""
-    spans = exact_spans(
-        scene.clip,
-        scene.size,
-        is_snapped=False,
-        rule="shared-edge",
-        pixel_center=settings.pixel_center,
-    )
-    _, column, row = spans.pixels()
+    _, column, row = exact_spans(scene.clip, scene.size, is_snapped=False).pixels()
     return count_pixels(column, row, scene.size)
 
 
-def once_everywhere(scene: ClipScene, settings: Settings) -> Integers:
+def once_everywhere(scene: ClipScene) -> Integers:
     """Return (H, W) int64 ones: what a mesh without gaps covers that reaches beyond the window."""
     return np.ones(scene.size[::-1], np.int64)
 
@@ -46,56 +43,85 @@ class CoverageExperiment:
     info: ExperimentInfo
     scene: Callable[[tuple[float, ...], int], ClipScene]
     """The triangles at a place of the axes, for a seed."""
-    wanted: Callable[[ClipScene, Settings], Integers] = as_given
-    """How often each pixel is to be covered, (H, W) int64."""
+    wanted: Wanted = as_given
     base: Settings = EVERY_PIXEL
     """What the methods share."""
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Draw the triangles of one place with one method."""
-        return judge(self.scene(place, seed), settings_of(self.base, method), self.wanted)
+        scene, wanted = _case(self, place, seed)
+        return judge_cover(scene, settings_of(self.base, method), wanted)
 
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
         """Return the triangles, at the first pixel that goes wrong."""
-        scene, settings = self.scene(place, seed), settings_of(self.base, method)
-        return Opening(scene, settings, "raster", first_wrong_pixel(scene, settings, self.wanted))
+        scene, wanted = _case(self, place, seed)
+        settings = settings_of(self.base, method)
+        return Opening(scene, settings, "raster", first_wrong_pixel(scene, settings, wanted))
 
 
-Wanted = Callable[[ClipScene, Settings], Integers]
+@lru_cache(maxsize=1024)
+def _case(experiment: CoverageExperiment, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Integers]:
+    """Return the triangles of one place and what they should cover: the same for all methods."""
+    scene = experiment.scene(place, seed)
+    return scene, experiment.wanted(scene)
 
 
-def cover_error(scene: ClipScene, settings: Settings, wanted: Wanted) -> Integers:
-    """Draw triangles; return (H, W) int64 by how much each pixel is covered too often (below 0: too seldom)."""
-    return render(scene, settings).cover_count.astype(np.int64) - wanted(scene, settings)
+def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometry]:
+    """Run the stages up to the rasterization: (H, W) int64 how often each pixel is covered, and the geometry.
+
+    Raises
+    ------
+    ValueError
+        If a method does not take the scene.
+    """
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(scene, settings, counts)
+    raster = make_raster(scene.size, settings.pixel_center)
+    cover = np.zeros(scene.size[::-1], np.int64)
+    for fragments in covered(geometry, settings, raster, counts):
+        cover += count_pixels(fragments.column, fragments.row, scene.size)
+    return cover, geometry
 
 
-def first_wrong_pixel(scene: ClipScene, settings: Settings, wanted: Wanted) -> tuple[int, int] | None:
-    """Return column and row of the first wrong pixel, row by row from below; ``None``: all are right."""
+def first_wrong_pixel(scene: ClipScene, settings: Settings, wanted: Integers) -> tuple[int, int] | None:
+    """Return column and row of the first wrong pixel, row by row from below; ``None``: all are right, or refused."""
     try:
-        rows, columns = np.nonzero(cover_error(scene, settings, wanted))
+        cover, _ = count_cover(scene, settings)
     except ValueError:
-        # Methods that refuse the scene draw nothing that could be wrong.
+        # A method that refuses the scene draws nothing that could be wrong.
         return None
+    rows, columns = np.nonzero(cover != wanted)
     return (int(columns[0]), int(rows[0])) if len(rows) else None
 
 
-def judge(scene: ClipScene, settings: Settings, wanted: Wanted) -> Verdict:
-    """Draw triangles and say what came of it: how many pixels are missing or drawn too often, and why."""
+def judge_cover(scene: ClipScene, settings: Settings, wanted: Integers) -> Verdict:
+    """Draw triangles and say what came of it: how many pixels are missing or drawn too often, and why.
+
+    Parameters
+    ----------
+    scene : ClipScene
+    settings : Settings
+    wanted : (H, W) int64
+        How often each pixel is to be covered.
+    """
     try:
-        error = cover_error(scene, settings, wanted)
+        cover, geometry = count_cover(scene, settings)
     except ValueError as problem:
         return Verdict(Outcome.REFUSED, np.nan, str(problem))
+    error = cover - wanted
     missing, extra = int(np.maximum(-error, 0).sum()), int(np.maximum(error, 0).sum())
     if not missing and not extra:
         return Verdict(Outcome.RIGHT, 0.0, f"all {error.size} pixels are right")
+    outcome = _number_trouble(scene, settings, geometry, cover)
+    if outcome is None:
+        outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
     remark = f"{missing} pixels are missing and {extra} are drawn too often, of {error.size}"
-    trouble = number_trouble(scene, settings)
-    if trouble is None:
-        trouble = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
-    return Verdict(trouble, float(missing + extra), remark)
+    return Verdict(outcome, float(missing + extra), remark)
 
 
-def number_trouble(scene: ClipScene, settings: Settings) -> Outcome | None:
+def _number_trouble(
+    scene: ClipScene, settings: Settings, geometry: Geometry, cover: Integers
+) -> Outcome | None:
     """Tell whether edge functions left the range of their numbers: NaN, infinite, or wrapped around.
 
     Notes
@@ -103,12 +129,10 @@ def number_trouble(scene: ClipScene, settings: Settings) -> Outcome | None:
     Whole numbers that wrap around cannot be told by looking at them. But their products and sums forget nothing else:
     where pixels differ from those of exact numbers on the same lattice, a value did not fit.
     """
-    geometry = process_geometry(scene, settings, {stage: StageCount() for stage in STAGES})
     edges = geometry.edges
     if edges.numbers.rounding == "wrapped":
-        on_lattice = render(scene, settings_of(settings, "coverage=snapped")).cover_count
-        wrapped = (render(scene, settings).cover_count != on_lattice).any()
-        return Outcome.OVERFLOW if wrapped else None
+        on_lattice, _ = count_cover(scene, settings_of(settings, "coverage=snapped"))
+        return Outcome.OVERFLOW if (cover != on_lattice).any() else None
     if edges.a.dtype == object:
         return None
     parts = np.concatenate([edges.a, edges.b, edges.c])
