@@ -1,7 +1,7 @@
 """Experiments on coverage, clipping and lines: which pixels are drawn, against exact arithmetic."""
 
-from core.study.stability.coverage import clipping, line_clippers, meshes, number_formats
+from core.study.stability.coverage import clipping, drift, line_clippers, meshes, number_formats
 from core.study.stability.experiment import Experiment
 
-COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (*number_formats.EXPERIMENTS, *meshes.EXPERIMENTS, *clipping.EXPERIMENTS, *line_clippers.EXPERIMENTS)
+COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (*number_formats.EXPERIMENTS, *meshes.EXPERIMENTS, *drift.EXPERIMENTS, *clipping.EXPERIMENTS, *line_clippers.EXPERIMENTS)
 """In the order in which they are listed."""

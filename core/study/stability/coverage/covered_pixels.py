@@ -10,6 +10,7 @@ from core.arrays import Integers
 from core.frame import STAGES, StageCount
 from core.geometry_stages import Geometry, process_geometry
 from core.pipeline import covered
+from core.raster.number_format import number_format
 from core.raster.schedule import make_raster
 from core.scene import ClipScene
 from core.settings import Settings
@@ -21,19 +22,29 @@ from core.study.stability.record import ExperimentInfo, Outcome
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""
-Wanted = Callable[[ClipScene], Integers]
+Wanted = Callable[[ClipScene, Settings], Integers]
 """How often each pixel of a scene is to be covered, (H, W) int64."""
 
 
-def as_given(scene: ClipScene) -> Integers:
+def as_given(scene: ClipScene, settings: Settings) -> Integers:
     """Return (H, W) int64, how many triangles cover each pixel in rational arithmetic, corners where they are."""
-    _, column, row = exact_spans(scene.clip, scene.size, is_snapped=False).pixels()
-    return count_pixels(column, row, scene.size)
+    return _exact_cover(scene, False)
 
 
-def once_everywhere(scene: ClipScene) -> Integers:
+def on_its_lattice(scene: ClipScene, settings: Settings) -> Integers:
+    """Return the same with the corners where the number format puts them: snapped for those that snap."""
+    return _exact_cover(scene, number_format(settings.coverage).corner_kind == "snapped")
+
+
+def once_everywhere(scene: ClipScene, settings: Settings) -> Integers:
     """Return (H, W) int64 ones: what a mesh without gaps covers that reaches beyond the window."""
     return np.ones(scene.size[::-1], np.int64)
+
+
+@lru_cache(maxsize=1024)
+def _exact_cover(scene: ClipScene, is_snapped: bool) -> Integers:
+    _, column, row = exact_spans(scene.clip, scene.size, is_snapped=is_snapped).pixels()
+    return count_pixels(column, row, scene.size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,21 +60,20 @@ class CoverageExperiment:
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Draw the triangles of one place with one method."""
-        scene, wanted = _case(self, place, seed)
-        return judge_cover(scene, settings_of(self.base, method), wanted)
+        scene, settings = _scene(self, place, seed), settings_of(self.base, method)
+        return judge_cover(scene, settings, self.wanted(scene, settings))
 
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
         """Return the triangles, at the first pixel that goes wrong."""
-        scene, wanted = _case(self, place, seed)
-        settings = settings_of(self.base, method)
-        return Opening(scene, settings, "raster", first_wrong_pixel(scene, settings, wanted))
+        scene, settings = _scene(self, place, seed), settings_of(self.base, method)
+        pixel = first_wrong_pixel(scene, settings, self.wanted(scene, settings))
+        return Opening(scene, settings, "raster", pixel)
 
 
 @lru_cache(maxsize=1024)
-def _case(experiment: CoverageExperiment, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Integers]:
-    """Return the triangles of one place and what they should cover: the same for all methods."""
-    scene = experiment.scene(place, seed)
-    return scene, experiment.wanted(scene)
+def _scene(experiment: CoverageExperiment, place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return the triangles of one place: the same, with the same referee, for all methods."""
+    return experiment.scene(place, seed)
 
 
 def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometry]:
