@@ -24,6 +24,8 @@ from core.study.stability.record import Axis, ExperimentInfo, Outcome
 from core.study.workloads import on_lattice, outline_scene
 
 LENGTHS = powers(4, 13)
+FIRST_ROW = 8192.0
+"""Far from the origin a float has fewer bits behind the point."""
 OPENED_PIXELS = 1 << 20
 """Largest picture that is opened in the stepper."""
 
@@ -68,15 +70,15 @@ class LineDriftExperiment:
 
 
 def long_line(place: tuple[float, ...]) -> Floats:
-    """Return the ends (2, 2) of a line between pixel centres: ``length`` columns wide, from row ``height`` on.
+    """Return the ends (2, 2) of a line between pixel centres: ``length`` columns wide, from row 8,192 on.
 
     Notes
     -----
-    It climbs three rows in ten columns, less one row in all, so that its slope is no short binary fraction.
+    It climbs one row less than ``slope`` times its length, so that the slope is no short fraction.
     """
-    length, height = place
-    rise = (3 * int(length)) // 10 - 1
-    return np.array([[0.5, height + 0.5], [length + 0.5, height + rise + 0.5]])
+    length, slope = place
+    rise = int(slope * length) - 1
+    return np.array([[0.5, FIRST_ROW + 0.5], [length + 0.5, FIRST_ROW + rise + 0.5]])
 
 
 def _line_distances(ends: Floats, line: str) -> tuple[Integers, Integers]:
@@ -164,7 +166,8 @@ INCREMENTAL = CoverageExperiment(
             "coverage=int64 fill=incremental",
             "coverage=float64",
         ),
-        "",
+        "Sums in float16 drift from the start, and in float32 after about a thousand pixels, where evaluating every pixel "
+        "in float32 is still right; float64 and whole numbers do not drift.",
     ),
     long_triangle,
     on_its_lattice,
@@ -173,13 +176,14 @@ LINES = LineDriftExperiment(
     ExperimentInfo(
         "line-drift",
         "Lines by an added slope",
-        "A line is drawn by adding its slope from column to column: how far may it go, and how far from the origin?",
+        "A line is drawn by adding its slope from column to column: how long may it be?",
         (
             Axis("length", "Length of the line", "columns", LENGTHS, True),
-            Axis("height", "First row", "pixels", (0.0, *powers(2, 13))),
+            Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
         ),
         ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
-        "",
+        "Slopes added in float32 drift off the line within thousands of columns; sums in float64 stay beside it, and "
+        "whole numbers are always right.",
     )
 )
 SLOPES = SlopeSumExperiment(
@@ -192,7 +196,7 @@ SLOPES = SlopeSumExperiment(
             Axis("shift", "Place of the far corner", "columns", tuple(map(float, range(2, 32, 3)))),
         ),
         ("fill=scanline-lecture", "fill=scanline"),
-        "",
+        "Inverse slopes added in float64 round another way at ties, as if 0.1 were a float; spans in closed form do not.",
     )
 )
 EXPERIMENTS = (INCREMENTAL, LINES, SLOPES)
