@@ -17,6 +17,7 @@ from core.settings import Settings
 from core.study.exact.coverage import count_pixels, exact_spans
 from core.study.family import settings_of
 from core.study.record import Opening
+from core.study.stability.case_text import clip_text, cover_text, settings_text
 from core.study.stability.experiment import Verdict
 from core.study.stability.record import ExperimentInfo, Outcome
 
@@ -68,6 +69,21 @@ class CoverageExperiment:
         scene, settings = _scene(self, place, seed), settings_of(self.base, method)
         pixel = first_wrong_pixel(scene, settings, self.wanted(scene, settings))
         return Opening(scene, settings, "raster", pixel)
+
+    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
+        """Return the triangles of one place, and how one method draws them."""
+        return _scene(self, place, seed), settings_of(self.base, method)
+
+    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
+        """Draw any triangles; a mesh may have lost some of its own."""
+        if self.wanted is once_everywhere:
+            return judge_mesh(scene, settings)
+        return judge_cover(scene, settings, self.wanted(scene, settings))
+
+    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+        """Return the statements of a test: how often each pixel should be covered."""
+        wanted = as_given if self.wanted is once_everywhere else self.wanted
+        return cover_test(scene, settings, wanted(scene, settings))
 
 
 @lru_cache(maxsize=1024)
@@ -125,8 +141,45 @@ def judge_cover(scene: ClipScene, settings: Settings, wanted: Integers) -> Verdi
     outcome = _number_trouble(scene, settings, geometry, cover)
     if outcome is None:
         outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
-    remark = f"{missing} pixels are missing and {extra} are drawn too often, of {error.size}"
+    remark = _counted(missing, extra, error.size)
     return Verdict(outcome, float(missing + extra), remark)
+
+
+def _counted(missing: int, extra: int, count: int) -> str:
+    """Return in words how many pixels are wrong."""
+    return f"{missing} of {count} pixels missing, {extra} drawn too often"
+
+
+def judge_mesh(scene: ClipScene, settings: Settings) -> Verdict:
+    """Draw part of a mesh; wrong is a pixel that several triangles draw and one has, or that one has and none draws.
+
+    Notes
+    -----
+    One triangle that draws a pixel of its neighbour is not wrong by itself: only together they tell.
+    """
+    cover, geometry = count_cover(scene, settings)
+    wanted = as_given(scene, settings)
+    extra = int(np.maximum(cover - np.maximum(wanted, 1), 0).sum())
+    missing = int(((cover == 0) & (wanted > 0)).sum())
+    if not missing and not extra:
+        return Verdict(Outcome.RIGHT, 0.0, "no pixel is lost or drawn twice")
+    outcome = _number_trouble(scene, settings, geometry, cover)
+    if outcome is None:
+        outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
+    remark = _counted(missing, extra, wanted.size)
+    return Verdict(outcome, float(missing + extra), remark)
+
+
+def cover_test(scene: ClipScene, settings: Settings, wanted: Integers) -> str:
+    """Return the statements of a test that triangles cover each pixel as often as ``wanted``, (H, W) int64."""
+    rows = "\n".join(f'    "{row}",' for row in cover_text(wanted))
+    return (
+        f"clip = {clip_text(scene.clip)}\n"
+        f"scene = ClipScene(np.array(clip, float), size={scene.size})\n"
+        f"cover = render(scene, {settings_text(settings)}).cover_count\n"
+        f'rows = ["".join(".123456789"[min(count, 9)] for count in row) for row in cover[::-1]]\n'
+        f"assert rows == [\n{rows}\n]"
+    )
 
 
 def _number_trouble(

@@ -8,9 +8,11 @@ import numpy as np
 
 from core.arrays import Floats
 from core.geometry.line_clipping import clip_lines
+from core.raster.snapping import window_position
+from core.scene import ClipScene
+from core.settings import Settings
 from core.study.exact.segments import Ends, clipped_ends
 from core.study.family import settings_of
-from core.settings import Settings
 from core.study.record import Opening
 from core.study.stability.experiment import Verdict
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
@@ -50,10 +52,40 @@ class LineClipExperiment:
             return None
         return Opening(outline_scene(segment, (SIDE, SIDE)), settings_of(WIREFRAME, method), "raster")
 
+    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
+        """Return the segment of one place as an edge of a triangle, and the clipper's settings."""
+        return outline_scene(self.segment(place), (SIDE, SIDE)), settings_of(WIREFRAME, method)
 
-def judge_clip(segment: Floats, clipper: str) -> Verdict:
+    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
+        """Clip the first edge of a triangle to the raster."""
+        return judge_clip(first_edge(scene), settings.line_clipping, scene.size)
+
+    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+        """Return the statements of a test: what is left of the segment."""
+        segment, (width, height) = first_edge(scene), scene.size
+        wanted = clipped_ends(segment, (0.0, 0.0, width, height))
+        window = (0, 0, width, height)
+        clipping = f'segment = {segment.tolist()}\nclipped = clip_lines([segment], {window}, "{settings.line_clipping}")'
+        if wanted is None:
+            return f"{clipping}\nassert not clipped.is_kept[0]"
+        tolerance = PROMISED * float(np.spacing(np.abs(segment).max()))
+        return (
+            f"{clipping}\nassert clipped.is_kept[0]\nwanted = {_shown(wanted)}\n"
+            f"np.testing.assert_allclose(clipped.segments[0], wanted, rtol=0, atol={tolerance})"
+        )
+
+
+def first_edge(scene: ClipScene) -> Floats:
+    """Return the first edge (2, 2) of the first triangle in pixels; ValueError where it lies behind the eye."""
+    ends = window_position(scene.clip[0, :2], scene.size)
+    if not np.isfinite(ends).all():
+        raise ValueError("the first edge must lie in front of the eye")
+    return ends
+
+
+def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:
     """Clip a segment (2, 2) to the raster and compare with rational arithmetic; severity is in ulp."""
-    window = (0.0, 0.0, float(SIDE), float(SIDE))
+    window = (0.0, 0.0, float(size[0]), float(size[1]))
     clipped = clip_lines(segment[None], window, clipper)
     wanted = clipped_ends(segment, window)
     if wanted is None:
