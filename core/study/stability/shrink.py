@@ -42,6 +42,9 @@ class Shrinkable(Protocol):
     def test_body(self, scene: ClipScene, settings: Settings) -> str:
         """Return the statements of a test that holds once the method is right for the scene."""
 
+    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
+        """Return the first pixel that is wrong, if it is about pixels."""
+
 
 @dataclass(frozen=True, eq=False)
 class Shrunk:
@@ -52,6 +55,8 @@ class Shrunk:
     verdict: Verdict
     sentence: str
     """What the method does to it."""
+    pixel: tuple[int, int] | None
+    """Column and row of the first pixel that is wrong; ``None``: it is about no pixel."""
     run_count: int
     """Runs that it took."""
     test: str
@@ -99,7 +104,8 @@ def shrink_cell(
     sentence = f"{method} at {_shown_count(small)}: {verdict.remark}."
     title = "_".join([name, *(part.partition("=")[2] for part in method.split())])
     test = case_text(title, sentence, experiment.test_body(small, settings))
-    return Shrunk(small, settings, verdict, sentence, run_count, test)
+    pixel = experiment.wrong_pixel(small, settings)
+    return Shrunk(small, settings, verdict, sentence, pixel, run_count, test)
 
 
 def shrink(

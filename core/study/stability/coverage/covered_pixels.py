@@ -82,8 +82,15 @@ class CoverageExperiment:
 
     def test_body(self, scene: ClipScene, settings: Settings) -> str:
         """Return the statements of a test: how often each pixel should be covered."""
-        wanted = as_given if self.wanted is once_everywhere else self.wanted
-        return cover_test(scene, settings, wanted(scene, settings))
+        return cover_test(scene, settings, self._wanted_of_part(scene, settings))
+
+    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
+        """Return the first pixel that is covered too often or too seldom."""
+        return first_wrong_pixel(scene, settings, self._wanted_of_part(scene, settings))
+
+    def _wanted_of_part(self, scene: ClipScene, settings: Settings) -> Integers:
+        """Return how often each pixel is to be covered where a mesh may have lost triangles."""
+        return (as_given if self.wanted is once_everywhere else self.wanted)(scene, settings)
 
 
 @lru_cache(maxsize=1024)

@@ -26,8 +26,6 @@ from core.study.workloads import on_lattice, outline_scene
 LENGTHS = powers(4, 13)
 FIRST_ROW = 8192.0
 """Far from the origin a float has fewer bits behind the point."""
-OPENED_PIXELS = 1 << 20
-"""Largest picture that is opened in the stepper."""
 
 
 def long_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
@@ -55,18 +53,15 @@ class LineDriftExperiment:
         return Verdict(Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT, float(off.max(initial=0)), remark)
 
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
-        """Return the line on a raster that reaches to its first wrong step, or is small; ``None``: it is too far."""
+        """Return the line on a raster that reaches to its first wrong step; the stepper shows a part around it."""
         ends, name = long_line(place), method.partition("=")[2]
         pixels, off = _line_distances(ends, name)
         wrong = np.flatnonzero(off)
-        pixel = tuple(int(value) for value in pixels[wrong[0]]) if len(wrong) else None
-        seen = ends.max(axis=0) if pixel is None else np.array(pixel) + 8
+        column, row = pixels[wrong[0] if len(wrong) else 0].tolist()
         # A power of two, so that the ends are the same numbers in clip space.
-        size = tuple(1 << int(value).bit_length() for value in seen)
-        if size[0] * size[1] > OPENED_PIXELS:
-            return None
+        size = 1 << (column + 1).bit_length(), 1 << (row + 1).bit_length()
         settings = Settings(polygon_mode="wireframe", line=name)
-        return Opening(outline_scene(ends, (size[0], size[1])), settings, "raster", pixel)
+        return Opening(outline_scene(ends, size), settings, "raster", (column, row))
 
 
 def long_line(place: tuple[float, ...]) -> Floats:
