@@ -1,5 +1,6 @@
 """Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
 
+from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 from core.study.stability.experiment import Experiment, Verdict, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
@@ -19,5 +20,5 @@ __all__ = [
     "stress",
 ]
 
-for each in FRAGMENT_EXPERIMENTS:
+for each in (*COVERAGE_EXPERIMENTS, *FRAGMENT_EXPERIMENTS):
     experiments.add(each)
