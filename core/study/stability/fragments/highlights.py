@@ -31,9 +31,9 @@ class HighlightCase(Case):
         scene = sphere_scene(rings, SIDE)
         material = Material(ambient=0.12, diffuse=0.4, specular=SPECULAR, shininess=shininess)
         matte = replace(material, specular=0.0)
-        # The sphere is moved a little about the place it is seen from, so that no vertex is at the highlight by design.
-        turn = random_source(seed).uniform(-0.1, 0.1, 3)
-        camera = replace(scene.camera, eye=scene.camera.eye + turn)
+        # The eye is moved a little, so that no vertex is at the highlight by design.
+        shift = random_source(seed).uniform(-0.1, 0.1, 3)
+        camera = replace(scene.camera, eye=scene.camera.eye + shift)
         mesh = scene.meshes[0]
         self.scene = replace(scene, camera=camera, meshes=(replace(mesh, material=material),))
         seen, lit = sphere_picture(self.scene, 1.0)
