@@ -92,7 +92,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
         KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
     ),
-    KeyAction("unpin", ("Escape",), "Close what is on top, stop what runs, or take the pin away", POINTING),
+    KeyAction("unpin", ("Escape",), "Close what is on top, stop what runs, or take the pin away", VIEWING),
     *_on(
         "step",
         KeyAction("fit_view", ("W",), "Show the whole raster", VIEWING, "View"),

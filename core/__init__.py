@@ -43,7 +43,6 @@ from core.scene import (
 )
 from core.settings import Settings
 from core.trace import Trace, trace
-from core.visibility import painters, ray_casting  # noqa: F401
 
 __all__ = [
     "STAGES",

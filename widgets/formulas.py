@@ -51,6 +51,7 @@ WITHOUT_FORMULA = frozenset(
         "blend.opaque.write",
         "blend.over.write",
         "blend.line-over.write",
+        "blend.line-additive.write",
         "blend.additive.write",
     }
 )

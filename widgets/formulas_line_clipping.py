@@ -28,7 +28,7 @@ _P_AND_Q = {
 
 def room(step: StepValues) -> Formula:
     """How fast an edge runs outwards, and how much room its first end has."""
-    border, along, distance = step.text("border"), step.number("along"), step.number("room")
+    border, along, distance = step.text("border"), step.number("approach"), step.number("room")
     start, end, point = (step.vector(name) for name in ("window_start", "window_end", "border_point"))
     if uses_normals(step):
         normal = vector_latex(step.vector("normal"))
@@ -50,7 +50,7 @@ def room(step: StepValues) -> Formula:
 
 def crossing(step: StepValues) -> Formula:
     """The t of a border's line."""
-    along, distance = step.number("along"), step.number("room")
+    along, distance = step.number("approach"), step.number("room")
     if uses_normals(step):
         symbols = r"\frac{N \cdot (P_0 - P_E)}{-N \cdot D}"
         numbers = rf"\frac{{{number_latex(-distance)}}}{{{number_latex(-along)}}}"

@@ -7,9 +7,9 @@ from widgets.variable_text import VariableText
 
 CLIPPING_VARIABLES: Mapping[str, VariableText] = {
     "border": VariableText("border", "Border of the raster that the edge is compared with."),
-    "normal": VariableText("N", "Outward normal of the border.", "along"),
-    "border_point": VariableText("Pₑ", "A point on the border.", "along"),
-    "along": VariableText("p, or N·D", "Below 0 the edge enters here, above 0 it leaves, 0 is parallel."),
+    "normal": VariableText("N", "Outward normal of the border.", "approach"),
+    "border_point": VariableText("Pₑ", "A point on the border.", "approach"),
+    "approach": VariableText("p, or N·D", "Below 0 the edge enters here, above 0 it leaves, 0 is parallel."),
     "room": VariableText("q, or −N·(P₀ − Pₑ)", "Room inside the border at the first end; below 0: outside."),
     "crossing_t": VariableText("t of the border", "Where the edge crosses the border's line."),
     "bound_before": VariableText(

@@ -32,7 +32,7 @@ def edge_name(step: StepValues) -> str:
 
 def room(step: StepValues) -> str:
     """How an edge runs against a border."""
-    along, distance = step.number("along"), step.number("room")
+    along, distance = step.number("approach"), step.number("room")
     side = "inside" if distance > 0 else "outside" if distance < 0 else "on it"
     beginning = f"{step.text('border').capitalize()} border, {edge_name(step)}"
     if uses_normals(step):

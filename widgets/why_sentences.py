@@ -97,8 +97,20 @@ def _corners(numbers: tuple[int, ...]) -> str:
     return "vertices " + " and ".join(map(str, numbers)) + " are"
 
 
+DIVISIONS = {
+    "mirrored": "the division by w has mirrored what is behind the eye",
+    "undefined": "a vertex cannot be divided by its w",
+}
+"""What dividing before clipping did to a triangle."""
+
+
 def _outside(values: Values) -> str:
-    """Return which vertices lie outside which planes; of many planes the first is named."""
+    """Return which vertices lie outside which planes; of many planes the first is named.
+
+    Where the division came first, what it did to vertices that are not in front of the eye.
+    """
+    if values["division"]:
+        return DIVISIONS[values["division"]]
     planes_of: dict[tuple[int, ...], list[str]] = {}
     for plane, corners in values["outside"]:
         planes_of.setdefault(corners, []).append(PLANES[plane])

@@ -6,6 +6,8 @@ blended in those inside of it, and the pixel's colour is the sum over its pieces
 centroid of a piece, where a linear function has its mean: the picture of unlit triangles in one colour per corner, and
 one w, is the integral over the pixel's square, exact to rounding.
 
+Where rays are cast, pieces are compared at their centroids in float64, whatever the format of depth.
+
 Which pixels the fill tests, the fill rule, and on which side of an edge a centre lies play no part. A wireframe has no
 area: it is drawn as without antialiasing. The buffers beside the colour are those of the pixels' centres.
 
@@ -64,11 +66,6 @@ def draw_exact_areas(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
 ) -> Frame:
     """Draw with exact areas; ``chosen`` (T,) triangles, or all."""
-    if settings.visibility == "ray-casting":
-        raise ValueError(
-            "antialiasing area cuts pixels into pieces, and visibility ray-casting compares along single rays: "
-            "choose another antialiasing or another visibility"
-        )
     frame = draw_at_centers(scene, settings, raster, chosen)
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)
@@ -269,7 +266,9 @@ class PiecePainter:
             x, y = self.centroids(there)
             _, keeps, stored = depth_at(self._geometry, primitive, x, y, self._format)
             passes = keeps
-            if self._geometry.uses_depth_test:
+            if self._geometry.casts_rays:
+                passes = keeps & ((there.primitive < 0) | self._is_nearer(primitive, there.primitive, x, y))
+            elif self._geometry.uses_depth_test:
                 # The depth that is there, at this piece's own centroid.
                 _, _, old = depth_at(self._geometry, np.maximum(there.primitive, 0), x, y, self._format)
                 old = np.where(there.primitive >= 0, old, old.dtype.type(self._format.cleared))
@@ -288,6 +287,14 @@ class PiecePainter:
             np.where(passes, primitive, there.primitive),
             color,
         )
+
+    def _is_nearer(self, new: Integers, old: Integers, x: Floats, y: Floats) -> Flags:
+        """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting."""
+        geometry = self._geometry
+        by_w = geometry.vertices.view_range is not None
+        plane, sign = (geometry.inverse_w_plane, 1.0) if by_w else (geometry.depth_plane, -1.0)
+        value, there = (sign * plane_value(plane, of, x, y) for of in (new, np.maximum(old, 0)))
+        return value > there
 
     def centroids(self, drawn: DrawnPieces) -> tuple[Floats, Floats]:
         """Return where in the window the centroids of pieces lie, x and y (P,)."""

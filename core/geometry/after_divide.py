@@ -47,7 +47,7 @@ def divide_corners(clip: Floats, varyings: Floats) -> tuple[Floats, Flags]:
     Returns
     -------
     polygon : (Q, 3, 5 + K) float64
-        x/w, y/w, z/w, 1, then 1/|w| and the values over |w|.
+        x/w, y/w, z/w, 1, then 1/|w| and the values over |w|; 0 where not defined.
     is_defined : (Q,) bool
         Everything is finite; not so where a w is 0, or too small to divide by.
     """
@@ -56,6 +56,7 @@ def divide_corners(clip: Floats, varyings: Floats) -> tuple[Floats, Flags]:
         inverse = 1 / np.abs(w)
         polygon = np.concatenate([clip[..., :3] / w, np.ones_like(w), inverse, varyings * inverse], axis=2)
     is_defined = np.isfinite(polygon).all(axis=(1, 2)) & (inverse[..., 0] > 0).all(axis=1)
+    polygon[~is_defined] = 0
     return polygon, is_defined
 
 

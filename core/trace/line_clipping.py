@@ -34,7 +34,7 @@ LISTINGS = {
 }
 """The scalar listing of each method that does something."""
 
-_ROOM = Operation("room", "edges", ("border", "along", "room"))
+_ROOM = Operation("room", "edges", ("border", "approach", "room"))
 _CODES = Operation("codes", "outcodes", ("code_start", "code_end"))
 _KEPT = ("kept_start", "kept_end")
 CLIP_OPERATIONS: dict[str, tuple[Operation, ...]] = {
@@ -120,7 +120,7 @@ def _parameter_columns(rows: ParameterRows, clip: OutlineClip) -> dict[str, NDAr
         "border": _border_names(rows.edge, clip),
         "normal": window.normals[rows.edge],
         "border_point": window.points[rows.edge],
-        "along": rows.along,
+        "approach": rows.along,
         "room": rows.room,
         "crossing_t": rows.t,
         "bound_before": np.where(is_first, np.where(is_entry, 0.0, 1.0), before),

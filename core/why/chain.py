@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Integers
+from core.arrays import Floats, Integers
 from core.geometry.culling import PLANES, REASONS
+from core.geometry.sutherland_hodgman import Clipped
 from core.raster.edge_functions import EdgeFunctions
 from core.raster.schedule import INSIDE, MIXED, OUTSIDE, Boxes
 from core.raster.snapping import SUBPIXELS, place_corners
@@ -58,9 +59,22 @@ def clip_link(candidates: PixelCandidates, triangle: int, piece: int = -1) -> Li
         "piece": piece,
         "piece_count": max(count - 2, 0),
         "inserted_for": geometry.clipping_inserted,
+        "division": _division(clipped, which, geometry.assembled.clip[triangle, :, 3]),
     }
     key = "inside" if not len(which) else "clipped-away" if count < 3 else "clipped"
     return Link("clip", key, values)
+
+
+def _division(clipped: Clipped, which: Integers, w: Floats) -> str:
+    """Return what dividing corners with ``w`` (3,) before clipping did: ``mirrored``, ``undefined``, or nothing.
+
+    ``which`` (0 or 1,) is the triangle's place among those that were clipped.
+    """
+    if not clipped.is_divided or not len(which):
+        return ""
+    if not clipped.counts[0][which[0]]:
+        return "undefined"
+    return "mirrored" if (w < 0).any() else ""
 
 
 def undrawn_values(candidates: PixelCandidates, triangle: int) -> dict[str, Any]:

@@ -72,6 +72,16 @@ def test_a_corner_behind_the_eye_is_mirrored_through_it() -> None:
     assert (clipped(THROUGH_THE_EYE).primitives.clip[..., 3] > 0).all()
 
 
+@pytest.mark.parametrize("clipping", DIVIDING)
+def test_several_corners_that_cannot_be_divided_make_no_noise(clipping: str) -> None:
+    clip = [
+        [[0.0, 0.125, 0.0, 0.0], [0.0, 0.0, 0.0, 0.25], [0.125, 0.0, 0.0, -3.0]],
+        [[1.0, 1.0, 0.0, 0.0]] * 3,
+    ]
+    assert (picture(clip, clipping)[..., :3] == 0).all()
+    assert not clipped(clip).primitives.clip.size
+
+
 @pytest.mark.parametrize(
     ("clipping", "w"), [("after-divide", 0.0), ("project-first", -0.0), ("after-divide", 1e-320)]
 )

@@ -93,10 +93,10 @@ def listed(method: str, clipper: str, segment, window):
 
 def check_numbers(found: StageTrace, own: np.ndarray, seen) -> None:
     c = found.columns
-    if "along" in c:
-        edges = own[~np.isnan(c["along"][own])]
+    if "approach" in c:
+        edges = own[~np.isnan(c["approach"][own])]
         numbers = np.stack(
-            [c[name][edges] for name in ("along", "room", "crossing_t", "t_enter", "t_leave")], 1
+            [c[name][edges] for name in ("approach", "room", "crossing_t", "t_enter", "t_leave")], 1
         )
         assert np.array_equal(numbers, np.reshape(seen, (-1, 5)), equal_nan=True)
         return

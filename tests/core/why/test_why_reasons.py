@@ -146,6 +146,16 @@ def test_clipped_away():
     assert ask(ClipScene(clip, size=SIZE), 9, 3, clipping="sutherland-hodgman").counts == {"clipped-away": 1}
 
 
+@pytest.mark.parametrize("clipping", ["after-divide", "project-first"])
+def test_divided_before_it_is_clipped(clipping):
+    clip = np.array([[[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, -1.0]]])
+    link = ask(ClipScene(clip, size=SIZE), 8, 1, 0, clipping=clipping).events[2].link("clip")
+    assert (link.key, link.values["division"]) == ("clipped", "mirrored")
+    clip[0, 2, 3] = 0
+    link = ask(ClipScene(clip, size=SIZE), 8, 1, 0, clipping=clipping).events[2].link("clip")
+    assert (link.key, link.values["division"]) == ("clipped-away", "undefined")
+
+
 def test_through_the_eye_there_is_no_box():
     clip = [[[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, -1]]]
     history = ask(ClipScene(clip, size=SIZE), 8, 8, fill="bounding-box")
