@@ -27,9 +27,9 @@ EXAMPLES = """examples:
   rasterscope stress shared-edges -o results
   rasterscope stress slivers --shrink coverage=float32 -o results
 
--o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes its
-triangles as few, short and small as they can be and still fail, and prints a test; with -o the test (.py) and the scene
-(.rasterscope) are written too.
+-o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes
+its triangles as few, short and small as they can be and still fail, and prints a test; with -o the test (.py) and the
+scene (.rasterscope) are written too.
 """
 
 

@@ -1,6 +1,7 @@
 """Run an experiment over its whole grid: one real run for every cell of every method."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -70,7 +71,7 @@ def stress(
         maps.append(
             StabilityMap(method, method, outcome.reshape(rows, columns), severity.reshape(rows, columns))
         )
-    return Atlas(info, tuple(maps), seed, dict(machine or {}))
+    return Atlas(replace(info, axes=chosen), tuple(maps), seed, dict(machine or {}))
 
 
 def count_outcomes(atlas: Atlas) -> dict[str, dict[str, int]]:
