@@ -223,6 +223,8 @@ class ChartCanvas(pg.GraphicsView):
 
     @Slot()
     def _follow_theme(self) -> None:
+        if self.closed:
+            return  # Closing has emptied the scene already; the widget itself ends a little later.
         theme = current_theme()
         self.setBackground(theme.panel)
         metrics = QFontMetricsF(text_font(theme, theme.small_px))
