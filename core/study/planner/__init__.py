@@ -1,5 +1,7 @@
 """No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance."""
 
+from core.study.planner.everything import everything_on
+from core.study.planner.planning import look_at, plan
 from core.study.planner.records import (
     Decision,
     Fact,
@@ -11,4 +13,16 @@ from core.study.planner.records import (
     Tolerance,
 )
 
-__all__ = ["Decision", "Fact", "Findings", "Outcome", "Plan", "PlanReport", "Tessellation", "Tolerance"]
+__all__ = [
+    "Decision",
+    "Fact",
+    "Findings",
+    "Outcome",
+    "Plan",
+    "PlanReport",
+    "Tessellation",
+    "Tolerance",
+    "everything_on",
+    "look_at",
+    "plan",
+]

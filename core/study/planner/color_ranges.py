@@ -39,7 +39,11 @@ class ColorRanges:
     albedo: Floats
     """(Q, 3) float64 linear, the largest colour before it is lit."""
     texels: Floats
-    """(Q, 3) float64, how far apart the texels are that filters read, times what the colour changes with them."""
+    """(Q, 3) float64, how far apart the colours are by the texels that filters read alone."""
+    gain: Floats
+    """(Q, 3) float64, what the colour changes by, at most, for a change of its texel: vertex colour times light."""
+    bright: Floats
+    """(Q, 3) float64, the largest diffuse light; 1 where nothing is lit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +61,13 @@ class Hull:
 def color_ranges(touched: Touched, scene: AnyScene, settings: Settings) -> ColorRanges:
     """Bound the colours of all pairs, a part at a time."""
     count = len(touched.pixel)
-    rows, lod = np.empty((4, count, 3)), np.empty(count)
+    rows, lod = np.empty((6, count, 3)), np.empty(count)
     for part in _parts(count):
         lod[part] = _levels_of_detail(touched, scene, part)
         for row, values in zip(rows, _ranges(touched, scene, settings, lod[part], part), strict=True):
             row[part] = values
-    low, high, albedo, texels = rows
-    return ColorRanges(low, high, lod, albedo, texels)
+    low, high, albedo, texels, gain, bright = rows
+    return ColorRanges(low, high, lod, albedo, texels, gain, bright)
 
 
 def _parts(count: int) -> Iterator[slice]:
@@ -74,26 +78,29 @@ def _parts(count: int) -> Iterator[slice]:
 @np.errstate(divide="ignore", invalid="ignore", over="ignore")
 def _ranges(
     touched: Touched, scene: AnyScene, settings: Settings, lod: Floats, part: slice
-) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the fields low, high, albedo and texels of `ColorRanges` for a part of the pairs."""
+) -> tuple[Floats, ...]:
+    """Return the fields low, high, albedo, texels, gain and bright of `ColorRanges` for a part of the pairs."""
     count = part.stop - part.start
     low, high = np.full((count, 3), -np.inf), np.full((count, 3), np.inf)
-    albedo, texels = np.full((count, 3), np.inf), np.full((count, 3), np.inf)
+    albedo, texels, gain, bright = np.full((4, count, 3), np.inf)
     for hull in (_square_hull(touched, part), _corner_hull(touched, part)):
-        least, most, spread = _albedo(touched, scene, settings, hull, lod, part)
+        least, most, spread, factor = _albedo(touched, scene, settings, hull, lod, part)
+        light = np.ones((count, 3))
         sound = hull.is_sound[:, None]
         albedo = np.where(sound, np.fmin(albedo, most), albedo)
         if "normal" in touched.geometry.primitives.layout:
             assert isinstance(scene, Scene)
-            light = _light(touched, scene, hull, part)
-            least = least * light.diffuse_low + light.specular_low
-            most = most * light.diffuse_high + light.specular_high
-            spread = spread * light.diffuse_high
+            lit = _light(touched, scene, hull, part)
+            least = least * lit.diffuse_low + lit.specular_low
+            most = most * lit.diffuse_high + lit.specular_high
+            light = lit.diffuse_high
         low = np.where(sound, np.fmax(low, least), low)
         high = np.where(sound, np.fmin(high, most), high)
-        texels = np.where(sound, np.fmin(texels, spread), texels)
+        texels = np.where(sound, np.fmin(texels, spread * light), texels)
+        gain = np.where(sound, np.fmin(gain, factor * light), gain)
+        bright = np.where(sound, np.fmin(bright, light), bright)
     high = np.nan_to_num(np.maximum(high, low), nan=np.inf, posinf=np.inf)
-    return np.maximum(low, 0.0), high, albedo, texels
+    return np.maximum(low, 0.0), high, albedo, texels, gain, bright
 
 
 def _corner_hull(touched: Touched, part: slice) -> Hull:
@@ -157,8 +164,8 @@ def hull_range(hull: Hull, part: slice) -> tuple[Floats, Floats]:
 
 def _albedo(
     touched: Touched, scene: AnyScene, settings: Settings, hull: Hull, lod: Floats, part: slice
-) -> tuple[Floats, Floats, Floats]:
-    """Return the range (Q, 3) of colours before they are lit, and how much of it is the texture's."""
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the range (Q, 3) of colours before they are lit, that of texels times vertex colours, and these."""
     layout, count = touched.geometry.primitives.layout, part.stop - part.start
     low, high, spread = np.ones((count, 3)), np.ones((count, 3)), np.zeros((count, 3))
     if "color" in layout:
@@ -166,6 +173,7 @@ def _albedo(
         width = min(least.shape[1], 3)
         low, high = np.zeros((count, 3)), np.zeros((count, 3))
         low[:, :width], high[:, :width] = np.maximum(least[:, :width], 0), np.maximum(most[:, :width], 0)
+    factor = high.copy()
     reach = 1.5 * np.exp2(np.ceil(np.maximum(lod, 0.0))) + 1
     for chosen, texture in textures_of(touched, scene, part):
         least, most = hull_range(hull, layout["uv"])
@@ -174,7 +182,7 @@ def _albedo(
         spread[chosen] = (most - least) * high[chosen]
         low[chosen] *= least
         high[chosen] *= most
-    return low, high, spread
+    return low, high, spread, factor
 
 
 def as_rgb(texels: Floats) -> Floats:

@@ -112,15 +112,10 @@ class Plan:
     findings: Findings
     tessellations: tuple[Tessellation, ...] = ()
 
-    @property
-    def predicted_error(self) -> float:
-        """Sum of the bounds of all decisions, in 1/255."""
-        return sum(decision.predicted_error for decision in self.decisions)
-
-    @property
-    def predicted_pixels(self) -> int:
-        """Sum of the pixels that may differ by more."""
-        return sum(decision.predicted_pixels for decision in self.decisions)
+    predicted_error: float = 0.0
+    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, where stages that share one count once."""
+    predicted_pixels: int = 0
+    """Pixels that may differ by more."""
 
 
 @dataclass(frozen=True, eq=False)
