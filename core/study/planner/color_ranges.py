@@ -2,8 +2,8 @@
 
 Two hulls bound what is interpolated: the corners of the triangle, and the corners of the pixel's square. A value is
 ``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a convex
-one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach `MARGIN` beyond
-its corners: the square is grown by that, and the range of the corners is widened by what the weights can be below 0.
+one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach
+beyond its corners by `SNAPPED`: the square is grown by more, and the range of the corners is widened by what the weights can be below 0.
 """
 
 from collections.abc import Iterator
@@ -22,7 +22,9 @@ from core.surface import viewpoint
 
 CHUNK = 1 << 16
 """Pairs that are worked on together."""
-MOST_WEIGHT = 0.1
+SNAPPED = 0.75 / 256
+"""Pixels that snapping moves a corner at most: half a step each way."""
+MOST_WEIGHT = 0.5
 """A triangle whose weights can be farther below 0 than this is bounded by the square alone."""
 
 
@@ -54,8 +56,8 @@ class Hull:
     """(H, Q, K) float64."""
     is_sound: Flags
     """(Q,) bool, the values in the square are mixtures of these."""
-    widened: Floats
-    """(Q,) float64, factor by which ranges are widened."""
+    below_zero: Floats
+    """(Q,) float64, how far below 0 their weights can be."""
 
 
 def color_ranges(touched: Touched, scene: AnyScene, settings: Settings) -> ColorRanges:
@@ -107,15 +109,15 @@ def _corner_hull(touched: Touched, part: slice) -> Hull:
     primitive = touched.primitive[part]
     values = touched.geometry.primitives.varyings[primitive].swapaxes(0, 1)
     weight = weights_below_zero(touched).take(primitive)
-    return Hull(values, weight <= MOST_WEIGHT, 1 + 4 * weight)
+    return Hull(values, weight <= MOST_WEIGHT, np.minimum(weight, 1.0))
 
 
 def weights_below_zero(touched: Touched) -> Floats:
-    """Return (P,) float64: how far below 0 a weight can be, as snapping moves corners by less than `MARGIN`."""
+    """Return (P,) float64: how far below 0 a weight can be, as snapping moves corners by `SNAPPED`."""
     window = touched.geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.nan_to_num(MARGIN * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched))
+        return np.asarray(np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched))
 
 
 def w_ratio(touched: Touched) -> Floats:
@@ -138,7 +140,7 @@ def _square_hull(touched: Touched, part: slice) -> Hull:
         plane = value_plane(planes, varyings[..., k])
         values[..., k] = _at(plane, primitive, touched, part, ways) / inverse_w
     is_sound = (inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2))
-    return Hull(np.where(is_sound[:, None], values, 0.0), is_sound, np.ones(len(primitive)))
+    return Hull(np.where(is_sound[:, None], values, 0.0), is_sound, np.zeros(len(primitive)))
 
 
 def _at(
@@ -158,7 +160,7 @@ def hull_range(hull: Hull, part: slice) -> tuple[Floats, Floats]:
     """Return the least and the largest of some values (Q, k) over a hull."""
     values = hull.values[..., part]
     low, high = values.min(axis=0), values.max(axis=0)
-    extra = (high - low) * (hull.widened - 1)[:, None]
+    extra = (high - low) * (2 * hull.below_zero)[:, None]
     return low - extra, high + extra
 
 
@@ -254,7 +256,7 @@ def _light(touched: Touched, scene: Scene, hull: Hull, part: slice) -> LightRang
     to_eye = viewpoint(scene.camera, positions.reshape(-1, 3)) - positions.reshape(-1, 3)
     mesh = touched.geometry.primitives.mesh.take(touched.primitive[part])
     return light_range(
-        normals, positions, to_eye.reshape(positions.shape), scene.lights, materials(scene, mesh), hull.widened
+        normals, positions, to_eye.reshape(positions.shape), scene.lights, materials(scene, mesh), hull.below_zero
     )
 
 

@@ -40,8 +40,8 @@ def everything_on(scene: AnyScene, base: Settings | None = None) -> Settings:
     wished = base or Settings()
     chosen = replace(wished, **DEAREST)
     chosen = replace(chosen, depth="reversed-z" if is_perspective(scene) else "z-float32")
-    if isinstance(scene, Scene) and wished.shading != "unlit":
-        chosen = replace(chosen, shading="phong")
+    is_lit = isinstance(scene, Scene) and wished.shading != "unlit"
+    chosen = replace(chosen, shading="phong" if is_lit else "unlit")
     if wished.blend == "additive":
         chosen = replace(chosen, blend="additive")
     if wished.cull == "front":

@@ -46,11 +46,32 @@ class Reflectances:
     shininess: Floats
 
 
-def cones(directions: Floats, widened: Floats | float = 1.0) -> Cones:
-    """Return the cones around directions (H, Q, 3) of H corners, their radius ``widened`` times."""
+def cones(directions: Floats, below_zero: Floats | float = 0.0) -> Cones:
+    """Return the cones that hold all mixtures of directions.
+
+    Parameters
+    ----------
+    directions : (H, Q, 3) float64
+        At H corners, of any length.
+    below_zero : (Q,) float64 or float
+        How far below 0 weights of the mixture can be.
+
+    Notes
+    -----
+    With the chord c from the axis to the farthest corner and weights that go t below 0, the part across the axis is at
+    most (1 + 4 t) c times the greatest length, that along it at least the least length less 2 t of their spread.
+    """
+    lengths = np.linalg.norm(directions, axis=2)
     units = unit(directions)
     axis = unit(units.mean(axis=0))
-    radius = np.max([angle(axis, each) for each in units], axis=0) * widened
+    radius = np.max([angle(axis, each) for each in units], axis=0)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        least, most = lengths.min(axis=0), lengths.max(axis=0)
+        along = least - 2 * below_zero * (most - least)
+        across = 2 * np.sin(radius / 2) * (1 + 4 * below_zero) * most
+        share = np.where(along > 0, across / along, np.inf)
+        beyond = np.where(share < 1, np.arcsin(np.minimum(share, 1.0)), np.pi)
+    radius = np.where(np.asarray(below_zero) > 0, beyond, radius)
     is_lost = ~(radius < np.pi / 2) | ~np.any(axis != 0, axis=1)
     is_lost |= ~np.all(np.any(units != 0, axis=2), axis=0)
     return Cones(np.nan_to_num(axis), np.where(is_lost, np.pi, radius))
@@ -72,7 +93,7 @@ def light_range(
     to_eye: Floats,
     lights: Sequence[Light],
     material: Reflectances,
-    widened: Floats | float = 1.0,
+    below_zero: Floats | float = 0.0,
 ) -> LightRange:
     """Return the range of the light on Q patches.
 
@@ -82,11 +103,11 @@ def light_range(
         At H corners of each patch, world space.
     lights : sequence of DirectionalLight or PointLight
     material : Reflectances
-    widened : (Q,) float64 or float
-        Factor of the cones' radii, for patches that snapping lets reach beyond their corners.
+    below_zero : (Q,) float64 or float
+        How far below 0 weights can be, for patches that snapping lets reach beyond their corners.
     """
     count = normals.shape[1]
-    normal, eye = cones(normals, widened), cones(to_eye, widened)
+    normal, eye = cones(normals, below_zero), cones(to_eye, below_zero)
     low, high, shine_low, shine_high = np.zeros((4, count, 3))
     low += material.ambient[:, None]
     high += material.ambient[:, None]
@@ -94,7 +115,7 @@ def light_range(
         if isinstance(light, DirectionalLight):
             towards = Cones(np.broadcast_to(unit(-light.direction), (count, 3)), np.zeros(count))
         else:
-            towards = cones(light.position - positions, widened)
+            towards = cones(light.position - positions, below_zero)
         least, most = _angles(normal, towards)
         color = np.maximum(light.color, 0)
         low += (material.diffuse * _cosine(most))[:, None] * color

@@ -13,7 +13,7 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.raster.snapping import snap
-from core.study.planner.touched import Touched
+from core.study.planner.touched import MARGIN, Touched
 
 MOST_LAYERS = 64
 """A pixel touched by more triangles than this is not looked into."""
@@ -36,7 +36,7 @@ def doubtful_pixels(
         Place of each primitive in the order of drawing: then not the order of depth must be beyond doubt but that the
         later one is the nearer.
     """
-    index = np.flatnonzero(chosen)
+    index = np.flatnonzero(chosen & touched.is_drawn)
     if not len(index):
         return np.empty(0, np.int64)
     pixel = touched.pixel[index]
@@ -56,12 +56,27 @@ def doubtful_pixels(
 def _is_ordered(
     touched: Touched, one: Integers, other: Integers, margin: float, rank: Integers | None
 ) -> Flags:
-    one_nearer = touched.far[one] + margin < touched.near[other]
-    other_nearer = touched.far[other] + margin < touched.near[one]
+    least, most = depth_between(touched, one, other)
+    one_nearer, other_nearer = least > margin, most < -margin
     if rank is None:
         return np.asarray(one_nearer | other_nearer)
     is_later = rank[touched.primitive[one]] > rank[touched.primitive[other]]
     return np.where(is_later, one_nearer, other_nearer)
+
+
+def depth_between(touched: Touched, one: Integers, other: Integers) -> tuple[Floats, Floats]:
+    """Return how much farther the pairs ``other`` (D,) are than ``one`` (D,), at least and at most in the square.
+
+    Notes
+    -----
+    The difference of two planes is a plane, far less steep than either where they are nearly parallel. Depth that is
+    limited to that of the corners differs from its plane by a hair, so the ranges are looked at as well.
+    """
+    a, b, c = (part[touched.primitive[other]] - part[touched.primitive[one]] for part in touched.depth_plane)
+    middle, reach = a * touched.x[one] + b * touched.y[one] + c, (np.abs(a) + np.abs(b)) * (0.5 + MARGIN)
+    least = np.fmax(middle - reach, touched.near[other] - touched.far[one])
+    most = np.fmin(middle + reach, touched.far[other] - touched.near[one])
+    return np.nan_to_num(least, nan=-np.inf), np.nan_to_num(most, nan=np.inf)
 
 
 def overlap(touched: Touched, one: Integers, other: Integers, side: int) -> Flags:

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.study.planner.bytes import byte_width
 from core.study.planner.color_ranges import ColorRanges
+from core.study.planner.orders import depth_between
 from core.study.planner.touched import Touched
 
 ROUNDING = 1e-9
@@ -55,12 +56,15 @@ def surfaces(
         Whether surfaces let others shine through: then all are candidates, and the background too.
     """
     count = touched.pixel_count
-    hidden_behind = np.full(count, np.inf)
+    hidden_behind, hider = np.full(count, np.inf), np.full(count, -1)
     if not is_blended:
-        group_far, group_pixel = _covering_groups(touched, culls_backs)
-        np.minimum.at(hidden_behind, group_pixel, group_far)
-    limit = hidden_behind[touched.pixel] + margin
-    is_candidate = ~(touched.near > limit)
+        far, pixel, only = _covering_groups(touched, culls_backs)
+        np.minimum.at(hidden_behind, pixel, far)
+        is_nearest = far == hidden_behind[pixel]
+        hider[pixel[is_nearest]] = only[is_nearest]
+    is_candidate = touched.is_drawn & ~(touched.near > hidden_behind[touched.pixel] + margin)
+    behind = np.flatnonzero(is_candidate & (hider[touched.pixel] >= 0))
+    is_candidate[behind] = ~(depth_between(touched, hider[touched.pixel[behind]], behind)[0] > margin)
     sees_background = ~(hidden_behind < np.inf)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     low[sees_background] = high[sees_background] = background[:3]
@@ -71,8 +75,11 @@ def surfaces(
     return Surfaces(is_candidate, sees_background, np.where(width < ROUNDING, 0.0, width))
 
 
-def _covering_groups(touched: Touched, culls_backs: bool) -> tuple[Floats, np.ndarray]:
-    """Return the farthest depth and the pixel of every mesh and facing that covers all of a pixel's square."""
+def _covering_groups(touched: Touched, culls_backs: bool) -> tuple[Floats, Integers, Integers]:
+    """Return the farthest depth and the pixel of every mesh and facing that covers all of a pixel's square.
+
+    The third is the pair that does it, or -1 where it takes several.
+    """
     primitive = touched.primitive
     is_back = touched.facing.take(primitive) < 0
     chosen = ~is_back if culls_backs else np.ones(len(primitive), bool)
@@ -82,11 +89,13 @@ def _covering_groups(touched: Touched, culls_backs: bool) -> tuple[Floats, np.nd
     index = np.flatnonzero(chosen)
     order = index[np.argsort(group[index], kind="stable")]
     if not len(order):
-        return np.empty(0), np.empty(0, np.int64)
+        return np.empty(0), np.empty(0, np.int64), np.empty(0, np.int64)
     starts = np.flatnonzero(np.diff(group[order], prepend=-1))
     far = np.maximum.reduceat(touched.far[order], starts)
     is_outlined = np.logical_or.reduceat(touched.is_outlined[order], starts)
-    return far[~is_outlined], touched.pixel[order][starts][~is_outlined]
+    first = order[starts]
+    only = np.where(np.diff(np.append(starts, len(order))) == 1, first, -1)
+    return far[~is_outlined], touched.pixel[first][~is_outlined], only[~is_outlined]
 
 
 def format_margin(depth: str) -> float:

@@ -18,9 +18,11 @@ import numpy as np
 from core.arrays import Flags, Floats, Integers
 from core.frame import STAGES, StageCount
 from core.fragments.interpolation import value_plane
+from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry_record import Geometry
 from core.geometry_stages import process_geometry
 from core.methods import table
+from core.raster.snapping import snap
 from core.scene import AnyScene
 from core.settings import Settings
 
@@ -28,6 +30,8 @@ MARGIN = 1 / 64
 """Pixels by which squares are grown: more than twice snapping to 1/256 pixel moves anything."""
 CHUNK = 1 << 20
 """Pixels of bounding boxes that are looked at in one go."""
+THIN = 1 / 8
+"""Triangles of no more height than this, in pixels, are looked at sample by sample."""
 MOST_PAIRS = 1 << 24
 """Pairs of pixel and triangle that are kept; a scene with more is not planned."""
 
@@ -52,6 +56,10 @@ class Touched:
     """(Q,) float64, window depth at most."""
     is_outlined: Flags
     """(Q,) bool, an edge of the primitive's mesh that has no neighbour of the same facing crosses the square."""
+    depth_plane: tuple[Floats, Floats, Floats]
+    """(P,) float64 each: window depth is a x + b y + c."""
+    is_drawn: Flags
+    """(Q,) bool, False: a triangle so thin that it covers no sample there, of one or of 4 x 4."""
     facing: Floats
     """(P,) float64, twice the signed area in the window; positive: a front."""
     size: tuple[int, int]
@@ -100,9 +108,22 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     )
     order = np.lexsort((primitive, pixel))
     primitive, pixel, at_x, at_y = (part[order] for part in (primitive, pixel, at_x, at_y))
-    near, far = _depths(geometry, primitive, at_x, at_y)
+    clip = geometry.primitives.clip
+    plane = value_plane(geometry.planes, (clip[..., 2] + clip[..., 3]) / 2)
+    near, far = _depths(geometry, plane, primitive, at_x, at_y)
     return Touched(
-        geometry, pixel, primitive, at_x, at_y, near, far, is_outlined[order], facing, scene.size
+        geometry,
+        pixel,
+        primitive,
+        at_x,
+        at_y,
+        near,
+        far,
+        is_outlined[order],
+        plane,
+        _is_drawn(geometry, facing, primitive, at_x, at_y),
+        facing,
+        scene.size,
     )
 
 
@@ -137,10 +158,34 @@ def square_range(
     return middle - reach, middle + reach
 
 
-def _depths(geometry: Geometry, primitive: Integers, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+def _is_drawn(geometry: Geometry, facing: Floats, primitive: Integers, x: Floats, y: Floats) -> Flags:
+    """Return (Q,) bool, False where a thin triangle that is not cut covers no sample, decided as coverage does."""
+    window = geometry.corners.window
+    edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
+    cut = joined_bits(outcodes(geometry.kept.vertex_clip.T), geometry.kept.corner)
+    is_whole = ~np.isin(geometry.primitives.triangle, geometry.kept.triangle[has_bits(cut, PLANE_BITS)])
+    is_thin = is_whole & ~(np.abs(facing) > THIN * edge)
+    index = np.flatnonzero(is_thin.take(primitive))
+    found = np.ones(len(primitive), bool)
+    found[index] = False
+    for side in (1, 4):
+        corners = snap(window * side)[0]
+        corner_x, corner_y = corners[..., 0].T, corners[..., 1].T
+        area = (corner_x[1] - corner_x[0]) * (corner_y[2] - corner_y[0])
+        area -= (corner_x[2] - corner_x[0]) * (corner_y[1] - corner_y[0])
+        a, b, c = (part[:, primitive[index]] for part in _edges(corner_x, corner_y, area))
+        for step_y in range(side):
+            for step_x in range(side):
+                at_x = side * (x[index] - 0.5) + step_x + 0.5
+                at_y = side * (y[index] - 0.5) + step_y + 0.5
+                found[index] |= (a * at_x + b * at_y + c >= 0).all(axis=0) & (area[primitive[index]] != 0)
+    return found
+
+
+def _depths(
+    geometry: Geometry, plane: tuple[Floats, Floats, Floats], primitive: Integers, x: Floats, y: Floats
+) -> tuple[Floats, Floats]:
     """Return the range of window depth (Q,) over the squares, within that of the corners."""
-    clip = geometry.primitives.clip
-    plane = value_plane(geometry.planes, (clip[..., 2] + clip[..., 3]) / 2)
     near, far = square_range(plane, primitive, x, y)
     corner = geometry.depth.take(primitive, axis=1)
     # Snapping lets depth run on past the corners by a hair.

@@ -157,7 +157,8 @@ def shading_error(touched: Touched, scene: Scene, name: str) -> LightError:
     angles = _gouraud_error(touched, scene) if name == "gouraud" else _flat_error(touched, scene)
     lost = is_cut(touched)[:, None]
     return LightError(
-        np.where(lost, np.inf, np.minimum(angles, diffuse)), np.where(lost, np.inf, specular)
+        np.where(lost & (diffuse > 0), np.inf, np.minimum(angles, diffuse)),
+        np.where(lost & (specular > 0), np.inf, specular),
     )
 
 
@@ -175,7 +176,7 @@ def _gouraud_error(touched: Touched, scene: Scene) -> Floats:
         both = bright * dark / np.maximum(bright + dark, 1e-300)
         error += (bright * sagitta + both + 2 * radius)[:, None] * color
     material = materials(scene, touched.geometry.primitives.mesh)
-    return np.asarray(material.diffuse[:, None] * error * _not_unit(normal)[:, None])
+    return np.where(_is_unit(normal)[:, None], material.diffuse[:, None] * error, np.inf)
 
 
 def _flat_error(touched: Touched, scene: Scene) -> Floats:
@@ -190,9 +191,9 @@ def _flat_error(touched: Touched, scene: Scene) -> Floats:
     return np.asarray(np.where(is_wide[:, None], np.inf, material.diffuse[:, None] * error))
 
 
-def _not_unit(normal: Floats) -> Floats:
-    """Return (P,) 1 where the normals (3, P, 3) are unit, else infinite."""
-    return np.where((np.abs(np.linalg.norm(normal, axis=2) - 1) < 1e-9).all(axis=0), 1.0, np.inf)
+def _is_unit(normal: Floats) -> Flags:
+    """Return (P,) bool, all three normals (3, P, 3) are unit."""
+    return np.asarray((np.abs(np.linalg.norm(normal, axis=2) - 1) < 1e-9).all(axis=0))
 
 
 def _lights(touched: Touched, scene: Scene) -> list[tuple[Floats, Floats, Floats]]:
@@ -218,11 +219,11 @@ def corner_light(touched: Touched, scene: Scene, with_faces: bool = False) -> Li
         normal = np.concatenate([normal, _face_normal(touched)[None]])
     to_eye = viewpoint(scene.camera, position.reshape(-1, 3)) - position.reshape(-1, 3)
     weight = weights_below_zero(touched)
-    widened = np.where(weight <= MOST_WEIGHT, 1 + 4 * weight, np.inf)
+    below_zero = np.where(weight <= MOST_WEIGHT, weight, np.inf)
     material = materials(scene, touched.geometry.primitives.mesh)
     with np.errstate(invalid="ignore"):
         return light_range(
-            normal, position, to_eye.reshape(position.shape), scene.lights, material, widened
+            normal, position, to_eye.reshape(position.shape), scene.lights, material, below_zero
         )
 
 
