@@ -16,7 +16,7 @@ from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
 from core.study.planner.light_ranges import LightRange, Reflectances, light_range
-from core.study.planner.texture_ranges import range_around
+from core.study.planner.texture_ranges import magnified_range, range_around
 from core.study.planner.touched import MARGIN, Touched
 from core.surface import viewpoint
 
@@ -178,12 +178,14 @@ def _albedo(
     factor = high.copy()
     reach = 1.5 * np.exp2(np.ceil(np.maximum(lod, 0.0))) + 1
     for chosen, texture in textures_of(touched, scene, part):
-        least, most = hull_range(hull, layout["uv"])
-        least, most = range_around(texture, least[chosen], most[chosen], reach[chosen], settings.wrap)
+        uv_low, uv_high = (values[chosen] for values in hull_range(hull, layout["uv"]))
+        least, most = range_around(texture, uv_low, uv_high, reach[chosen], settings.wrap)
         least, most = as_rgb(np.maximum(least, 0)), as_rgb(np.maximum(most, 0))
         spread[chosen] = (most - least) * high[chosen]
-        low[chosen] *= least
-        high[chosen] *= most
+        is_magnified = (lod[chosen] <= 0)[:, None]
+        inner = magnified_range(texture, uv_low, uv_high, settings.wrap)
+        low[chosen] *= np.where(is_magnified, np.maximum(least, as_rgb(inner[0])), least)
+        high[chosen] *= np.where(is_magnified, np.minimum(most, as_rgb(inner[1])), most)
     return low, high, spread, factor
 
 

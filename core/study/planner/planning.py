@@ -3,8 +3,6 @@
 from dataclasses import replace
 from time import perf_counter
 
-import numpy as np
-
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings
@@ -115,9 +113,10 @@ def _decisions(
         error, pixels = 0.0, 0
         if name in values:
             error = values[name].error
-        elif name in SHARED and found != dearest and surface.side == 1:
-            error, pixels = surface.error, surface.pixels
-        is_needed = found == dearest and name in reasons and bool(np.isfinite(error)) and dearest != CHEAPEST[name]
+        elif name in SHARED and found != dearest:
+            error = surface.error
+            pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(name, surface.pixels)
+        is_needed = found == dearest and dearest != CHEAPEST[name]
         decisions.append(Decision(name, found, dearest, reasons[name], error, pixels, is_needed))
     return tuple(decisions)
 

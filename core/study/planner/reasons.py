@@ -50,9 +50,11 @@ def _cull_reason(surface: SurfaceChoice, everything: Settings, chosen: Settings,
     seen = counted(surface.back_pixels, "pixel")
     if chosen.cull == "none":
         return f"Back faces may be seen in {seen}, so they stay."
-    if surface.back_pixels:
+    if surface.back_pixels and surface.side == 1:
         return f"Back faces may be seen in {seen}, but {shared}."
-    return "Every back face lies behind fronts that cover the whole pixel: none is seen."
+    if surface.back_pixels:
+        return f"Back faces may be seen in no more than {seen}, and so many may differ."
+    return "Every back face lies behind fronts at every sample: none is seen."
 
 
 def _clipping_reason(surface: SurfaceChoice, chosen: Settings, shared: str) -> str:
@@ -75,13 +77,14 @@ def _visibility_reason(surface: SurfaceChoice, chosen: Settings) -> str:
 
 
 def _depth_reason(surface: SurfaceChoice, chosen: Settings, shared: str) -> str:
-    if chosen.visibility not in ("z-buffer",):
+    if chosen.visibility != "z-buffer":
         return "No depth buffer is used, so its format does not matter."
     if surface.side == 1:
-        return f"Its steps tell apart what {shared.replace('with one', 'may be seen: with one')}."
+        return f"{shared[0].upper()}{shared[1:]}, whichever is drawn of what its steps cannot tell apart."
+    apart = "1.5/65,535 of the depth range"
     if surface.coarse == 0:
-        return "Wherever surfaces of different colour overlap, their depths are more than 1/65,536 apart."
-    return f"In {counted(surface.coarse, 'pixel')} surfaces overlap less than 1/65,536 of depth apart."
+        return f"Wherever surfaces of different colours overlap, they are more than {apart} apart."
+    return f"In {counted(surface.coarse, 'pixel')} surfaces overlap that are no more than {apart} apart."
 
 
 def _blend_reason(surface: SurfaceChoice, chosen: Settings) -> str:

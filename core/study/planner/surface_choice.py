@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.geometry.vertex_stage import CornerPositionsOnDemand
 from core.methods import table
 from core.scene import AnyScene, Scene
 from core.settings import Settings
+from core.study.planner.closer import doubtful_backs, doubtful_depths
 from core.study.planner.color_ranges import ColorRanges
 from core.study.planner.orders import doubtful_pixels
 from core.study.planner.records import Tolerance
@@ -39,6 +40,10 @@ class SurfaceChoice:
     """Bound for all of them together, in 1/255; 0: what is seen does not change at any sample."""
     pixels: int
     """Pixels that may differ by more."""
+    cull_pixels: int
+    """Those of them that culling alone may change."""
+    depth_pixels: int
+    """Those of them that the depth format alone may change."""
     side: int
     """Samples on a side of a pixel that are left."""
     beyond: int
@@ -46,7 +51,7 @@ class SurfaceChoice:
     doubtful: int
     """Pixels where the order is in doubt without a depth buffer."""
     coarse: int
-    """Pixels where the coarsest format may take one surface for the other."""
+    """Pixels where z-16 may take one surface for the other."""
     back_pixels: int
     """Pixels where a back face may be seen."""
     cut: int
@@ -67,41 +72,79 @@ def choose_surfaces(
     chosen = _with_one_sample(touched, colors, scene, settings, tolerance, blended)
     cut = int(np.count_nonzero(is_cut(touched)))
     if chosen is None:
-        chosen = replace(settings, clipping=settings.clipping if cut else "homogeneous"), 0.0, 0
-        if everything.cull == "none" and not _backs(touched, dearest).any():
-            chosen = replace(chosen[0], cull="back"), 0.0, 0
+        kept = replace(settings, clipping=settings.clipping if cut else "homogeneous")
+        return _with_all_samples(touched, colors, scene, kept, dearest, tolerance, cut, translucent)
     found, error, pixels = chosen
-    side = 1 if found.antialiasing == "none" else SAMPLES
-    coarse = [_coarse_pixels(touched, colors, scene, name, side, blended) for name in DEPTHS]
-    if side > 1:
-        fit = [name for name, count in zip(DEPTHS, coarse, strict=True) if count == 0]
-        found = replace(found, depth=fit[0] if fit else everything.depth)
-    doubtful = len(touched.pixel)
+    doubtful = 0
     if not cut:
-        found, doubtful = _without_depth(touched, found, side)
+        found, doubtful = _without_depth(touched, found, 1)
+    backs = len(np.unique(touched.pixel[_backs(touched, dearest)]))
     return SurfaceChoice(
-        found,
+        found, dearest, error, pixels, pixels, pixels, 1, _beyond(dearest, tolerance), doubtful, 0, backs, cut, translucent
+    )
+
+
+def _with_all_samples(
+    touched: Touched,
+    colors: ColorRanges,
+    scene: AnyScene,
+    settings: Settings,
+    dearest: Surfaces,
+    tolerance: Tolerance,
+    cut: int,
+    translucent: bool,
+) -> SurfaceChoice:
+    """Choose culling, depth and order where all samples are kept: nothing may change at any of them."""
+    blended = settings.blend != "opaque"
+    spent = cull_pixels = 0
+    backs = np.unique(touched.pixel[_backs(touched, dearest)])
+    if settings.cull == "none":
+        if not blended:
+            backs = doubtful_backs(touched, backs, format_margin(settings.depth), SAMPLES)
+        if len(backs) <= tolerance.pixels:
+            settings, spent = replace(settings, cull="back"), len(backs)
+            cull_pixels = spent
+    is_drawn = _is_drawn(touched, settings)
+    coarse = []
+    for name in (*DEPTHS, settings.depth):
+        margin = format_margin(name)
+        doubtful = _coarse_pixels(touched, colors, scene, margin, is_drawn, blended)
+        coarse.append(len(doubtful_depths(touched, doubtful, is_drawn, margin, SAMPLES)))
+        if name == settings.depth or coarse[-1] <= tolerance.pixels - spent:
+            spent += coarse[-1] if name != settings.depth else 0
+            settings = replace(settings, depth=name)
+            break
+    unordered = 0
+    if not cut:
+        settings, unordered = _without_depth(touched, settings, SAMPLES)
+    return SurfaceChoice(
+        settings,
         dearest,
-        error,
-        pixels,
-        side,
-        int(np.count_nonzero(dearest.width > tolerance.bytes)),
-        doubtful,
+        0.0,
+        spent,
+        cull_pixels,
+        spent - cull_pixels,
+        SAMPLES,
+        _beyond(dearest, tolerance),
+        unordered,
         coarse[0],
-        len(np.unique(touched.pixel[_backs(touched, dearest)])),
+        len(backs),
         cut,
         translucent,
     )
 
 
+def _beyond(found: Surfaces, tolerance: Tolerance) -> int:
+    return int(np.count_nonzero(found.width > tolerance.bytes))
+
+
 def _coarse_pixels(
-    touched: Touched, colors: ColorRanges, scene: AnyScene, depth: str, side: int, blended: bool
-) -> int:
-    """Return in how many pixels of several colours a format may take one surface for another."""
-    margin = format_margin(depth)
+    touched: Touched, colors: ColorRanges, scene: AnyScene, margin: float, is_drawn: Flags, blended: bool
+) -> Integers:
+    """Return the pixels of several colours in which one surface may be taken for another."""
     found = surfaces(touched, colors, scene.background, margin, is_blended=blended)
     is_wide = found.is_candidate & (found.width[touched.pixel] > 0)
-    return len(doubtful_pixels(touched, is_wide, margin, side))
+    return doubtful_pixels(touched, is_wide & is_drawn, margin, SAMPLES)
 
 
 def _with_one_sample(
@@ -137,11 +180,7 @@ def _backs(touched: Touched, found: Surfaces) -> Flags:
 
 def _without_depth(touched: Touched, settings: Settings, side: int) -> tuple[Settings, int]:
     """Return the settings with the cheapest order that needs no depth buffer, and how many pixels forbid the first."""
-    is_drawn = np.ones(len(touched.pixel), bool)
-    if settings.cull == "back":
-        is_drawn = touched.facing.take(touched.primitive) > 0
-    elif settings.cull == "front":
-        is_drawn = touched.facing.take(touched.primitive) < 0
+    is_drawn = _is_drawn(touched, settings)
     doubtful = []
     for name in ORDERS:
         drawing = table.get("visibility", name).function(CornerPositionsOnDemand(touched.geometry.vertices))
@@ -152,6 +191,14 @@ def _without_depth(touched: Touched, settings: Settings, side: int) -> tuple[Set
         if doubtful[-1] == 0:
             return replace(settings, visibility=name), doubtful[0]
     return settings, doubtful[0]
+
+
+def _is_drawn(touched: Touched, settings: Settings) -> Flags:
+    """Return (Q,) bool, the pairs whose facing is not culled."""
+    if settings.cull == "none":
+        return np.ones(len(touched.pixel), bool)
+    facing = touched.facing.take(touched.primitive)
+    return np.asarray(facing >= 0 if settings.cull == "back" else facing <= 0)
 
 
 def is_translucent(touched: Touched, scene: AnyScene) -> bool:

@@ -10,6 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.fragments.textures import texture_colors
 from core.scene import Texture
 
 _kept: WeakKeyDictionary[Texture, "TextureRanges"] = WeakKeyDictionary()
@@ -53,6 +54,21 @@ def _pool(texels: Floats, choose: np.ufunc) -> Floats:
         even, odd = (texels.take(range(start, texels.shape[axis], 2), axis=axis) for start in (0, 1))
         texels = choose(even, odd)
     return texels
+
+
+def magnified_range(texture: Texture, low: Floats, high: Floats, wrap: str) -> tuple[Floats, Floats]:
+    """Return the least and largest bilinear colours (Q, C) over texture coordinates from ``low`` to ``high`` (Q, 2).
+
+    Notes
+    -----
+    A step of one texel changes a bilinear colour by no more than neighbouring texels differ, each way.
+    """
+    height, width, channels = texture.pixels.shape
+    with np.errstate(invalid="ignore", over="ignore"):
+        reach = ((high - low) / 2 * (width, height)).sum(axis=1)[:, None]
+        spread = np.nan_to_num(reach * texture_ranges(texture).neighbours, nan=np.inf, posinf=np.inf)
+    middle = texture_colors(texture, np.nan_to_num((low + high) / 2), "bilinear", wrap)[:, :channels]
+    return middle - spread, middle + spread
 
 
 def range_around(
