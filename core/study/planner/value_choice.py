@@ -17,6 +17,7 @@ from core.study.planner.touched import Touched
 from core.study.planner.value_bounds import (
     filter_error,
     interpolation_error,
+    is_cut,
     shading_error,
     share_of_range,
     times,
@@ -96,9 +97,9 @@ def choose_values(
     def moved(share: Floats) -> Floats:
         return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
 
-    one = np.ones(len(touched.facing))
     shares = {
-        "flat": one,
+        # One vertex's value is off by the whole range; of a cut triangle it is another vertex than the piece's.
+        "flat": np.where(is_cut(touched), np.inf, 1.0),
         "affine": share_of_range(touched),
         "affine-n": share_of_range(touched, settings.correction_interval),
     }
