@@ -42,8 +42,10 @@ def measure_plan(
     outcomes = []
     for decision in chosen.decisions:
         if decision.chosen != decision.dearest:
-            alone = replace(chosen.everything, **{decision.setting: decision.chosen})
-            outcomes.append(_outcome(decision, difference(shown(scene, alone), reference)))
+            rest = {name: getattr(chosen.settings, name) for name in decision.rests_on}
+            before = shown(scene, replace(chosen.everything, **rest)) if rest else reference
+            alone = replace(chosen.everything, **{**rest, decision.setting: decision.chosen})
+            outcomes.append(_outcome(decision, difference(shown(scene, alone), before)))
     differences = difference(shown(scene, chosen.settings), reference)
     beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
     times = _times(scene, (chosen.everything, chosen.settings), max(rounds, 1))

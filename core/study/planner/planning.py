@@ -117,12 +117,22 @@ def _decisions(
             error = surface.error
             pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(name, surface.pixels)
         is_needed = found == dearest and dearest != CHEAPEST[name]
-        decisions.append(Decision(name, found, dearest, reasons[name], error, pixels, is_needed))
+        rests_on = tuple(other for other in RESTS_ON.get(name, ()) if getattr(chosen, other) != getattr(everything, other))
+        decisions.append(
+            Decision(name, found, dearest, reasons[name], error, pixels, is_needed, rests_on=rests_on)
+        )
     return tuple(decisions)
 
 
 SHARED = ("cull", "clipping", "depth", "antialiasing")
 """Families that share one bound where there is one sample a pixel."""
+RESTS_ON = {
+    "interpolation": ("shading", "texture_filter", "antialiasing"),
+    "texture_filter": ("antialiasing",),
+    "visibility": ("cull", "clipping", "depth", "antialiasing"),
+    "depth": ("cull",),
+}
+"""Whose choices each family's bound takes for granted."""
 CHEAPEST = {
     "cull": "back",
     "clipping": "homogeneous",

@@ -81,6 +81,8 @@ class Decision:
     is_needed: bool = False
     """Whether the dearest method is kept although there are cheaper ones."""
     unit: str = "1/255"
+    rests_on: tuple[str, ...] = ()
+    """Settings whose choices the prediction takes for granted: flat interpolation of light that flat shading made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +122,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """One decision's prediction against what was measured: everything on but for this choice."""
+    """One decision's prediction against what was measured: everything on but for this choice, and what it rests on."""
 
     decision: Decision
     measured_error: float
