@@ -155,10 +155,12 @@ def shading_error(touched: Touched, scene: Scene, name: str) -> LightError:
         away = np.maximum(np.abs(spread.diffuse_low - 1), np.abs(spread.diffuse_high - 1))
         return LightError(away, spread.specular_high)
     angles = _gouraud_error(touched, scene) if name == "gouraud" else _flat_error(touched, scene)
-    lost = is_cut(touched)[:, None]
+    # Light at the corners of a triangle, or at its middle, is not bounded by what is in view of it.
+    material = materials(scene, touched.geometry.primitives.mesh)
+    cut = is_cut(touched) & bool(scene.lights)
     return LightError(
-        np.where(lost & (diffuse > 0), np.inf, np.minimum(angles, diffuse)),
-        np.where(lost & (specular > 0), np.inf, specular),
+        np.where((cut & (material.diffuse > 0))[:, None], np.inf, np.minimum(angles, diffuse)),
+        np.where((cut & (material.specular > 0))[:, None], np.inf, specular),
     )
 
 
