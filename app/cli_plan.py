@@ -7,15 +7,22 @@ from dataclasses import replace
 import numpy as np
 
 from app.cli import UsageError
-from app.cli_arguments import FILE_HELP, chosen_settings, open_file, setting_from_text, show_progress, size_from_text
+from app.cli_arguments import (
+    FILE_HELP,
+    chosen_settings,
+    open_file,
+    setting_from_text,
+    show_progress,
+    size_from_text,
+)
 from app.cli_study import aligned, rounds_from_text
 from core import Settings
 from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
 
-DESCRIPTION = """Choose for every stage the cheapest method whose bounded error stays within a tolerance, against everything
-on (16 samples a pixel, each lit and textured by itself), and measure whether it does."""
+DESCRIPTION = """Choose for every stage the cheapest method whose bounded error stays within a tolerance, against
+everything on (16 samples a pixel, each lit and textured by itself), and measure whether it does."""
 EXAMPLES = """examples:
   rasterscope plan teapot.obj
   rasterscope plan cube --tolerance 8 --pixels 500 --size 640x480
@@ -39,9 +46,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=2.0,
         help="difference of a colour that may be, in 1/255 (2); 0 with no --pixels is exact",
     )
-    parser.add_argument("--pixels", metavar="N", type=int, default=0, help="pixels that may differ by more (0)")
     parser.add_argument(
-        "--size", metavar="WxH", type=size_from_text, help="pixels of the picture; default: those of the scene"
+        "--pixels", metavar="N", type=int, default=0, help="pixels that may differ by more (0)"
+    )
+    parser.add_argument(
+        "--size",
+        metavar="WxH",
+        type=size_from_text,
+        help="pixels of the picture; default: those of the scene",
     )
     parser.add_argument(
         "--rounds", metavar="N", type=rounds_from_text, default=ROUNDS, help=f"timed drawings ({ROUNDS})"
@@ -120,9 +132,13 @@ def report_text(report: PlanReport) -> list[str]:
         if not outcome.is_right
     ]
     if report.fallen_back:
-        lines.append(f"Put back since the first plan was beyond the tolerance: {', '.join(report.fallen_back)}.")
+        lines.append(
+            f"Put back since the first plan was beyond the tolerance: {', '.join(report.fallen_back)}."
+        )
     times = [1000 * float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)]
-    lines.append(f"Everything on {times[0]:.3g} ms, chosen {times[1]:.3g} ms, the look {1000 * chosen.findings.seconds:.3g} ms.")
+    lines.append(
+        f"Everything on {times[0]:.3g} ms, chosen {times[1]:.3g} ms, the look {1000 * chosen.findings.seconds:.3g} ms."
+    )
     return [*lines, report.text]
 
 
@@ -147,8 +163,8 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
         parts = [f"{100 * value:.0f} %" for value in np.quantile(values, QUANTILES)]
         rows.append([name, f"{len(values):,}", *parts])
     return [
-        f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 and "
-        f"{tolerance.pixels:,} pixels as they were; {fallen_back:,} had to put something back.",
+        f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 "
+        f"and {tolerance.pixels:,} pixels as they were; {fallen_back:,} had to put something back.",
         f"{wrong:,} predictions were wrong.",
         "Time saved against everything on, quantiles over the scenes (below 0: it took longer):",
         *aligned(rows),

@@ -1,9 +1,9 @@
 """The least and the largest colour that a triangle can have in a pixel's square, whatever the samples.
 
 Two hulls bound what is interpolated: the corners of the triangle, and the corners of the pixel's square. A value is
-``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a convex
-one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach
-beyond its corners by `SNAPPED`: the square is grown by more, and the range of the corners is widened by what the weights can be below 0.
+``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a
+convex one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach beyond its
+corners by `SNAPPED`: the square is grown by more, and the range of the corners by what the weights can be below 0.
 """
 
 from collections.abc import Iterator
@@ -122,11 +122,13 @@ def weights_below_zero(touched: Touched) -> Floats:
     window = touched.geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched))
+        return np.asarray(
+            np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched)
+        )
 
 
 def w_ratio(touched: Touched) -> Floats:
-    """Return (P,) float64, the largest over the smallest w of each primitive's corners; infinite where one is not positive."""
+    """Return (P,) float64, the largest over the smallest w of the corners; infinite where one is not positive."""
     w = touched.geometry.primitives.clip[..., 3]
     least = w.min(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -144,7 +146,7 @@ def _square_hull(touched: Touched, part: slice) -> Hull:
     for k in range(varyings.shape[2]):
         plane = value_plane(planes, varyings[..., k])
         values[..., k] = _at(plane, primitive, touched, part, ways) / inverse_w
-    is_sound = (inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2))
+    is_sound = np.asarray((inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2)))
     return Hull(np.where(is_sound[:, None], values, 0.0), is_sound, np.zeros(len(primitive)))
 
 
@@ -267,7 +269,12 @@ def _light(touched: Touched, scene: Scene, hull: Hull, part: slice) -> LightRang
     to_eye = viewpoint(scene.camera, positions.reshape(-1, 3)) - positions.reshape(-1, 3)
     mesh = touched.geometry.primitives.mesh.take(touched.primitive[part])
     return light_range(
-        normals, positions, to_eye.reshape(positions.shape), scene.lights, materials(scene, mesh), hull.below_zero
+        normals,
+        positions,
+        to_eye.reshape(positions.shape),
+        scene.lights,
+        materials(scene, mesh),
+        hull.below_zero,
     )
 
 

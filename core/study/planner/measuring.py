@@ -35,8 +35,8 @@ def measure_plan(
 
     Notes
     -----
-    Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are those
-    of `draw_picture`, each of a scene that nothing is known of.
+    Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are
+    those of `draw_picture`, each of a scene that nothing is known of.
     """
     reference = shown(scene, chosen.everything)
     outcomes = []
@@ -53,8 +53,9 @@ def measure_plan(
     ratio = float(np.median(times[0]) / np.median(times[1]))
     largest = int(differences.max(initial=0))
     text = (
-        f"{'Within' if is_within else 'Beyond'} the tolerance: measured {largest}/255 at most, {beyond:,} pixels beyond "
-        f"{chosen.tolerance.bytes}/255, {chosen.tolerance.pixels:,} allowed; {ratio:.3g} times as fast as everything on."
+        f"{'Within' if is_within else 'Beyond'} the tolerance: measured {largest}/255 at most, {beyond:,} pixels "
+        f"beyond {chosen.tolerance.bytes}/255, {chosen.tolerance.pixels:,} allowed; {ratio:.3g} times as fast as "
+        "everything on."
     )
     return PlanReport(
         scene, chosen, tuple(outcomes), largest, beyond, is_within, times[0], times[1], text, fallen_back

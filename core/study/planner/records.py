@@ -115,7 +115,7 @@ class Plan:
     tessellations: tuple[Tessellation, ...] = ()
 
     predicted_error: float = 0.0
-    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, where stages that share one count once."""
+    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, one that stages share counted once."""
     predicted_pixels: int = 0
     """Pixels that may differ by more."""
 

@@ -81,7 +81,19 @@ def choose_surfaces(
         found, doubtful = _without_depth(touched, found, 1)
     backs = len(np.unique(touched.pixel[_backs(touched, dearest)]))
     return SurfaceChoice(
-        found, dearest, error, pixels, pixels, pixels, 1, _beyond(dearest, tolerance), doubtful, 0, backs, cut, translucent
+        found,
+        dearest,
+        error,
+        pixels,
+        pixels,
+        pixels,
+        1,
+        _beyond(dearest, tolerance),
+        doubtful,
+        0,
+        backs,
+        cut,
+        translucent,
     )
 
 
@@ -159,9 +171,7 @@ def _with_one_sample(
     """Return the cheapest settings with one sample a pixel, their error and pixels beyond; ``None``: there are none."""
     for depth in (*DEPTHS, settings.depth):
         for cull in ("back", "none") if settings.cull == "none" else (settings.cull,):
-            found = surfaces(
-                touched, colors, scene.background, format_margin(depth), cull == "back", blended
-            )
+            found = surfaces(touched, colors, scene.background, format_margin(depth), cull == "back", blended)
             is_beyond = found.width > tolerance.bytes
             beyond = int(np.count_nonzero(is_beyond))
             if beyond > tolerance.pixels or (blended and cull == "back"):

@@ -1,7 +1,7 @@
 """Which surfaces can be seen in a pixel, and how far apart their colours can be.
 
-Within a pixel's square, a piece of surface whose outline does not cross it covers every sample as often as any other (see
-``touched.outline_edges``). So such a piece of one facing hides all that lies behind every triangle of it; what is
+Within a pixel's square, a piece of surface whose outline does not cross it covers every sample as often as any other
+(see ``touched.outline_edges``). So such a piece of one facing hides all that lies behind every triangle of it; what is
 left are the candidates, and whatever is drawn there, with as many samples as wanted, with faces of a back culled,
 clipped or not, in any depth format that tells the candidates from what they hide, has a colour between the least and
 the largest of theirs: two such pictures are no farther apart than the **width** of that range.

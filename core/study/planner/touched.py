@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.frame import STAGES, StageCount
 from core.fragments.interpolation import value_plane
+from core.frame import STAGES, StageCount
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry_record import Geometry
 from core.geometry_stages import process_geometry
@@ -98,34 +98,37 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     outlined = outline_edges(vertex, component, facing)
     found, total = [], 0
     for number, column, row in _boxes(x, y, scene.size, offset):
-        centre = column + offset, row + offset
-        kept, crossing = _touches(edges, outlined, number, *centre, _inside(column, row, scene.size, offset))
+        at_x, at_y = column + np.float64(offset), row + np.float64(offset)
+        kept, crossing = _touches(
+            edges, outlined, number, at_x, at_y, _inside(column, row, scene.size, offset)
+        )
         total += int(np.count_nonzero(kept))
         if total > MOST_PAIRS:
             raise ValueError(f"a scene to be planned must touch at most {MOST_PAIRS:,} pixels, got more")
         pixel = row * scene.size[0] + column
-        parts = (number, pixel, *centre, crossing)
-        found.append([np.compress(kept, part) for part in parts])
-    empty = [np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, bool)]
-    primitive, pixel, at_x, at_y, is_outlined = (
-        np.concatenate(parts) for parts in zip(empty, *found, strict=True)
-    )
+        found.append((number[kept], pixel[kept], at_x[kept], at_y[kept], crossing[kept]))
+    empty = np.empty(0, np.int64)
+    primitive = np.concatenate([empty, *(part[0] for part in found)])
+    pixel = np.concatenate([empty, *(part[1] for part in found)])
     order = np.lexsort((primitive, pixel))
-    primitive, pixel, at_x, at_y = (part[order] for part in (primitive, pixel, at_x, at_y))
+    primitive, pixel = primitive[order], pixel[order]
+    x_of_pixel = np.concatenate([np.empty(0), *(part[2] for part in found)])[order]
+    y_of_pixel = np.concatenate([np.empty(0), *(part[3] for part in found)])[order]
+    is_outlined = np.concatenate([np.empty(0, bool), *(part[4] for part in found)])[order]
     clip = geometry.primitives.clip
     plane = value_plane(geometry.planes, (clip[..., 2] + clip[..., 3]) / 2)
-    near, far = _depths(geometry, plane, primitive, at_x, at_y)
+    near, far = _depths(geometry, plane, primitive, x_of_pixel, y_of_pixel)
     return Touched(
         geometry,
         pixel,
         primitive,
-        at_x,
-        at_y,
+        x_of_pixel,
+        y_of_pixel,
         near,
         far,
-        is_outlined[order],
+        is_outlined,
         plane,
-        _is_drawn(geometry, facing, primitive, at_x, at_y),
+        _is_drawn(geometry, facing, primitive, x_of_pixel, y_of_pixel),
         component,
         facing,
         scene.size,

@@ -60,7 +60,7 @@ class Budget:
 
     def choose(self, options: dict[str, Floats], dearest: str) -> ValueChoice:
         """Return the first of the ``options``, each with its error (Q, 3), that fits, and spend it."""
-        rejected = []
+        rejected: list[tuple[str, float]] = []
         for name, error in options.items():
             cost = self.cost(error)
             if cost <= self.left:
@@ -92,7 +92,9 @@ def choose_values(
         shading = budget.choose(errors, settings.shading)
     has_texture = "uv" in touched.geometry.primitives.layout
     filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
-    found = budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
+    found = (
+        budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
+    )
 
     def moved(share: Floats) -> Floats:
         return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)

@@ -27,7 +27,9 @@ def quad(
 def scene_of(*parts: tuple[Floats, Floats]) -> ClipScene:
     """Return squares one after another."""
     return ClipScene(
-        np.concatenate([clip for clip, _ in parts]), np.concatenate([color for _, color in parts]), (SIDE, SIDE)
+        np.concatenate([clip for clip, _ in parts]),
+        np.concatenate([color for _, color in parts]),
+        (SIDE, SIDE),
     )
 
 
@@ -86,7 +88,9 @@ def highlight() -> AnyScene:
     positions = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     material = Material(ambient=0.5, diffuse=0.0, specular=0.06, shininess=12.0)
     mesh = Mesh(positions, QUAD, np.tile([0.0, 0, 1], (4, 1)), material=material)
-    camera = Camera(np.array([0.0, 0, 2]), np.zeros(3), near=1.0, far=4.0, projection="orthographic", view_height=2.0)
+    camera = Camera(
+        np.array([0.0, 0, 2]), np.zeros(3), near=1.0, far=4.0, projection="orthographic", view_height=2.0
+    )
     return Scene((mesh,), camera, (PointLight(np.array([0.0, 0, 2])),), (SIDE, SIDE))
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-import tests.core.study.planner.needy_scenes as scenes
 import pytest
 
+import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
 from core.study import Tolerance, everything_on, measure_plan, plan
 from core.study.planner.measuring import difference, shown
