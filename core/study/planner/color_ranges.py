@@ -2,8 +2,8 @@
 
 Two hulls bound what is interpolated: the corners of the triangle, and the corners of the pixel's square. A value is
 ``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a
-convex one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach beyond its
-corners by `SNAPPED`: the square is grown by more, and the range of the corners by what the weights can be below 0.
+convex one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach beyond
+its corners by `SNAPPED`: the square is grown by more, and the range of the corners by what the weights can be below 0.
 """
 
 from collections.abc import Iterator

@@ -4,8 +4,8 @@
 a level of detail of 0 or below trilinear reads level 0 only, as bilinear does: no difference.
 
 **Affine interpolation.** Of weights a (affine) perspective makes b_i = a_i q_i / sum a_j q_j with q = 1/w. Where b > a
-the affine weights sum to some A, and b to at most A r / (A r + 1 - A) with the ratio r of the corners' w; that exceeds A
-by at most k = (sqrt r - 1)/(sqrt r + 1). So no attribute is off by more than k times the range of its values at the
+the affine weights sum to some A, and b to at most A r / (A r + 1 - A) with the ratio r of the corners' w; that is above
+A by at most k = (sqrt r - 1)/(sqrt r + 1). So no attribute is off by more than k times the range of its values at the
 corners. With corrections every n columns, r is what 1/w can change by in n columns.
 
 **Gouraud.** With unit normals n_i at the corners and a distant light L, sum b_i n_i.L is what Gouraud interpolates and,
@@ -247,6 +247,6 @@ def _face_normal(touched: Touched) -> Floats:
 
 
 def times(first: Floats, second: Floats) -> Floats:
-    """Return the product of bounds; nothing times the unknown is nothing."""
+    """Return the product of bounds, arrays of any shape; nothing times the unknown is nothing."""
     with np.errstate(invalid="ignore"):
         return np.asarray(np.where((first == 0) | (second == 0), 0.0, first * second))

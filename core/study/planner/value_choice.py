@@ -80,7 +80,22 @@ def choose_values(
     left: float,
     side: int,
 ) -> dict[str, ValueChoice]:
-    """Choose by family, with ``left`` of the tolerance in 1/255 and ``side`` x ``side`` samples a pixel."""
+    """Choose by family.
+
+    Parameters
+    ----------
+    touched : Touched
+    colors : ColorRanges
+    scene : Scene or ClipScene
+    settings : Settings
+        With what was chosen of the stages that decide what is seen.
+    seen : (Q,) bool
+        The pairs of the look that may be seen.
+    left : float
+        What is left of the tolerance, in 1/255.
+    side : int
+        Samples on a side of a pixel.
+    """
     budget = Budget(colors, seen, left)
     shading = ValueChoice(settings.shading, 0.0, ())
     if isinstance(scene, Scene) and settings.shading != "unlit":

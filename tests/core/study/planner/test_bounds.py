@@ -105,7 +105,7 @@ def test_texels_in_reach_are_within_their_range() -> None:
                 assert (color <= inner_most + 1e-7).all()
     top_least, top_most = minified_range(texture, np.array([-3.0, 50.0]))
     assert (top_least[0] == texture.pixels.min(axis=(0, 1))).all()
-    assert top_most[1] == pytest.approx(texture.pixels.mean(axis=(0, 1)), abs=1e-6)
+    assert top_most[1] == pytest.approx(texture.pixels.mean(axis=(0, 1), dtype=np.float64), abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["gouraud", "flat"])
