@@ -1,7 +1,14 @@
 """``rasterscope plan`` as a user types it."""
 
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
 import pytest
 
+from app.open_any import open_any
+from core.study import Tolerance, plan
+from core.study.planner.measuring import difference, shown
 from tests.app.cli_runs import refused, run_program
 
 
@@ -40,3 +47,13 @@ def test_the_corpus_tells_the_time_saved() -> None:
 )
 def test_what_is_wrong_is_told(arguments: tuple[str, ...], said: str) -> None:
     assert said in refused(2, "plan", *arguments)
+
+
+@pytest.mark.parametrize("name", ["teapot", "spot", "suzanne"])
+def test_plans_of_the_models_beside_the_project_hold(name: str, shared_folder: Path) -> None:
+    scene = replace(open_any(str(shared_folder / "meshes" / f"{name}.obj")).document.scene, size=(72, 72))
+    for tolerance in (Tolerance(), Tolerance(8, 400), Tolerance.exact()):
+        chosen = plan(scene, tolerance)
+        differences = difference(shown(scene, chosen.settings), shown(scene, chosen.everything))
+        assert np.count_nonzero(differences > tolerance.bytes) <= tolerance.pixels
+        assert chosen.settings != chosen.everything
