@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Flags, Floats, Integers
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 
 LATTICE = 1024
@@ -158,6 +158,25 @@ def sphere_scene(rows: int, size: int) -> Scene:
     return Scene((sphere_mesh(rows),), camera, lights, (size, size))
 
 
+def layered_walls(farther: Floats, nearer: Floats, triangles: Integers, is_early: Flags) -> tuple[Mesh, ...]:
+    """Return a wall (N, 3) before another one (N, 3), drawn after some triangles (T, 3) of that and before the others.
+
+    Parameters
+    ----------
+    is_early : (T,) bool
+        Which triangles of the farther wall are drawn first.
+    """
+
+    def wall(positions: Floats, part: Integers, color: int, name: str) -> Mesh:
+        return Mesh(positions, part, colors=np.tile(COLORS[color], (len(positions), 1)), name=name)
+
+    return (
+        wall(farther, triangles[is_early], 1, "farther wall, drawn before"),
+        wall(nearer, triangles, 0, "nearer wall"),
+        wall(farther, triangles[~is_early], 1, "farther wall, drawn after"),
+    )
+
+
 def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     """Return two slanted walls that fill the picture, the first mesh a part ``gap`` of the distance before the others.
 
@@ -176,15 +195,7 @@ def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
     # Every second part of the farther wall, of two triangles each, is drawn before the nearer wall.
     is_early = np.arange(len(triangles)) // 2 % 2 == 0
-
-    def wall(scale: float, part: Integers, color: int, name: str) -> Mesh:
-        return Mesh(positions * scale, part, colors=np.tile(COLORS[color], (len(positions), 1)), name=name)
-
-    meshes = (
-        wall(1.0, triangles[is_early], 1, "farther wall, drawn before"),
-        wall(1.0 - gap, triangles, 0, "nearer wall"),
-        wall(1.0, triangles[~is_early], 1, "farther wall, drawn after"),
-    )
+    meshes = layered_walls(positions, (1.0 - gap) * positions, triangles, is_early)
     camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=near, far=far)
     return Scene(meshes, camera, (), (size, size))
 

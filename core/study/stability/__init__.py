@@ -2,6 +2,7 @@
 
 from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 from core.study.stability.experiment import Experiment, Verdict, experiments
+from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 from core.study.stability.stress import StressCancelledError, count_outcomes, stress
 
@@ -19,5 +20,5 @@ __all__ = [
     "stress",
 ]
 
-for each in COVERAGE_EXPERIMENTS:
+for each in (*COVERAGE_EXPERIMENTS, *FRAGMENT_EXPERIMENTS):
     experiments.add(each)
