@@ -1,11 +1,12 @@
 """Run an experiment over its whole grid: one real run for every cell of every method."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
-from core.study.stability.experiment import experiments
+from core.study.stability.experiment import Verdict, experiments
 from core.study.stability.record import Atlas, Axis, Outcome, StabilityMap
 
 
@@ -21,6 +22,7 @@ def stress(
     progress: Callable[[float, str], None] | None = None,
     is_cancelled: Callable[[], bool] | None = None,
     machine: Mapping[str, str] | None = None,
+    cell_done: Callable[[str, int, int, Verdict], None] | None = None,
 ) -> Atlas:
     """Run every method of an experiment at every place of its axes.
 
@@ -38,6 +40,8 @@ def stress(
         Asked after every cell.
     machine : mapping, optional
         Kept in the atlas.
+    cell_done : callable, optional
+        Called after every run with the method, the column and the row of the cell, and what came of it.
 
     Raises
     ------
@@ -65,12 +69,14 @@ def stress(
                 raise StressCancelledError(f"{info.title} was cancelled")
             verdict = experiment.run(method, place, seed)
             outcome[cell], severity[cell] = int(verdict.outcome), verdict.severity
+            if cell_done is not None:
+                cell_done(method, cell % columns, cell // columns, verdict)
             if progress is not None and cell % max(columns // 2, 1) == 0:
                 progress((number + cell / len(places)) / len(info.methods), method)
         maps.append(
             StabilityMap(method, method, outcome.reshape(rows, columns), severity.reshape(rows, columns))
         )
-    return Atlas(info, tuple(maps), seed, dict(machine or {}))
+    return Atlas(replace(info, axes=chosen), tuple(maps), seed, dict(machine or {}))
 
 
 def count_outcomes(atlas: Atlas) -> dict[str, dict[str, int]]:
