@@ -34,7 +34,10 @@ def atlas_svg(atlas: Atlas) -> str:
     step = max(CELL * columns, name_width) + GAP
     in_row = max(1, int((WIDEST - LEFT) // step))
     height_of_map = CELL * rows + 22 + GAP
-    parts = [text(LEFT, 30, info.title, size=18, weight=600), text(LEFT, 52, info.question, size=12, color=QUIET)]
+    parts = [
+        text(LEFT, 30, info.title, size=18, weight=600),
+        text(LEFT, 52, info.question, size=12, color=QUIET),
+    ]
     for number, each in enumerate(atlas.maps):
         x, y = LEFT + step * (number % in_row), TOP + height_of_map * (number // in_row)
         parts += _map(each, x, y)

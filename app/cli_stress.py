@@ -18,16 +18,18 @@ from core.study import machine
 from core.study.stability import Experiment, Outcome, experiments, stress
 from core.study.stability.shrink import Shrinkable, Shrunk, shrink_cell
 
-DESCRIPTION = """Run every method of an experiment over a grid of parameters, and print what came of every run."""
+DESCRIPTION = (
+    """Run every method of an experiment over a grid of parameters, and print what came of every run."""
+)
 EXAMPLES = """examples:
   rasterscope stress --list
   rasterscope stress slivers
   rasterscope stress shared-edges -o results
   rasterscope stress slivers --shrink coverage=float32 -o results
 
--o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes its
-triangles as few, short and small as they can be and still fail, and prints a test; with -o the test (.py) and the scene
-(.rasterscope) are written too.
+-o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes
+its triangles as few, short and small as they can be and still fail, and prints a test; with -o the test (.py) and the
+scene (.rasterscope) are written too.
 """
 
 
@@ -64,9 +66,7 @@ def run(options: argparse.Namespace) -> int:
         return run_shrink(experiment, options.shrink, options.seed, folder)
     shows_progress = sys.stderr.isatty()
     progress = show_progress if shows_progress else None
-    atlas = stress(
-        options.experiment, seed=options.seed, progress=progress, machine=machine(__version__)
-    )
+    atlas = stress(options.experiment, seed=options.seed, progress=progress, machine=machine(__version__))
     if shows_progress:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     print("\n".join(atlas_text(atlas)))
@@ -109,7 +109,9 @@ def run_shrink(experiment: Experiment, method: str, seed: int, folder: Path | No
     axes = ", ".join(
         f"{axis.title.lower()} {value:g}" for axis, value in zip(experiment.info.axes, place, strict=True)
     )
-    print(f"{experiment.info.title}: {axes}.\n{shrunk.sentence} It took {shrunk.run_count} runs.\n\n{shrunk.test}")
+    print(
+        f"{experiment.info.title}: {axes}.\n{shrunk.sentence} It took {shrunk.run_count} runs.\n\n{shrunk.test}"
+    )
     if folder is not None:
         for path in export_shrunk(shrunk, experiment.info.name, method, folder):
             print(f"wrote {path}")

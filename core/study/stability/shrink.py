@@ -1,8 +1,9 @@
 """The shrinker: a failing scene is made as small as it can be and still fail, in triangles, pixels and digits.
 
-Delta debugging: leave something out, or make it simpler; keep what still fails in the same way. First triangles go, half
-of them at a time, then single ones; then the picture is halved; then every coordinate gets as few digits as it can.
-Corners that lie in the same place stay together, so that shared edges stay shared. The same scene always shrinks alike.
+Delta debugging: leave something out, or make it simpler; keep what still fails in the same way. First triangles go,
+half of them at a time, then single ones; then the picture is halved; then every coordinate gets as few digits as it
+can. Corners that lie in the same place stay together, so that shared edges stay shared. The same scene always shrinks
+alike.
 
 References
 ----------
@@ -96,7 +97,9 @@ def shrink_cell(
     """
     experiment: Experiment = experiments.get(name)
     if method not in experiment.info.methods:
-        raise ValueError(f"method of {name} must be one of {', '.join(experiment.info.methods)}, got {method}")
+        raise ValueError(
+            f"method of {name} must be one of {', '.join(experiment.info.methods)}, got {method}"
+        )
     if not isinstance(experiment, Shrinkable):
         raise ValueError(f"cells of {name} are no triangles that can be made smaller")
     scene, settings = experiment.case(method, place, seed)
@@ -137,7 +140,7 @@ def shrink(
         raise ValueError("a scene that fails is wanted, got one that is right or refused")
     search.outcome = verdict.outcome
     changed = True
-    while changed and not search.is_spent:
+    while changed and not search.is_spent():
         changed = False
         for simpler in (_with_fewer_triangles, _with_smaller_picture, _with_simpler_corners):
             triangles, has_changed = search.simplify(triangles, simpler)
@@ -199,7 +202,6 @@ class _Search:
     """What a candidate has to end in."""
     run_count: int = 0
 
-    @property
     def is_spent(self) -> bool:
         """Whether no more runs are left."""
         return self.run_count >= self.most_runs
@@ -218,10 +220,10 @@ class _Search:
         """Take candidates that still fail, each in the place of what it was made from, until there are no more."""
         has_changed = True
         has_ever_changed = False
-        while has_changed and not self.is_spent:
+        while has_changed and not self.is_spent():
             has_changed = False
             for candidate in simpler(triangles):
-                if self.is_spent:
+                if self.is_spent():
                     break
                 found = self.verdict(candidate)
                 if found is not None and found.outcome == self.outcome:

@@ -10,5 +10,12 @@ from core.study.stability.coverage import (
 )
 from core.study.stability.experiment import Experiment
 
-COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (*precision_dial.EXPERIMENTS, *number_formats.EXPERIMENTS, *meshes.EXPERIMENTS, *drift.EXPERIMENTS, *clipping.EXPERIMENTS, *line_clippers.EXPERIMENTS)
+COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (
+    *precision_dial.EXPERIMENTS,
+    *number_formats.EXPERIMENTS,
+    *meshes.EXPERIMENTS,
+    *drift.EXPERIMENTS,
+    *clipping.EXPERIMENTS,
+    *line_clippers.EXPERIMENTS,
+)
 """In the order in which they are listed."""

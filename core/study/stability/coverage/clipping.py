@@ -74,8 +74,8 @@ SIGNS_OF_W = CoverageExperiment(
             Axis("third", "w of the third corner", "", SIGNS),
         ),
         CLIPPINGS,
-        "Projecting first is right only while all w > 0: corners behind the eye are mirrored, and with w = 0 nothing is "
-        "drawn; clipping in clip space and homogeneous edge functions are right for all signs.",
+        "Projecting first is right only while all w > 0: corners behind the eye are mirrored, and with w = "
+        "0 nothing is drawn; clipping in clip space and homogeneous edge functions are right for all signs.",
     ),
     signs_of_w,
     base=NOT_SNAPPED,
@@ -90,8 +90,8 @@ AFTER_DIVIDE = CoverageExperiment(
             Axis("side", "Sign of w", "", (-1.0, 0.0, 1.0)),
         ),
         CLIPPINGS,
-        "Dividing first is right for every w > 0, however small, and wrong for every w <= 0; clipping before the division "
-        "and homogeneous edge functions do not care.",
+        "Dividing first is right for every w > 0, however small, and wrong for every w <= 0; clipping "
+        "before the division and homogeneous edge functions do not care.",
     ),
     through_small_w,
     base=NOT_SNAPPED,
@@ -106,8 +106,8 @@ CLIP_ORDER = CoverageExperiment(
             Axis("ratio", "w of the second end over the first", "", RATIOS, True),
         ),
         CLIPPINGS,
-        "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may be snapped apart; "
-        "clipped from the inside end to the outside end they are one corner.",
+        "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may be "
+        "snapped apart; clipped from the inside end to the outside end they are one corner.",
     ),
     pair_over_the_border,
     once_everywhere,

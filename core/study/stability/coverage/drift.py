@@ -161,8 +161,8 @@ INCREMENTAL = CoverageExperiment(
             "coverage=int64 fill=incremental",
             "coverage=float64",
         ),
-        "Sums in float16 drift from the start, and in float32 after about a thousand pixels, where evaluating every pixel "
-        "in float32 is still right; float64 and whole numbers do not drift.",
+        "Sums in float16 drift from the start, and in float32 within a few thousand pixels, where "
+        "evaluating every pixel in float32 is still right; float64 and whole numbers do not drift.",
     ),
     long_triangle,
     on_its_lattice,
@@ -177,8 +177,8 @@ LINES = LineDriftExperiment(
             Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
         ),
         ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
-        "Slopes added in float32 drift off the line within thousands of columns; sums in float64 stay beside it, and "
-        "whole numbers are always right.",
+        "Slopes added in float32 drift off the line within thousands of columns; sums in float64 and whole "
+        "numbers always take a nearest pixel.",
     )
 )
 SLOPES = SlopeSumExperiment(
@@ -191,7 +191,8 @@ SLOPES = SlopeSumExperiment(
             Axis("shift", "Place of the far corner", "columns", tuple(map(float, range(2, 32, 3)))),
         ),
         ("fill=scanline-lecture", "fill=scanline"),
-        "Inverse slopes added in float64 round another way at ties, as if 0.1 were a float; spans in closed form do not.",
+        "Inverse slopes added in float64 fall beside ties and round another way; spans in closed form do "
+        "not.",
     )
 )
 EXPERIMENTS = (INCREMENTAL, LINES, SLOPES)

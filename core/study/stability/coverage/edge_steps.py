@@ -6,15 +6,12 @@ After every operation the rest is done without rounding: so it shows at which op
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
 from core.raster.cross_product import LAST, NEXT
 from core.raster.number_format import NumberFormat
 from core.raster.snapping import CornerPositions
-
-Rounding = Callable[[Fraction], Fraction]
 
 
 @dataclass(frozen=True)
@@ -52,6 +49,8 @@ RULES: dict[str, Callable[[Fraction, Fraction], Fraction]] = {
     "-": lambda first, second: first - second,
     "+": lambda first, second: first + second,
 }
+SLOPES = tuple(name for name, *_ in OPERATIONS[:6])
+"""Operations in the unit of a and b; the others have that of c and the value."""
 CORNERS = ("x1", "y1", "w1", "x2", "y2", "w2")
 A, B, VALUE = "a = y1 w2 - w1 y2", "b = w1 x2 - x1 w2", "a x + (b y + c)"
 
@@ -79,7 +78,6 @@ def edge_steps(
         What the value is multiplied by so that inside is positive.
     pixel : (column, row)
     """
-    rounding = rounding_of(numbers)
     ends = NEXT[edge], LAST[edge]
     held = [_held_corner(corners, numbers, number) for number in ends]
     given = dict(zip(CORNERS, [v for k in ends for v in exact_corners[k]], strict=True))
@@ -95,7 +93,7 @@ def edge_steps(
         steps.append(EdgeStep(name, float(value), float(exact), decide(known, turn)))
     for name, first, operator, second in OPERATIONS:
         exact = RULES[operator](known[first], known[second])
-        known[name] = rounding(exact)
+        known[name] = rounded(numbers, name, exact)
         steps.append(EdgeStep(name, float(known[name]), float(exact), decide(known, turn)))
     return tuple(steps)
 
@@ -115,33 +113,25 @@ def decide(known: dict[str, Fraction], turn: int) -> bool:
     return value > 0 or (value == 0 and (a > 0 or (a == 0 and b > 0)))
 
 
-def rounding_of(numbers: NumberFormat) -> Rounding:
-    """Return what a format does to the exact result of an operation, in pixels."""
-    if numbers.rounding == "wrapped":
-        return _wrapping(numbers)
-    if numbers.held_as is object:
-        return lambda exact: exact
-    return lambda exact: _nearest(exact, numbers.held_as)
+def rounded(numbers: NumberFormat, operation: str, exact: Fraction) -> Fraction:
+    """Return what a format makes of the exact result of an operation, in pixels.
 
-
-def _nearest(exact: Fraction, number: type[np.floating[Any]]) -> Fraction:
-    """Return the nearest number of a floating-point format; OverflowError where there is none."""
-    with np.errstate(over="ignore"):
-        return Fraction(float(number(float(exact))))
-
-
-def _wrapping(numbers: NumberFormat) -> Rounding:
-    """Return the rule of two's complement: modulo 2^n units of the format's values.
-
-    Notes
-    -----
-    a, b and a corner are units of 1/256 pixel, values of 1/65,536: all in n bits. Only values get so large.
+    Raises
+    ------
+    OverflowError
+        If a floating-point format has no such number.
     """
-    unit = Fraction(2) ** numbers.value_exponent
+    if numbers.rounding == "wrapped":
+        is_slope = operation in SLOPES
+        return _wrapped(numbers, numbers.slope_exponent if is_slope else numbers.value_exponent, exact)
+    if numbers.held_as is object:
+        return exact
+    with np.errstate(over="ignore"):
+        return Fraction(float(numbers.held_as(float(exact))))
+
+
+def _wrapped(numbers: NumberFormat, exponent: int, exact: Fraction) -> Fraction:
+    """Return a number modulo 2^n units of 2^exponent: two's complement."""
+    unit = Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
     span = 1 << (8 * np.dtype(numbers.held_as).itemsize)
-
-    def wrap(exact: Fraction) -> Fraction:
-        units = (int(exact / unit) + span // 2) % span - span // 2
-        return units * unit
-
-    return wrap
+    return ((int(exact / unit) + span // 2) % span - span // 2) * unit

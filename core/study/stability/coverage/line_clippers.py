@@ -65,7 +65,8 @@ class LineClipExperiment:
         segment, (width, height) = first_edge(scene), scene.size
         wanted = clipped_ends(segment, (0.0, 0.0, width, height))
         window = (0, 0, width, height)
-        clipping = f'segment = {segment.tolist()}\nclipped = clip_lines([segment], {window}, "{settings.line_clipping}")'
+        call = f'clip_lines([segment], {window}, "{settings.line_clipping}")'
+        clipping = f"segment = {segment.tolist()}\nclipped = {call}"
         if wanted is None:
             return f"{clipping}\nassert not clipped.is_kept[0]"
         tolerance = PROMISED * float(np.spacing(np.abs(segment).max()))

@@ -8,7 +8,6 @@ from core.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.stability.coverage.covered_pixels import (
-    EVERY_PIXEL,
     CoverageExperiment,
     count_cover,
     once_everywhere,

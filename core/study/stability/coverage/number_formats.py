@@ -112,8 +112,9 @@ SLIVERS = CoverageExperiment(
             Axis("offset", "Distance of the centres from its side", "pixels", powers(-50, -2, 3), True),
         ),
         FORMATS,
-        "Slivers thinner than a step of 1/256 pixel are lost where corners are snapped; float32 errs from 2^-14 pixel "
-        "on and float64 from 2^-45; whole numbers of any length are right at every width and offset.",
+        "Where corners are snapped, slivers thinner than a step of 1/256 pixel are lost; float32 errs from "
+        "2^-17 pixel on and float64 from 2^-47; whole numbers of any length are right at every width and "
+        "offset.",
     ),
     sliver,
 )
@@ -124,11 +125,16 @@ COORDINATES = CoverageExperiment(
         "An edge passes through the window just below pixel centres; its ends move away: when is a pixel lost?",
         (
             Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
-            Axis("steps", "Distance of the edge from the centres", "1/256 pixel", tuple(map(float, range(-4, 5)))),
+            Axis(
+                "steps",
+                "Distance of the edge from the centres",
+                "1/256 pixel",
+                tuple(map(float, range(-4, 5))),
+            ),
         ),
         FORMATS,
-        "32 bits wrap around beyond 128 pixels and 64 bits beyond 8 million; float32 errs from 2^16 pixels on; float64 and "
-        "whole numbers of any length are right up to 2^30.",
+        "32 bits wrap around from 128 pixels on and 64 bits beyond 4 million; float32 errs from 2^17 pixels "
+        "on; float64 and whole numbers of any length are right up to 2^30.",
     ),
     far_corners,
 )
@@ -142,8 +148,8 @@ SINGULAR = CoverageExperiment(
             Axis("ratio", "w of the second corner over the first", "", W_RATIOS, True),
         ),
         ("coverage=float32", "coverage=inverse", "coverage=snapped", "coverage=float64", "coverage=exact"),
-        "Floats lose a triangle that is flatter than their spacing, the inverse before the adjugate, and snapped corners "
-        "one flatter than 1/256 pixel; whole numbers of any length decide every one.",
+        "Floats err where a triangle is flatter than their spacing, and snapped corners where it is flatter "
+        "than 1/256 pixel; whole numbers of any length are right at any distance.",
     ),
     edge_on,
 )
@@ -154,11 +160,23 @@ SNAPPING = CoverageExperiment(
         "The grid lines of a mesh crowd around pixel centres, closer and closer: is every pixel drawn exactly once?",
         (
             Axis("cell", "Size of a cell", "pixels", powers(-20, -3, 1), True),
-            Axis("shift", "Place of the lines", "cells", (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5)),
+            Axis(
+                "shift",
+                "Place of the lines",
+                "cells",
+                (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5),
+            ),
         ),
-        ("coverage=float32", "coverage=snapped", "coverage=int64", "coverage=inverse", "coverage=float64", "coverage=exact"),
-        "Triangles smaller than a step of 1/256 pixel may turn over when they are snapped, and are drawn twice; float32 "
-        "errs below 2^-9 pixel, whatever the lattice; float64 and whole numbers draw every pixel once.",
+        (
+            "coverage=float32",
+            "coverage=snapped",
+            "coverage=int64",
+            "coverage=float64",
+            "coverage=exact",
+        ),
+        "Triangles of about a step of 1/256 pixel may turn over when they are snapped, and are drawn twice; "
+        "float32 errs below 2^-9 pixel, whatever the lattice; float64 and whole numbers draw every pixel "
+        "once.",
     ),
     crowded_mesh,
     once_everywhere,

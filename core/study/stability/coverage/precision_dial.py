@@ -1,8 +1,8 @@
 """The precision dial: one triangle and one pixel in every number format, from float16 to exact.
 
 For every format: the values of the three edge functions, the decision, the bits of the value nearest to 0, and the
-operation from which on the decision is another one: the first k operations are done in the format and the others without
-rounding, for every k.
+operation from which on the decision is another one: the first k operations are done in the format and the others
+without rounding, for every k.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.raster.bit_patterns import FIXED, bit_pattern
 from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
-from core.raster.number_format import NumberFormat, number_format
+from core.raster.number_format import NumberFormat
 from core.raster.snapping import place_corners
 from core.scene import ClipScene
 from core.study.exact.coverage import Corner, facing, homogeneous_corner

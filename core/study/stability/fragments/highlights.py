@@ -31,25 +31,26 @@ class HighlightCase(Case):
         scene = sphere_scene(rings, SIDE)
         material = Material(ambient=0.12, diffuse=0.4, specular=SPECULAR, shininess=shininess)
         matte = replace(material, specular=0.0)
-        # The sphere is moved a little about the place it is seen from, so that no vertex is at the highlight by design.
-        turn = random_source(seed).uniform(-0.1, 0.1, 3)
-        camera = replace(scene.camera, eye=scene.camera.eye + turn)
+        # The eye is moved a little, so that no vertex is at the highlight by design.
+        shift = random_source(seed).uniform(-0.1, 0.1, 3)
+        camera = replace(scene.camera, eye=scene.camera.eye + shift)
         mesh = scene.meshes[0]
         self.scene = replace(scene, camera=camera, meshes=(replace(mesh, material=material),))
-        seen, self._wanted = sphere_picture(self.scene, 1.0)
+        seen, lit = sphere_picture(self.scene, 1.0)
         _, diffuse = sphere_picture(replace(self.scene, meshes=(replace(mesh, material=matte),)), 1.0)
-        highlight = (self._wanted - diffuse)[..., 0]
-        self.peak = float(highlight[seen].max())
-        self._where = seen & (highlight > self.peak / 2)
+        # All is white: one channel tells.
+        self._wanted = lit[..., 0]
+        highlight = self._wanted - diffuse[..., 0]
+        self._where = seen & (highlight > highlight[seen].max() / 2)
 
     def judge(self, settings: Settings) -> Judgement:
         """Return which part of the highlight is missing at its brightest pixel."""
         shown = drawn_colors(self.scene, settings)[..., 0]
-        missing = max(float(self._wanted[self._where, 0].max() - shown[self._where].max()) / SPECULAR, 0.0)
+        missing = max(float(self._wanted[self._where].max() - shown[self._where].max()) / SPECULAR, 0.0)
         remark = f"{100 * missing:.3g} % of the highlight is missing, over {int(self._where.sum())} pixels"
         if missing <= TOLERANCE:
             return Judgement(Verdict(Outcome.RIGHT, missing, remark), np.zeros(self._where.shape, bool))
-        dark = self._where & (self._wanted[..., 0] - shown > TOLERANCE * SPECULAR)
+        dark = self._where & (self._wanted - shown > TOLERANCE * SPECULAR)
         return Judgement(Verdict(Outcome.WRONG_PICTURE, missing, remark), dark)
 
 
