@@ -1,4 +1,4 @@
-"""What a click on a cell opens: its run once more, its picture, the smallest scene that fails alike, and the stepper."""
+"""What a click on a cell opens: its run once more, its picture, the smallest scene that fails, and the stepper."""
 
 from dataclasses import replace
 
@@ -143,10 +143,14 @@ class StabilityCasePresenter(QObject):
         """Make the case small."""
         found = self._found
         if found is None or not case_record(found).can_shrink:
-            self.message_sent.emit("Only a cell that fails, of an experiment on triangles, can be made smaller.")
+            self.message_sent.emit(
+                "Only a cell that fails, of an experiment on triangles, can be made smaller."
+            )
             return
         stage = "raster" if found.opening is None else found.opening.stage
-        self._view.show_waiting("Shrinking …", "Leaving out triangles, pixels and digits as long as it fails.")
+        self._view.show_waiting(
+            "Shrinking …", "Leaving out triangles, pixels and digits as long as it fails."
+        )
         self._desk.shrink(found.order, stage)
 
     @Slot(object)

@@ -229,7 +229,9 @@ class StabilityPage(Page):
         found = self.opened.shrunk
         assert found is not None
         try:
-            save_shrunk(Path(path), found.shrunk, f"{found.order.experiment.info.name}: {found.order.place.key}")
+            save_shrunk(
+                Path(path), found.shrunk, f"{found.order.experiment.info.name}: {found.order.place.key}"
+            )
         except (OSError, ValueError) as error:
             self.edit_refused.emit(f"The case was not saved: {error}")
         else:

@@ -78,9 +78,7 @@ def lay_out_maps(
     return _placed(count, columns, rows, width, cell, metrics)
 
 
-def _placed(
-    count: int, columns: int, rows: int, width: int, cell: int, metrics: AtlasMetrics
-) -> AtlasLayout:
+def _placed(count: int, columns: int, rows: int, width: int, cell: int, metrics: AtlasMetrics) -> AtlasLayout:
     left = metrics.tick + 4 if metrics.tick else 0
     cells_wide, cells_high = columns * cell, rows * cell
     step_x = max(left + cells_wide, min(metrics.title, width - 2 * MARGIN)) + GAP

@@ -26,7 +26,9 @@ class _Scroll(QScrollArea):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the canvas the room that there is beside a scroll bar."""
         super().resizeEvent(event)
-        self._canvas.set_room(self.maximumViewportSize() - QSize(self.verticalScrollBar().sizeHint().width(), 0))
+        self._canvas.set_room(
+            self.maximumViewportSize() - QSize(self.verticalScrollBar().sizeHint().width(), 0)
+        )
 
 
 class _Swatch(QWidget):
@@ -120,7 +122,7 @@ class AtlasView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.canvas = AtlasCanvas()
-        self.scroll = _Scroll(self.canvas, self)
+        self.pane = _Scroll(self.canvas, self)
         self.axes = ElidedLabel(self)
         self.axes.setProperty("role", "muted")
         self.legend = AtlasLegend(self)
@@ -132,7 +134,7 @@ class AtlasView(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addWidget(self.axes)
-        layout.addWidget(self.scroll, 1)
+        layout.addWidget(self.pane, 1)
         layout.addWidget(self.legend)
 
     def show_empty(self, text: str) -> None:
@@ -156,7 +158,7 @@ class AtlasView(QWidget):
 
     @Slot(QRect)
     def _show_part(self, area: QRect) -> None:
-        self.scroll.ensureVisible(area.center().x(), area.center().y(), area.width(), 2 * area.height())
+        self.pane.ensureVisible(area.center().x(), area.center().y(), area.width(), 2 * area.height())
 
 
 def _scale(is_logarithmic: bool) -> str:

@@ -54,7 +54,8 @@ class CaseView(QWidget):
         self.values = QLabel(self)
         self.values.setProperty("role", "muted")
         self.step_button = self._button(
-            "Open in the stepper", "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)"
+            "Open in the stepper",
+            "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)",
         )
         self.shrink_button = self._button(
             "Shrink", "Make the scene as small as it can be and still fail in the same way (S)"
