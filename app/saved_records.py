@@ -17,9 +17,7 @@ class SavedRecordError(ValueError):
     """A saved record cannot be read; the message is one sentence, or the end of one."""
 
 
-def read_record(
-    path: Path, model: type[Model], program: str, noun: str, version: int
-) -> Model:
+def read_record(path: Path, model: type[Model], program: str, noun: str, version: int) -> Model:
     """Return what a file holds.
 
     Parameters

@@ -7,12 +7,24 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.pages import StepRequest
 from app.stability_desk import CaseFound, CaseOrder, ShrunkFound, StabilityDesk
 from app.stability_presenter import StabilityPresenter
-from app.stability_records import case_record, place_sentence, shrunk_record, values_at
+from app.stability_records import (
+    case_record,
+    dial_row,
+    has_formats,
+    place_sentence,
+    shrunk_record,
+    values_at,
+)
+from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import StressCancelledError
+from core.study.stability.coverage.precision_dial import DialReading
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
+
+DIAL = "precision-dial"
+"""The experiment that is about number formats itself."""
 
 
 class StabilityCasePresenter(QObject):
@@ -43,6 +55,9 @@ class StabilityCasePresenter(QObject):
         desk.case_failed.connect(self._show_failure)
         desk.shrunk_found.connect(self._show_shrunk)
         desk.shrinking_failed.connect(self._tell_no_shrinking)
+        desk.dial_read.connect(self._show_dial)
+        desk.dial_failed.connect(self._tell_no_dial)
+        view.pixel_pinned.connect(self._read_dial)
         view.step_requested.connect(self.step)
         view.shrink_requested.connect(self.shrink)
         view.closing_requested.connect(self.close)
@@ -107,6 +122,8 @@ class StabilityCasePresenter(QObject):
     def _show_case(self, found: CaseFound) -> None:
         self._found = found
         self._view.show_case(case_record(found))
+        self._view.show_tab("formats" if found.order.experiment.info.name == DIAL else "pictures")
+        self._dial_pinned()
         if self._steps_when_found:
             self._steps_when_found = False
             self.step()
@@ -116,6 +133,32 @@ class StabilityCasePresenter(QObject):
         if not isinstance(error, ValueError | MemoryError):
             raise error
         self._view.show_waiting("This cell", f"It cannot be run: {error}")
+
+    # The precision dial.
+
+    def _dial_pinned(self) -> None:
+        self._view.show_formats(())
+        if self._view.pin is not None:
+            self._read_dial(*self._view.pin)
+
+    @Slot(int, int)
+    def _read_dial(self, column: int, row: int) -> None:
+        """Look at a pixel in every number format, where the case is triangles in clip space."""
+        if self._found is None:
+            return
+        opening = self._found.opening if self._shrunk is None else self._shrunk.opening
+        if opening is not None and has_formats(opening) and isinstance(opening.scene, ClipScene):
+            self._desk.read_dial(opening.scene, (column, row))
+
+    @Slot(object)
+    def _show_dial(self, readings: tuple[DialReading, ...]) -> None:
+        self._view.show_formats([dial_row(reading) for reading in readings])
+
+    @Slot(object)
+    def _tell_no_dial(self, error: Exception) -> None:
+        if not isinstance(error, ValueError):
+            raise error
+        self.refused.emit(f"The pixel could not be looked at in every number format: {error}")
 
     # To the stepper.
 
@@ -158,6 +201,7 @@ class StabilityCasePresenter(QObject):
         if self._found is not None and self._found.order is shrunk.order:
             self._shrunk = shrunk
             self._view.show_case(shrunk_record(shrunk))
+            self._dial_pinned()
 
     @Slot(object)
     def _tell_no_shrinking(self, error: Exception) -> None:

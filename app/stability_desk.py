@@ -9,19 +9,23 @@ from app import __version__
 from app.stability_choices import AtlasResult
 from app.workers import Job, Progress
 from core import Frame, render
-from core.scene import AnyScene
+from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.study import Opening, machine
 from core.study.stability import Axis, Experiment, Verdict, stress
+from core.study.stability.coverage.precision_dial import DialReading, precision_dial
 from core.study.stability.shrink import Shrunk, shrink_cell
 from widgets.atlas_records import CellPlace
+
+MOST_DIALLED = 64
+"""Triangles of a scene that are looked through for one on which the number formats disagree."""
 
 
 @dataclass(frozen=True, eq=False)
 class StressOrder:
     """What is to be run."""
 
-    name: str
+    experiment: Experiment
     axes: tuple[Axis, ...]
     seed: int
 
@@ -89,12 +93,15 @@ class StabilityDesk(QObject):
     shrunk_found = Signal(object)
     """A `ShrunkFound`."""
     shrinking_failed = Signal(object)
+    dial_read = Signal(object)
+    """A tuple of ``DialReading``."""
+    dial_failed = Signal(object)
     _row_run_in_thread = Signal(object)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._serial = 0
-        self._running, self._looking, self._shrinking = Job(self), Job(self), Job(self)
+        self._running, self._looking, self._shrinking, self._reading = (Job(self) for _ in range(4))
         self._running.progressed.connect(self.progressed)
         self._running.succeeded.connect(self.ran)
         self._running.failed.connect(self.running_failed)
@@ -103,6 +110,8 @@ class StabilityDesk(QObject):
         self._looking.failed.connect(self.case_failed)
         self._shrinking.succeeded.connect(self.shrunk_found)
         self._shrinking.failed.connect(self.shrinking_failed)
+        self._reading.succeeded.connect(self.dial_read)
+        self._reading.failed.connect(self.dial_failed)
         self._row_run_in_thread.connect(self._take_row)
 
     @property
@@ -133,7 +142,7 @@ class StabilityDesk(QObject):
                     row.clear()
 
             atlas = stress(
-                order.name,
+                order.experiment,
                 seed=order.seed,
                 axes=order.axes,
                 progress=progress,
@@ -173,24 +182,50 @@ class StabilityDesk(QObject):
         """Make one cell small; ``stage`` is where it is to be opened."""
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> ShrunkFound:
-            name, method = order.experiment.info.name, order.place.key
-            shrunk = shrink_cell(name, method, order.values, order.seed, is_cancelled=is_cancelled)
+            method = order.place.key
+            shrunk = shrink_cell(
+                order.experiment, method, order.values, order.seed, is_cancelled=is_cancelled
+            )
             opening = Opening(shrunk.scene, shrunk.settings, stage, shrunk.pixel)
             return ShrunkFound(order, shrunk, opening, drawn(shrunk.scene, shrunk.settings))
 
         self._shrinking.start(work)
 
+    def read_dial(self, scene: ClipScene, pixel: tuple[int, int]) -> None:
+        """Evaluate a pixel in every number format."""
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[DialReading, ...]:
+            return readings_at(scene, pixel, is_cancelled)
+
+        self._reading.start(work)
+
     @Slot()
     def stop_looking(self) -> None:
         """Wait for no single cell any more."""
+        self._reading.cancel()
         self._looking.cancel()
         self._shrinking.cancel()
 
     def shut_down(self) -> None:
         """Cancel everything and wait for the threads."""
         self._serial += 1
-        for job in (self._running, self._looking, self._shrinking):
+        for job in (self._running, self._looking, self._shrinking, self._reading):
             job.shut_down()
+
+
+def readings_at(
+    scene: ClipScene, pixel: tuple[int, int], is_cancelled: Callable[[], bool]
+) -> tuple[DialReading, ...]:
+    """Return the readings of the first triangle on which the formats disagree, or else of the first one."""
+    first: tuple[DialReading, ...] = ()
+    for triangle in range(min(len(scene.clip), MOST_DIALLED)):
+        readings = precision_dial(scene, pixel, triangle)
+        first = first or readings
+        if any(not reading.is_right for reading in readings):
+            return readings
+        if is_cancelled():
+            break
+    return first
 
 
 def drawn(scene: AnyScene, settings: Settings) -> Frame | None:

@@ -42,7 +42,7 @@ class StabilityPage(Page):
         self.controls, self.maps, self.case = StabilityControls(self), AtlasView(self), CaseView(self)
         self.shown_text = ElidedLabel(self)
         self.runs = StabilityPresenter(
-            self.desk, self.experiments, self.controls, self.maps, self.readout, self
+            session, self.desk, self.experiments, self.controls, self.maps, self.readout, self
         )
         self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.case, self)
         self._lay_out()

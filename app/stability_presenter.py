@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.session import Session
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
 from app.stability_desk import CellRun, StabilityDesk, StressOrder
 from app.stability_records import (
@@ -20,6 +21,8 @@ from app.stability_records import (
 )
 from app.study_words import machine_words
 from core.study.stability import Atlas, ExperimentInfo, Verdict
+from core.study.stability.open_scene import NAME as OPEN_SCENE
+from core.study.stability.open_scene import watertightness
 from core.study.stability.resolution import axes_at
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
@@ -46,6 +49,7 @@ class StabilityPresenter(QObject):
 
     def __init__(
         self,
+        session: Session,
         desk: StabilityDesk,
         experiments: FamilyList,
         controls: StabilityControls,
@@ -54,9 +58,9 @@ class StabilityPresenter(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._desk = desk
+        self._session, self._desk = session, desk
         self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
-        self._choices = choices_of_all()
+        self._choices = choices_of_all() | {OPEN_SCENE: self._open_scene()}
         self._current = next(iter(self._choices))
         self._running = ""
         """Experiment that is being run; empty: none."""
@@ -77,7 +81,22 @@ class StabilityPresenter(QObject):
         desk.ran.connect(self._take_result)
         desk.running_failed.connect(self._fail)
         desk.running_ended.connect(self._finish)
+        session.document_changed.connect(self._take_document)
         self.refresh()
+
+    def _open_scene(self) -> ExperimentChoice:
+        """Return the experiment on the scene that is open now."""
+        document = self._session.document
+        experiment = watertightness(document.scene, document.title)
+        return ExperimentChoice(experiment.info, experiment)
+
+    @Slot()
+    def _take_document(self) -> None:
+        """Make the experiment on the open scene one on the scene that is open now, unless it has been run."""
+        if self._choices[OPEN_SCENE].result is None and self._running != OPEN_SCENE:
+            self._choices[OPEN_SCENE] = self._open_scene()
+            if self._current == OPEN_SCENE:
+                self.refresh()
 
     # What is shown.
 
@@ -223,6 +242,11 @@ class StabilityPresenter(QObject):
             )
             return
         self._desk.cancel()
+        if choice.name == OPEN_SCENE:
+            made = self._open_scene()
+            choice.info, choice.experiment = made.info, made.experiment
+        experiment = choice.experiment
+        assert experiment is not None
         axes = axes_at(choice.info.axes, choice.resolution)
         self._running, self._running_info = choice.name, replace(choice.info, axes=axes)
         self._cells, self._verdicts = blank_cells(self._running_info), {}
@@ -230,7 +254,7 @@ class StabilityPresenter(QObject):
         self._controls.show_progress(Progress("Preparing", 0, 0))
         self._show_maps()
         self.shown_changed.emit()
-        self._desk.run(StressOrder(choice.name, axes, choice.seed))
+        self._desk.run(StressOrder(experiment, axes, choice.seed))
 
     @Slot()
     def cancel(self) -> None:

@@ -11,15 +11,19 @@ from app.atlas_text import WORDS
 from app.outcome_looks import cell_kinds
 from app.stability_choices import AtlasResult, ExperimentChoice
 from app.stability_desk import CaseFound, ShrunkFound
-from app.study_words import digits, machine_words
+from app.study_words import machine_words
 from core import Frame
 from core.framebuffer.display import to_display
+from core.scene import ClipScene
+from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
+from core.study.stability.coverage.precision_dial import DialReading
 from core.study.stability.shrink import Shrinkable
 from widgets.atlas_records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
 from widgets.case_view import CaseRecord
+from widgets.dial_table import DialRow
 from widgets.grid_buffer import GridBuffer
-from widgets.number_text import counted
+from widgets.number_text import counted, number_text
 
 Cells = Mapping[str, NDArray[np.int16]]
 """Method to the kinds (rows, columns) int16 of its cells."""
@@ -48,7 +52,7 @@ def atlas_record(info: ExperimentInfo, cells: Cells) -> AtlasRecord:
 def axis_record(axis: Axis) -> AtlasAxis:
     """Return one axis with its values as texts."""
     title = f"{axis.title} ({axis.unit})" if axis.unit else axis.title
-    return AtlasAxis(title, tuple(digits(value) for value in axis.values), axis.is_logarithmic)
+    return AtlasAxis(title, tuple(number_text(value) for value in axis.values), axis.is_logarithmic)
 
 
 def method_titles(methods: tuple[str, ...]) -> dict[str, str]:
@@ -69,7 +73,7 @@ def values_at(info: ExperimentInfo, place: CellPlace) -> tuple[float, ...]:
 def place_sentence(info: ExperimentInfo, values: tuple[float, ...]) -> str:
     """Return the values of all axes in words."""
     parts = (
-        f"{axis.title.lower()} {digits(value, 4)}{f' {axis.unit}' if axis.unit else ''}"
+        f"{axis.title.lower()} {number_text(value)}{f' {axis.unit}' if axis.unit else ''}"
         for axis, value in zip(info.axes, values, strict=True)
     )
     return ", ".join(parts)
@@ -79,8 +83,8 @@ def experiment_text(choice: ExperimentChoice) -> str:
     """Return what is known of an experiment, as rich text."""
     info = choice.info if choice.result is None else choice.result.atlas.experiment
     axes = "".join(
-        f"<li>{escape(axis.title)}: {digits(axis.values[0])} to {digits(axis.values[-1])} {escape(axis.unit)}, "
-        f"{counted(len(axis.values), 'value')}</li>"
+        f"<li>{escape(axis.title)}: {number_text(axis.values[0])} to {number_text(axis.values[-1])}"
+        f"{escape(f' {axis.unit}' if axis.unit else '')}, {counted(len(axis.values), 'value')}</li>"
         for axis in info.axes
     )
     methods = "".join(f"<li>{escape(method)}</li>" for method in info.methods)
@@ -105,13 +109,13 @@ def cell_text(
     lines = [f"<b>{escape(title)}</b>"]
     for axis, value in zip(info.axes, values_at(info, place), strict=True):
         unit = f" {escape(axis.unit)}" if axis.unit else ""
-        lines.append(f"{escape(axis.title)}: <b>{digits(value, 4)}</b>{unit} ({value!r})")
+        lines.append(f"{escape(axis.title)}: <b>{number_text(value)}</b>{unit}")
     if kind == UNKNOWN:
         lines.append("Not run yet.")
     else:
         lines.append(f"Outcome: <b>{WORDS[Outcome(kind)]}</b>")
         if severity and not isnan(severity):
-            lines.append(f"Severity: <b>{digits(severity, 4)}</b>")
+            lines.append(f"Severity: <b>{number_text(severity)}</b>")
         if remark:
             lines.append(f"{escape(remark[:1].upper() + remark[1:])}.")
     return "<p>" + "</p><p>".join(lines) + "</p>"
@@ -126,6 +130,7 @@ def case_record(found: CaseFound) -> CaseRecord:
         verdict=verdict_sentence(verdict.outcome, verdict.remark),
         buffers=None if found.frame is None else case_buffers(found.frame),
         pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
+        has_formats=found.opening is not None and has_formats(found.opening),
         can_step=found.opening is not None,
         can_shrink=is_failure and isinstance(found.order.experiment, Shrinkable),
     )
@@ -138,8 +143,31 @@ def shrunk_record(found: ShrunkFound) -> CaseRecord:
         verdict=f"{found.shrunk.sentence} It took {counted(found.shrunk.run_count, 'run')}.",
         buffers=None if found.frame is None else case_buffers(found.frame),
         pixel=found.shrunk.pixel if found.frame is not None else None,
+        has_formats=has_formats(found.opening),
         can_step=True,
         can_save=True,
+    )
+
+
+def has_formats(opening: Opening) -> bool:
+    """Return whether the pixels of a case can be looked at in every number format: triangles in clip space, filled."""
+    return isinstance(opening.scene, ClipScene) and opening.stage in ("edges", "raster")
+
+
+def dial_row(reading: DialReading) -> DialRow:
+    """Return what one number format makes of a pixel."""
+    value = reading.values[reading.edge]
+    return DialRow(
+        (
+            reading.coverage,
+            ("covered" if reading.is_covered else "outside") + ("" if reading.is_right else ": wrong"),
+            str(reading.edge),
+            number_text(value),
+            number_text(reading.exact_value),
+            reading.bits,
+            reading.flipped_by,
+        ),
+        reading.is_right,
     )
 
 

@@ -1,7 +1,7 @@
 """The maps of an experiment in a pane that scrolls, their axes above and the legend with counts below."""
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from widgets.atlas_canvas import AtlasCanvas
@@ -56,6 +56,9 @@ class _Swatch(QWidget):
         with QPainter(self) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             paint_cell(painter, QRectF(self.rect()), self._kind, current_theme())
+            painter.setPen(QColor(current_theme().hidden))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
 
 
 class AtlasLegend(QWidget):

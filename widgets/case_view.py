@@ -1,11 +1,21 @@
-"""One cell of an atlas: what came of its run, its picture, and where it leads."""
+"""One cell of an atlas: what came of its run, its picture, its pixel in every number format, and where it leads."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
-from widgets.elided_label import ElidedLabel
+from widgets.dial_table import DialRow, DialTable
+from widgets.flow_layout import FlowLayout
 from widgets.grid_buffer import GridBuffer
 from widgets.linked_grids import LinkedGrids
 
@@ -25,6 +35,8 @@ class CaseRecord:
     """Its picture, and how often each pixel is covered; ``None``: it draws none."""
     pixel: Pixel | None = None
     """Where it is wrong first."""
+    has_formats: bool = False
+    """Whether its pixels can be looked at in every number format."""
     can_step: bool = False
     can_shrink: bool = False
     can_save: bool = False
@@ -38,13 +50,16 @@ class CaseView(QWidget):
     shrink_requested = Signal()
     save_requested = Signal()
     closing_requested = Signal()
+    pixel_pinned = Signal(int, int)
+    """The user has pinned another pixel."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._record: CaseRecord | None = None
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
-        self.heading = ElidedLabel(self)
+        self.heading = QLabel(self)
+        self.heading.setWordWrap(True)
         self.heading.setAccessibleName("Chosen cell")
         self.verdict = QLabel(self)
         self.verdict.setWordWrap(True)
@@ -53,6 +68,9 @@ class CaseView(QWidget):
         self.linked = LinkedGrids(WORDS, self)
         self.values = QLabel(self)
         self.values.setProperty("role", "muted")
+        self.values.setWordWrap(True)
+        self.formats = DialTable(self)
+        self.tabs = QTabWidget(self)
         self.step_button = self._button(
             "Open in the stepper",
             "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)",
@@ -81,18 +99,31 @@ class CaseView(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.setSpacing(8)
-        top.addWidget(self.heading, 1)
-        for button in (self.step_button, self.shrink_button, self.save_button, self.close_button):
-            top.addWidget(button)
+        self.tabs.setDocumentMode(True)
+        self.tabs.tabBar().setDrawBase(False)
+        self.tabs.addTab(self.linked, "Pictures")
+        self.tabs.addTab(self.formats, "Number formats")
+        self.tabs.setCornerWidget(self.close_button)
+        buttons = QWidget(self)
+        flow = FlowLayout(buttons, 8)
+        for button in (self.step_button, self.shrink_button, self.save_button):
+            flow.addWidget(button)
+        words = QWidget(self)
+        column = QVBoxLayout(words)
+        column.setContentsMargins(0, 4, 0, 0)
+        column.setSpacing(8)
+        for widget in (self.heading, self.verdict, buttons, self.values):
+            column.addWidget(widget)
+        column.addStretch(1)
+        words.setMinimumWidth(200)
+        self.parts = QSplitter(Qt.Orientation.Horizontal, self)
+        self.parts.addWidget(words)
+        self.parts.addWidget(self.tabs)
+        self.parts.setStretchFactor(1, 1)
+        self.parts.setSizes([330, 660])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 4, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(top)
-        layout.addWidget(self.verdict)
-        layout.addWidget(self.linked, 1)
-        layout.addWidget(self.values)
+        layout.addWidget(self.parts, 1)
 
     @property
     def pin(self) -> Pixel | None:
@@ -104,8 +135,8 @@ class CaseView(QWidget):
         self._record, self._pin, self._hover = record, record.pixel, None
         self.heading.setText(record.heading)
         self.verdict.setText(record.verdict)
-        self.linked.setVisible(record.buffers is not None)
-        self.values.setVisible(record.buffers is not None)
+        self.tabs.setTabEnabled(0, record.buffers is not None)
+        self.tabs.setTabEnabled(1, record.has_formats)
         if record.buffers is None:
             self.linked.show_nothing()
         else:
@@ -114,7 +145,16 @@ class CaseView(QWidget):
         self.shrink_button.setVisible(not record.can_save)
         self.shrink_button.setEnabled(record.can_shrink)
         self.save_button.setVisible(record.can_save)
+        self.save_button.setEnabled(record.can_save)
         self._show_pointing()
+
+    def show_formats(self, rows: Sequence[DialRow]) -> None:
+        """Show what every number format makes of the pinned pixel."""
+        self.formats.show_rows(rows)
+
+    def show_tab(self, name: str) -> None:
+        """Show ``pictures`` or ``formats``."""
+        self.tabs.setCurrentIndex(("pictures", "formats").index(name))
 
     def show_waiting(self, heading: str, text: str) -> None:
         """Say what is awaited, or why there is nothing; the grids stay to be seen, so that nothing jumps."""
@@ -145,5 +185,6 @@ class CaseView(QWidget):
 
     @Slot(int, int)
     def _pin_pixel(self, column: int, row: int) -> None:
-        self._pin = None if self._pin == (column, row) else (column, row)
+        self._pin = (column, row)
         self._show_pointing()
+        self.pixel_pinned.emit(column, row)

@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from core.study.stability.experiment import Verdict, experiments
+from core.study.stability.experiment import Experiment, Verdict, experiments
 from core.study.stability.record import Atlas, Axis, Outcome, StabilityMap
 
 
@@ -15,7 +15,7 @@ class StressCancelledError(Exception):
 
 
 def stress(
-    name: str,
+    experiment: str | Experiment,
     *,
     seed: int = 0,
     axes: tuple[Axis, ...] | None = None,
@@ -28,8 +28,8 @@ def stress(
 
     Parameters
     ----------
-    name : str
-        One of `core.study.stability.experiment.experiments`.
+    experiment : str or Experiment
+        One of `core.study.stability.experiment.experiments`, or another one.
     seed : int
         What is random in the experiment follows from it.
     axes : tuple of Axis, optional
@@ -50,13 +50,14 @@ def stress(
     StressCancelledError
         As soon as ``is_cancelled()``.
     """
-    experiment = experiments.get(name)
+    if isinstance(experiment, str):
+        experiment = experiments.get(experiment)
     info = experiment.info
     chosen = info.axes if axes is None else axes
     if [axis.name for axis in chosen] != [axis.name for axis in info.axes]:
         wanted = ", ".join(axis.name for axis in info.axes)
         raise ValueError(
-            f"axes of {name} must be {wanted}, got {', '.join(axis.name for axis in chosen) or 'none'}"
+            f"axes of {info.name} must be {wanted}, got {', '.join(axis.name for axis in chosen) or 'none'}"
         )
     columns = len(chosen[0].values)
     rows = len(chosen[1].values) if len(chosen) > 1 else 1
