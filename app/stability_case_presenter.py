@@ -113,10 +113,18 @@ class StabilityCasePresenter(QObject):
     def _show_again(self) -> None:
         """Show the case of the cell that was chosen of this experiment before."""
         chosen = self._runs.choice.chosen
-        if chosen is None or chosen.key not in self._runs.cells:
+        if chosen is None or not self._runs.is_shown(chosen):
             self.close()
-        else:
+        elif not self._is_shown_already(chosen):
             self.choose(chosen)
+
+    def _is_shown_already(self, place: CellPlace) -> bool:
+        """Return whether the case that is shown is of this very run: a grid that is finished changes nothing."""
+        if self._found is None:
+            return False
+        order, values = self._found.order, values_at(self._runs.info, place)
+        here = (self._runs.choice.experiment, place, values, self._runs.seed())
+        return (order.experiment, order.place, order.values, order.seed) == here
 
     @Slot(object)
     def _show_case(self, found: CaseFound) -> None:

@@ -193,7 +193,7 @@ class StabilityPresenter(QObject):
 
     def _show_readout(self) -> None:
         place = self._hover or self.choice.chosen
-        if place is None or place.key not in self.cells:
+        if place is None or not self.is_shown(place):
             self._readout.show_text(experiment_text(self.choice))
             return
         severity, remark = self._figures(place)
@@ -201,6 +201,11 @@ class StabilityPresenter(QObject):
         title = method_titles(self.info.methods)[place.key]
         text = cell_text(self.info, place, kind, severity, remark, title)
         self._readout.show_text(text)
+
+    def is_shown(self, place: CellPlace) -> bool:
+        """Return whether the maps that are shown have such a cell."""
+        cells = self.cells.get(place.key)
+        return cells is not None and place.row < cells.shape[0] and place.column < cells.shape[1]
 
     def _figures(self, place: CellPlace) -> tuple[float, str]:
         """Return severity and remark of a cell, as far as they are known."""
@@ -261,7 +266,15 @@ class StabilityPresenter(QObject):
         """Stop running; the maps of before are shown again."""
         if self._desk.is_running:
             self._desk.cancel()
+            self._forget_cell()
             self.message_sent.emit("Running was cancelled; the maps of before are as they were.")
+
+    def _forget_cell(self) -> None:
+        """Choose no cell any more: the maps of before are shown again."""
+        self.choice.chosen = self._hover = None
+        self._maps.show_chosen(None)
+        self._show_readout()
+        self.shown_changed.emit()
 
     @Slot(object, str)
     def _show_progress(self, fraction: float, doing: str) -> None:
@@ -289,6 +302,7 @@ class StabilityPresenter(QObject):
     def _fail(self, error: Exception) -> None:
         if not isinstance(error, ValueError | MemoryError):
             raise error
+        self._forget_cell()
         self.refused.emit(f"It could not be run: {error} The maps of before are as they were.")
 
     @Slot()

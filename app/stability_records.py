@@ -164,8 +164,8 @@ def dial_row(reading: DialReading) -> DialRow:
             str(reading.edge),
             number_text(value),
             number_text(reading.exact_value),
-            reading.bits,
             reading.flipped_by,
+            reading.bits,
         ),
         reading.is_right,
     )

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTab
 from widgets.marks import Mark, mark_pixmap
 from widgets.theme import current_theme, theme_notifier
 
-HEAD = ("Format", "Pixel is", "Edge", "Value", "Exact", "Bits of the value", "Flipped by")
+HEAD = ("Format", "Pixel is", "Edge", "Value", "Exact", "Flipped by", "Bits of the value")
 _BITS = HEAD.index("Bits of the value")
 
 
