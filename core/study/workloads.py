@@ -103,11 +103,16 @@ def random_lines(size: tuple[int, int], count: int, length: float, seed: int, is
     return np.floor(ends) + 0.5 if is_on_centers else on_lattice(ends)
 
 
-def outline_scene(ends: Floats, size: tuple[int, int]) -> ClipScene:
-    """Return a triangle whose first edge is a segment (2, 2) in pixels; its third corner lies to the left of it."""
-    along = ends[1] - ends[0]
-    third = ends.mean(axis=0) + np.array([-along[1], along[0]]) / 2 + np.array([0.25, 0.25])
-    window = np.concatenate([ends, np.rint(third[None] * 4) / 4])[None]
+def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = None) -> ClipScene:
+    """Return a triangle whose first edge is a segment (2, 2) in pixels.
+
+    Its ``third`` corner (2,) lies to the left of the segment by default.
+    """
+    if third is None:
+        along = ends[1] - ends[0]
+        third = ends.mean(axis=0) + np.array([-along[1], along[0]]) / 2 + np.array([0.25, 0.25])
+        third = on_lattice(third, 4)
+    window = np.concatenate([ends, third[None]])[None]
     level = np.ones((1, 3))
     clip = clip_of_window(window, size, 0.5 * level, level)
     return ClipScene(clip, np.repeat(COLORS[:1, None], 3, axis=1), size)

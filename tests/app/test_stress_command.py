@@ -44,7 +44,13 @@ def run_version() -> str:
 
 def test_a_failing_cell_is_made_small_and_written(tmp_path: Path) -> None:
     run = run_program(
-        "stress", "shared-edges", "--shrink", "fill_rule=inclusive", "-o", tmp_path, QT_QPA_PLATFORM="offscreen"
+        "stress",
+        "shared-edges",
+        "--shrink",
+        "fill_rule=inclusive",
+        "-o",
+        tmp_path,
+        QT_QPA_PLATFORM="offscreen",
     )
     assert run.returncode == 0, run.stderr
     assert "2 triangles in 1x1 pixels" in run.stdout

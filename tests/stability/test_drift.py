@@ -10,7 +10,11 @@ from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 
 LONG = (4096.0, 8192.0)
-STEADY = ("coverage=float64 fill=incremental", "coverage=snapped fill=incremental", "coverage=int64 fill=incremental")
+STEADY = (
+    "coverage=float64 fill=incremental",
+    "coverage=snapped fill=incremental",
+    "coverage=int64 fill=incremental",
+)
 
 
 def test_sums_in_float32_drift_where_values_in_float32_do_not() -> None:
@@ -34,7 +38,10 @@ def test_sums_in_float16_drift_at_once() -> None:
 def test_float64_and_whole_numbers_do_not_drift(method: str) -> None:
     experiment = experiments.get("incremental-drift")
     source = np.random.default_rng(11)
-    for length, rise in [(2048.0, 3.3), *zip(source.integers(20, 1000, 6), source.uniform(0.5, 7, 6), strict=True)]:
+    for length, rise in [
+        (2048.0, 3.3),
+        *zip(source.integers(20, 1000, 6), source.uniform(0.5, 7, 6), strict=True),
+    ]:
         assert experiment.run(method, (float(length), float(rise)), 0).outcome == Outcome.RIGHT
 
 

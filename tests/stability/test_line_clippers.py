@@ -6,6 +6,7 @@ import pytest
 from core.study.exact.segments import clipped_ends
 from core.study.stability import Outcome, experiments
 from core.study.stability.coverage.line_clippers import PROMISED, judge_clip
+from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 
 NAMES = ("parallel-segments", "zero-length-segments", "segments-past-a-corner")
@@ -19,7 +20,9 @@ def test_exact_signs_hold_everywhere(name: str) -> None:
 def test_exact_signs_hold_on_random_segments_at_the_border() -> None:
     source = np.random.default_rng(3)
     for _ in range(150):
-        ends = source.choice([-9.3, 0.0, 17.7, 64.0, 80.1], (2, 2)) + source.integers(-3, 4, (2, 2)) * 2.0**-46
+        ends = (
+            source.choice([-9.3, 0.0, 17.7, 64.0, 80.1], (2, 2)) + source.integers(-3, 4, (2, 2)) * 2.0**-46
+        )
         assert judge_clip(ends, "exact").outcome == Outcome.RIGHT
 
 
@@ -65,4 +68,7 @@ def test_a_segment_opens_as_an_edge_and_a_point_does_not() -> None:
     opened = experiment.opening("line_clipping=liang-barsky", (-6.0, -6.0), 0)
     assert opened.settings.polygon_mode == "wireframe"
     assert opened.settings.line_clipping == "liang-barsky"
+    stage = trace(opened.scene, opened.settings).stage("raster")
+    kinds = {stage.steps.kinds[kind] for kind in stage.steps.kind}
+    assert {"clip-enter", "clip-leave"} <= kinds
     assert experiment.opening("line_clipping=liang-barsky", (0.0, 0.0), 0) is None

@@ -38,7 +38,9 @@ def test_the_printed_scanline_fill_draws_shared_edges_twice() -> None:
 def test_ties_make_the_difference() -> None:
     found = outcomes("shared-edges", "fill_rule=inclusive")
     assert all(outcome == Outcome.DOUBLE_HIT for (steps, _), outcome in found.items() if steps <= 4)
-    assert all(outcome == Outcome.RIGHT for (steps, cells), outcome in found.items() if steps > 64 and cells < 16)
+    assert all(
+        outcome == Outcome.RIGHT for (steps, cells), outcome in found.items() if steps > 64 and cells < 16
+    )
 
 
 def test_the_inverse_divides_a_shared_edge_apart() -> None:
@@ -46,7 +48,9 @@ def test_the_inverse_divides_a_shared_edge_apart() -> None:
     assert {Outcome.HOLE, Outcome.DOUBLE_HIT} <= set(found.values())
 
 
-@pytest.mark.parametrize("method", ["coverage=float64", "fill_rule=shared-edge", "fill=spans", "coverage=exact"])
+@pytest.mark.parametrize(
+    "method", ["coverage=float64", "fill_rule=shared-edge", "fill=spans", "coverage=exact"]
+)
 def test_edges_with_one_value_hold(method: str) -> None:
     assert is_right_everywhere("shared-edges", method, every=3)
 

@@ -69,9 +69,7 @@ def test_floats_lose_slivers_below_their_spacing() -> None:
 )
 def test_far_corners_leave_the_range_of_numbers(method: str, last_right: float, outcome: Outcome) -> None:
     found = outcomes("coordinates", method, every=2)
-    assert all(
-        each == Outcome.RIGHT for (distance, _), each in found.items() if distance <= last_right
-    )
+    assert all(each == Outcome.RIGHT for (distance, _), each in found.items() if distance <= last_right)
     assert outcome in {each for (distance, _), each in found.items() if distance > last_right}
     if outcome == Outcome.OVERFLOW:
         assert {each for (distance, _), each in found.items() if distance > 2 * last_right} == {outcome}
@@ -98,7 +96,9 @@ def test_formats_lose_triangles_seen_almost_edge_on(method: str) -> None:
 
 def test_elimination_fails_before_the_adjugate() -> None:
     wrong = {
-        method: sum(outcome != Outcome.RIGHT for outcome in outcomes("singular-matrix", method, every=2).values())
+        method: sum(
+            outcome != Outcome.RIGHT for outcome in outcomes("singular-matrix", method, every=2).values()
+        )
         for method in ("coverage=inverse", "coverage=float64", "coverage=float32")
     }
     assert wrong["coverage=float64"] < wrong["coverage=inverse"] < wrong["coverage=float32"]

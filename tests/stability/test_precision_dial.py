@@ -8,7 +8,13 @@ import pytest
 from core import ClipScene, Settings, render
 from core.raster.exact_coverage import exact_coverage
 from core.study.stability.coverage.number_formats import FORMATS, far_corners, sliver
-from core.study.stability.coverage.precision_dial import AREA, ELIMINATION, OVERFLOW, DialReading, precision_dial
+from core.study.stability.coverage.precision_dial import (
+    AREA,
+    ELIMINATION,
+    OVERFLOW,
+    DialReading,
+    precision_dial,
+)
 
 CENTER = (41, 35)
 """A pixel whose centre lies just inside the long side of `sliver`."""

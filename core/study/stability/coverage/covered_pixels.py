@@ -117,7 +117,10 @@ def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometr
 
 
 def first_wrong_pixel(scene: ClipScene, settings: Settings, wanted: Integers) -> tuple[int, int] | None:
-    """Return column and row of the first wrong pixel, row by row from below; ``None``: all are right, or refused."""
+    """Return column and row of the first pixel that is not as ``wanted``, (H, W) int64, row by row from below.
+
+    ``None``: all are right, or the method refuses the scene.
+    """
     try:
         cover, _ = count_cover(scene, settings)
     except ValueError:

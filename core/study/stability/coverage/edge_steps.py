@@ -133,5 +133,6 @@ def rounded(numbers: NumberFormat, operation: str, exact: Fraction) -> Fraction:
 def _wrapped(numbers: NumberFormat, exponent: int, exact: Fraction) -> Fraction:
     """Return a number modulo 2^n units of 2^exponent: two's complement."""
     unit = Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
-    span = 1 << (8 * np.dtype(numbers.held_as).itemsize)
-    return ((int(exact / unit) + span // 2) % span - span // 2) * unit
+    span: int = 1 << (8 * np.dtype(numbers.held_as).itemsize)
+    units: int = (int(exact / unit) + span // 2) % span - span // 2
+    return units * unit

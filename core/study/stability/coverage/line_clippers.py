@@ -30,7 +30,10 @@ CLIPPERS = (
     "line_clipping=cyrus-beck",
     "line_clipping=exact",
 )
-WIREFRAME = Settings(polygon_mode="wireframe")
+WIREFRAME = Settings(polygon_mode="wireframe", coverage="exact")
+"""Outlines of triangles however thin: snapped, those of a few ulp would be culled."""
+INSIDE = np.array([17.25, 8.75])
+"""The third corner of the triangle that is stepped: it has to be seen, or it would be culled."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,11 +53,11 @@ class LineClipExperiment:
         segment = self.segment(place)
         if (segment[0] == segment[1]).all():
             return None
-        return Opening(outline_scene(segment, (SIDE, SIDE)), settings_of(WIREFRAME, method), "raster")
+        return Opening(outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), "raster")
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the segment of one place as an edge of a triangle, and the clipper's settings."""
-        return outline_scene(self.segment(place), (SIDE, SIDE)), settings_of(WIREFRAME, method)
+        return outline_scene(self.segment(place), (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method)
 
     def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
         """Clip the first edge of a triangle to the raster."""
