@@ -11,6 +11,9 @@ from app.file_writing import whole_file
 from app.state_files import readable_json
 from core.study.stability import Atlas, Outcome
 
+ENDINGS = (".csv", ".json", ".svg", ".png")
+"""Of the files that an atlas is written to."""
+
 
 def atlas_csv(atlas: Atlas) -> str:
     """Return a table with a row for every cell of every method, in rows that stand alone."""
@@ -59,6 +62,21 @@ def atlas_json(atlas: Atlas) -> str:
     )
 
 
+def atlas_content(atlas: Atlas, ending: str) -> bytes | None:
+    """Return the content of a file with one of `ENDINGS`; ``None``: there is no such kind of file."""
+    if ending == ".csv":
+        return atlas_csv(atlas).encode()
+    if ending == ".json":
+        return atlas_json(atlas).encode() + b"\n"
+    if ending == ".svg":
+        return atlas_svg(atlas).encode()
+    if ending != ".png":
+        return None
+    picture = BytesIO()
+    write_png(picture, atlas_svg(atlas))
+    return picture.getvalue()
+
+
 def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
     """Write an experiment into a folder as CSV, JSON, SVG and PNG; files of the same name are replaced.
 
@@ -67,18 +85,11 @@ def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
     OSError
         If a file cannot be written; the message is one sentence.
     """
-    svg = atlas_svg(atlas)
-    picture = BytesIO()
-    write_png(picture, svg)
-    contents = {
-        ".csv": atlas_csv(atlas).encode(),
-        ".json": atlas_json(atlas).encode() + b"\n",
-        ".svg": svg.encode(),
-        ".png": picture.getvalue(),
-    }
     written = []
-    for ending, content in contents.items():
+    for ending in ENDINGS:
         path = folder / f"stress-{atlas.experiment.name}{ending}"
+        content = atlas_content(atlas, ending)
+        assert content is not None
         with whole_file(path) as file:
             file.write(content)
         written.append(path)

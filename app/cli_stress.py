@@ -11,12 +11,10 @@ from app.atlas_text import atlas_text
 from app.cli import UsageError
 from app.cli_arguments import show_progress
 from app.cli_study import seed_from_text
-from app.document import open_document
-from app.file_writing import whole_file
-from app.state_files import EXTENSION, State, save_state
+from app.shrunk_files import export_shrunk
 from core.study import machine
 from core.study.stability import Experiment, Outcome, experiments, stress
-from core.study.stability.shrink import Shrinkable, Shrunk, shrink_cell
+from core.study.stability.shrink import Shrinkable, shrink_cell
 
 DESCRIPTION = (
     """Run every method of an experiment over a grid of parameters, and print what came of every run."""
@@ -126,21 +124,3 @@ def first_failure(experiment: Experiment, method: str, seed: int) -> tuple[float
         if verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED):
             return place[::-1]
     return None
-
-
-def export_shrunk(shrunk: Shrunk, experiment: str, method: str, folder: Path) -> list[Path]:
-    """Write a small failing case as a Python test and as a state file.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written; the message is one sentence.
-    """
-    names = "-".join(part.partition("=")[2] for part in method.split())
-    test = folder / f"test_{experiment}_{names}.py".replace("-", "_")
-    with whole_file(test) as file:
-        file.write(shrunk.test.encode())
-    scene = folder / f"{experiment}-{names}{EXTENSION}"
-    document = open_document(shrunk.scene, f"{experiment}: {method}", settings=shrunk.settings)
-    save_state(scene, State(document, pin=shrunk.pixel))
-    return [test, scene]

@@ -12,7 +12,7 @@ from app.look import THEMES
 from lessons.scenes import CATALOGUE
 from widgets.theme import current_theme
 
-MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "View", "Help")
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "View", "Help")
 BEFORE_SEPARATORS = (
     "save_state",
     "copy_view",
@@ -20,9 +20,10 @@ BEFORE_SEPARATORS = (
     "visited_forward",
     "next_view",
     "predict",
-    "page_compare",
+    "page_stability",
     "previous_family",
     "fit_charts",
+    "previous_experiment",
 )
 """Actions that a separator follows."""
 

@@ -65,7 +65,7 @@ class Shrunk:
 
 
 def shrink_cell(
-    name: str,
+    experiment: str | Experiment,
     method: str,
     place: tuple[float, ...],
     seed: int = 0,
@@ -77,8 +77,8 @@ def shrink_cell(
 
     Parameters
     ----------
-    name : str
-        An experiment.
+    experiment : str or Experiment
+        One of `core.study.stability.experiment.experiments`, or another one.
     method : str
         One of its methods.
     place : tuple of float
@@ -95,7 +95,9 @@ def shrink_cell(
     StressCancelledError
         As soon as ``is_cancelled()``.
     """
-    experiment: Experiment = experiments.get(name)
+    if isinstance(experiment, str):
+        experiment = experiments.get(experiment)
+    name = experiment.info.name
     if method not in experiment.info.methods:
         raise ValueError(
             f"method of {name} must be one of {', '.join(experiment.info.methods)}, got {method}"
