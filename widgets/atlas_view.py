@@ -142,7 +142,7 @@ class AtlasView(QWidget):
 
     def show_empty(self, text: str) -> None:
         """Show no maps and say why."""
-        self.axes.setText("")
+        self.axes.hide()
         self.canvas.show_empty(text)
         self.legend.show_counts(None)
 
@@ -152,6 +152,7 @@ class AtlasView(QWidget):
         if record.up is not None:
             axes.append(f"↑ {record.up.title}{_scale(record.up.is_logarithmic)}")
         self.axes.setText("        ".join(axes))
+        self.axes.show()
         self.canvas.show_atlas(record)
         self.legend.show_counts(record)
 
