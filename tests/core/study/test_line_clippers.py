@@ -1,4 +1,4 @@
-"""Study of line clipping: exact signs are right everywhere, rounded ones off ties, the printed method not even on them."""
+"""Study of line clipping: exact signs are right everywhere, rounded ones off ties, the printed method not on ties."""
 
 import pytest
 
