@@ -19,6 +19,8 @@ from widgets.atlas_records import CellPlace
 
 MOST_DIALLED = 64
 """Triangles of a scene that are looked through for one on which the number formats disagree."""
+MOST_PIXELS = 1 << 20
+"""Of a picture that is drawn beside the maps; a larger one is only opened in the stepper."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,7 +231,9 @@ def readings_at(
 
 
 def drawn(scene: AnyScene, settings: Settings) -> Frame | None:
-    """Return the picture of a case; ``None``: a method does not take the scene."""
+    """Return the picture of a case; ``None``: a method does not take the scene, or it is too large to be looked at."""
+    if scene.size[0] * scene.size[1] > MOST_PIXELS:
+        return None
     try:
         return render(scene, settings)
     except ValueError:

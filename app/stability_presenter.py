@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.atlas_text import WORDS
 from app.session import Session
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
 from app.stability_desk import CellRun, StabilityDesk, StressOrder
@@ -18,13 +19,15 @@ from app.stability_records import (
     counts_sentence,
     experiment_text,
     method_titles,
+    place_sentence,
+    values_at,
 )
 from app.study_words import machine_words
-from core.study.stability import Atlas, ExperimentInfo, Verdict
+from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.open_scene import watertightness
 from core.study.stability.resolution import axes_at
-from widgets.atlas_records import CellPlace
+from widgets.atlas_records import UNKNOWN, CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.family_list import FamilyList
 from widgets.message_bar import Progress
@@ -195,12 +198,16 @@ class StabilityPresenter(QObject):
         place = self._hover or self.choice.chosen
         if place is None or not self.is_shown(place):
             self._readout.show_text(experiment_text(self.choice))
+            self._maps.canvas.setAccessibleDescription("")
             return
         severity, remark = self._figures(place)
         kind = int(self.cells[place.key][place.row, place.column])
         title = method_titles(self.info.methods)[place.key]
         text = cell_text(self.info, place, kind, severity, remark, title)
         self._readout.show_text(text)
+        outcome = "not run yet" if kind == UNKNOWN else WORDS[Outcome(kind)]
+        where = place_sentence(self.info, values_at(self.info, place))
+        self._maps.canvas.setAccessibleDescription(f"{title}, {where}: {outcome}")
 
     def is_shown(self, place: CellPlace) -> bool:
         """Return whether the maps that are shown have such a cell."""

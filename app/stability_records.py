@@ -127,13 +127,21 @@ def case_record(found: CaseFound) -> CaseRecord:
     is_failure = verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED)
     return CaseRecord(
         heading=f"{found.order.place.key} at {place_sentence(info, found.order.values)}",
-        verdict=verdict_sentence(verdict.outcome, verdict.remark),
+        verdict=verdict_sentence(verdict.outcome, verdict.remark) + _missing_picture(found),
         buffers=None if found.frame is None else case_buffers(found.frame),
         pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
         has_formats=found.opening is not None and has_formats(found.opening),
         can_step=found.opening is not None,
         can_shrink=is_failure and isinstance(found.order.experiment, Shrinkable),
     )
+
+
+def _missing_picture(found: CaseFound) -> str:
+    """Return why no picture is shown, where one is opened in the stepper."""
+    if found.frame is not None or found.opening is None or found.verdict.outcome is Outcome.REFUSED:
+        return ""
+    width, height = found.opening.scene.size
+    return f" Its picture has {width:,} × {height:,} pixels: open it in the stepper to see the part that matters."
 
 
 def shrunk_record(found: ShrunkFound) -> CaseRecord:
@@ -151,7 +159,8 @@ def shrunk_record(found: ShrunkFound) -> CaseRecord:
 
 def has_formats(opening: Opening) -> bool:
     """Return whether the pixels of a case can be looked at in every number format: triangles in clip space, filled."""
-    return isinstance(opening.scene, ClipScene) and opening.stage in ("edges", "raster")
+    is_filled = opening.settings.polygon_mode == "fill" and opening.stage in ("edges", "raster")
+    return is_filled and isinstance(opening.scene, ClipScene)
 
 
 def dial_row(reading: DialReading) -> DialRow:

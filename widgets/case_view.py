@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
+    QScrollArea,
     QSplitter,
     QTabWidget,
     QToolButton,
@@ -115,9 +116,14 @@ class CaseView(QWidget):
         for widget in (self.heading, self.verdict, buttons, self.values):
             column.addWidget(widget)
         column.addStretch(1)
-        words.setMinimumWidth(200)
+        scroll = QScrollArea(self)
+        scroll.setWidget(words)
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setMinimumWidth(200)
         self.parts = QSplitter(Qt.Orientation.Horizontal, self)
-        self.parts.addWidget(words)
+        self.parts.addWidget(scroll)
         self.parts.addWidget(self.tabs)
         self.parts.setStretchFactor(1, 1)
         self.parts.setSizes([330, 660])

@@ -158,6 +158,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
     assert page.runs.choice.chosen == canvas.chosen
+    assert canvas.accessibleDescription().startswith("fill=scanline-lecture, steps of the corners' lattice")
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert not canvas.hasFocus(), "before the first map Shift+Tab leaves the maps"
 
@@ -198,6 +199,27 @@ def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot
         else:
             QTest.mouseDClick(page.maps.canvas, LEFT, pos=page.maps.canvas.cell_area(place).center())
     assert window.session.document.settings.fill_rule == "inclusive"
+
+
+def test_a_picture_that_is_too_large_is_only_opened(
+    window: MainWindow, page: StabilityPage, qtbot: QtBot
+) -> None:
+    page.runs.show_experiment("line-drift")
+    page.runs.choice.resolution = "coarse"
+    atlas = run(page, qtbot)
+    worst = next(each for each in atlas.maps if each.method == "line=dda-float32")
+    column = worst.outcome.shape[1] - 1
+    row = int(np.flatnonzero(worst.outcome[:, column] != Outcome.RIGHT)[0])
+    click(page, CellPlace(worst.method, column, row))
+    wait_for_case(page, qtbot)
+    found = page.opened.found
+    assert found is not None
+    assert found.opening is not None
+    assert found.frame is None
+    assert "open it in the stepper" in page.case.verdict.text()
+    with qtbot.waitSignal(window.opening.opened, timeout=60000):
+        QTest.mouseClick(page.case.step_button, LEFT)
+    assert window.session.pin == found.opening.pixel
 
 
 def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
