@@ -2,22 +2,44 @@
 
 from core.study.families import study_families, study_family
 from core.study.machine import machine
+from core.study.planner import (
+    Decision,
+    Findings,
+    Plan,
+    PlanReport,
+    Tolerance,
+    everything_on,
+    look_at,
+    measure_plan,
+    plan,
+    plan_and_check,
+)
 from core.study.record import ErrorMeasure, Opening, Pictures, Point, Study, WorkKind, pareto_front
 from core.study.speed_accuracy import StudyCancelledError, measure, opening, pictures
 
 __all__ = [
+    "Decision",
     "ErrorMeasure",
+    "Findings",
     "Opening",
     "Pictures",
+    "Plan",
+    "PlanReport",
     "Point",
     "Study",
     "StudyCancelledError",
+    "Tolerance",
     "WorkKind",
+    "everything_on",
+    "look_at",
     "machine",
     "measure",
+    "measure_plan",
     "opening",
     "pareto_front",
     "pictures",
+    "plan",
+    "plan_and_check",
     "study_families",
     "study_family",
 ]

@@ -1,0 +1,31 @@
+"""No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance."""
+
+from core.study.planner.everything import everything_on
+from core.study.planner.measuring import measure_plan, plan_and_check
+from core.study.planner.planning import look_at, plan
+from core.study.planner.records import (
+    Decision,
+    Fact,
+    Findings,
+    Outcome,
+    Plan,
+    PlanReport,
+    Tessellation,
+    Tolerance,
+)
+
+__all__ = [
+    "Decision",
+    "Fact",
+    "Findings",
+    "Outcome",
+    "Plan",
+    "PlanReport",
+    "Tessellation",
+    "Tolerance",
+    "everything_on",
+    "look_at",
+    "measure_plan",
+    "plan",
+    "plan_and_check",
+]

@@ -1,0 +1,79 @@
+"""What a look shows of a scene, to be read: signs of w, closedness, layers, texels, colours, light."""
+
+import numpy as np
+
+from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
+from core.scene import AnyScene, Scene
+from core.study.planner.color_ranges import ColorRanges, w_ratio
+from core.study.planner.light_ranges import cones
+from core.study.planner.records import Fact
+from core.study.planner.surfaces import format_margin, surfaces
+from core.study.planner.touched import Touched
+
+
+def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fact, ...]:
+    """Return the facts in pipeline order."""
+    geometry = touched.geometry
+    w = geometry.assembled.vertex_clip[3].take(geometry.assembled.corner)
+    negative = int(np.count_nonzero((w <= 0).any(axis=0)))
+    cut = joined_bits(outcodes(geometry.assembled.vertex_clip.T), geometry.assembled.corner)
+    seen = surfaces(touched, colors, scene.background, format_margin("z-float32"))
+    layers = np.bincount(touched.pixel[seen.is_candidate], minlength=touched.pixel_count)
+    primitive = np.unique(touched.primitive[seen.is_candidate])
+    facts = [
+        Fact("triangles", "Triangles", f"{w.shape[1]:,}"),
+        Fact("w-signs", "Triangles with a corner that is not in front of the eye", f"{negative:,}"),
+        Fact("cut", "Triangles that cross a plane of the view volume, or lie beyond one", _count(has_bits(cut, PLANE_BITS))),
+        Fact("w-ratio", "Largest ratio of w in a triangle", f"{w_ratio(touched)[primitive].max(initial=1.0):.4g}"),
+        Fact("closed", "Closed meshes", _closed(scene)),
+        Fact("layers", "Triangles that may be seen in a pixel, at most", f"{int(layers.max(initial=0)):,}"),
+        Fact("depth-range", "Window depth", _depth_range(touched)),
+        Fact("contrast", "Pixels whose candidates differ by more than 2/255", _count(seen.width > 2)),
+        Fact("largest-contrast", "Largest difference within a pixel", f"{seen.width.max(initial=0.0):.3g}/255"),
+    ]
+    lod = colors.lod[seen.is_candidate]
+    if np.isfinite(lod).any():
+        texels = float(np.exp2(lod[np.isfinite(lod)]).max())
+        facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{texels:.3g} texels"))
+    if "normal" in geometry.primitives.layout:
+        normal = geometry.primitives.varyings[..., geometry.primitives.layout["normal"]]
+        radius = cones(normal.swapaxes(0, 1)).radius[primitive]
+        angle = f"{np.degrees(radius.max(initial=0.0)):.3g} degrees"
+        facts.append(Fact("normals", "Largest angle of a normal from the middle of its triangle", angle))
+    return tuple(facts)
+
+
+def _count(flags: np.ndarray) -> str:
+    return f"{int(np.count_nonzero(flags)):,} of {flags.size:,}"
+
+
+def _depth_range(touched: Touched) -> str:
+    depth = touched.geometry.depth
+    depth = depth[np.isfinite(depth)]
+    return f"{depth.min():.6g} to {depth.max():.6g}" if depth.size else "nothing is in view"
+
+
+def _closed(scene: AnyScene) -> str:
+    if not isinstance(scene, Scene):
+        return "not known: triangles given one by one"
+    closed = sum(is_closed(mesh.positions, mesh.triangles) for mesh in scene.meshes)
+    return f"{closed:,} of {len(scene.meshes):,}"
+
+
+def is_closed(positions: np.ndarray, triangles: np.ndarray) -> bool:
+    """Tell whether every edge of a mesh is gone along as often one way as the other.
+
+    Parameters
+    ----------
+    positions : (N, 3) float64
+    triangles : (T, 3) int64
+
+    Notes
+    -----
+    Vertices at one place are the same, as meshes double them along seams of texture coordinates.
+    """
+    vertex = np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[triangles]
+    start, end = vertex, np.roll(vertex, -1, axis=1)
+    keys = np.stack([np.minimum(start, end), np.maximum(start, end)], axis=-1).reshape(-1, 2)
+    edge = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+    return not bool(np.bincount(edge, np.sign(end - start).reshape(-1)).any())

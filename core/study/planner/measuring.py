@@ -1,0 +1,139 @@
+"""Measuring a plan: never trust a prediction."""
+
+from copy import copy
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.framebuffer.display import to_display
+from core.picture import draw_picture
+from core.pipeline import render
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.planner.planning import plan
+from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
+from core.study.speed_accuracy import collector_off
+
+ROUNDS = 5
+
+
+def measure_plan(
+    scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, fallen_back: tuple[str, ...] = ()
+) -> PlanReport:
+    """Draw a scene with everything on, with a plan's settings, and with each of its decisions alone.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    chosen : Plan
+    rounds : int
+        Timed drawings of each, in turn, from 1 on.
+    fallen_back : tuple of str
+        As `PlanReport.fallen_back`.
+
+    Notes
+    -----
+    Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are those
+    of `draw_picture`, each of a scene that nothing is known of.
+    """
+    reference = shown(scene, chosen.everything)
+    outcomes = []
+    for decision in chosen.decisions:
+        if decision.chosen != decision.dearest:
+            alone = replace(chosen.everything, **{decision.setting: decision.chosen})
+            outcomes.append(_outcome(decision, difference(shown(scene, alone), reference)))
+    differences = difference(shown(scene, chosen.settings), reference)
+    beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
+    times = _times(scene, (chosen.everything, chosen.settings), max(rounds, 1))
+    is_within = beyond <= chosen.tolerance.pixels
+    ratio = float(np.median(times[0]) / np.median(times[1]))
+    largest = int(differences.max(initial=0))
+    text = (
+        f"{'Within' if is_within else 'Beyond'} the tolerance: measured {largest}/255 at most, {beyond:,} pixels beyond "
+        f"{chosen.tolerance.bytes}/255, {chosen.tolerance.pixels:,} allowed; {ratio:.3g} times as fast as everything on."
+    )
+    return PlanReport(
+        scene, chosen, tuple(outcomes), largest, beyond, is_within, times[0], times[1], text, fallen_back
+    )
+
+
+def plan_and_check(
+    scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None, rounds: int = ROUNDS
+) -> PlanReport:
+    """Plan, measure, and where the tolerance does not hold put decisions back until it does.
+
+    Notes
+    -----
+    The decision whose own measured error is largest goes back first; everything on is within any tolerance.
+    """
+    chosen = plan(scene, tolerance, base)
+    report = measure_plan(scene, chosen, rounds)
+    fallen_back: list[str] = []
+    while not report.is_within:
+        worst = max(report.outcomes, key=lambda outcome: (outcome.measured_pixels, outcome.measured_error))
+        fallen_back.append(worst.decision.setting)
+        chosen = put_back(chosen, worst.decision.setting)
+        report = measure_plan(scene, chosen, rounds, tuple(fallen_back))
+    return report
+
+
+def put_back(chosen: Plan, setting: str) -> Plan:
+    """Return a plan that keeps the dearest method of one stage."""
+    decisions = []
+    for decision in chosen.decisions:
+        if decision.setting == setting:
+            reason = f"{decision.chosen} was measured to be too far off, so {decision.dearest} is kept."
+            decision = replace(
+                decision,
+                chosen=decision.dearest,
+                reason=reason,
+                predicted_error=0.0,
+                predicted_pixels=0,
+                is_needed=True,
+            )
+        decisions.append(decision)
+    settings = replace(chosen.settings, **{setting: getattr(chosen.everything, setting)})
+    return replace(chosen, decisions=tuple(decisions), settings=settings)
+
+
+def shown(scene: AnyScene, settings: Settings) -> Integers:
+    """Return the red, green and blue bytes of a picture, (H, W, 3) int64."""
+    return to_display(render(copy(scene), settings).color).pixels[..., :3].astype(np.int64)
+
+
+def difference(first: Integers, second: Integers) -> Integers:
+    """Return the difference of the channel that differs most, (H, W) int64, of pictures (H, W, 3)."""
+    return np.asarray(np.abs(first - second).max(axis=2, initial=0))
+
+
+def _outcome(decision: Decision, differences: Integers) -> Outcome:
+    """Compare one decision's prediction with the (H, W) differences that it alone makes."""
+    allowed = int(np.ceil(decision.predicted_error))
+    beyond = int(np.count_nonzero(differences > allowed))
+    ranked = np.sort(differences.ravel())[::-1]
+    place = min(decision.predicted_pixels, len(ranked) - 1)
+    measured = float(ranked[place])
+    is_right = beyond <= decision.predicted_pixels
+    pixels = f" but for {decision.predicted_pixels:,} pixels" if decision.predicted_pixels else ""
+    text = f"predicted {decision.predicted_error:.3g}/255{pixels}, measured {measured:g}/255"
+    if decision.predicted_pixels:
+        text += f" and {beyond:,} pixels"
+    verdict = "the prediction held" if is_right else "the prediction was wrong"
+    return Outcome(decision, measured, beyond, is_right, f"{text}: {verdict}")
+
+
+def _times(scene: AnyScene, choices: tuple[Settings, Settings], rounds: int) -> tuple[Floats, Floats]:
+    """Return the seconds (R,) of drawings with both settings, taken in turn after one that does not count."""
+    times: tuple[list[float], list[float]] = [], []
+    for settings in choices:
+        draw_picture(copy(scene), settings)
+    for number in range(rounds):
+        for place in (number % 2, 1 - number % 2):
+            fresh = copy(scene)
+            with collector_off():
+                start = perf_counter()
+                draw_picture(fresh, choices[place])
+                times[place].append(perf_counter() - start)
+    return np.array(times[0]), np.array(times[1])

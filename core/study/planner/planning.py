@@ -1,0 +1,136 @@
+"""The plan: look at a scene, choose stage by stage what is cheapest within the tolerance, and say why."""
+
+from dataclasses import replace
+from time import perf_counter
+
+from core.methods import table
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.planner.color_ranges import ColorRanges, color_ranges
+from core.study.planner.everything import everything_on
+from core.study.planner.facts import facts_of
+from core.study.planner.reasons import surface_reasons, value_reasons
+from core.study.planner.records import Decision, Findings, Plan, Tolerance
+from core.study.planner.surface_choice import SurfaceChoice, choose_surfaces
+from core.study.planner.tessellation import tessellations
+from core.study.planner.touched import Touched, touch
+from core.study.planner.value_choice import ValueChoice, choose_values
+
+STAGES = (
+    "cull",
+    "clipping",
+    "interpolation",
+    "texture_filter",
+    "shading",
+    "visibility",
+    "depth",
+    "blend",
+    "antialiasing",
+)
+"""Families that a plan decides on, in pipeline order."""
+
+
+def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:
+    """Look at a scene, and return what a plan would be made of.
+
+    Notes
+    -----
+    See ``touched`` for what the look costs: about as much as one or two unantialiased pictures with all buffers.
+    """
+    start = perf_counter()
+    touched, colors = _look(scene, everything_on(scene, base))
+    return Findings(facts_of(touched, colors, scene), perf_counter() - start)
+
+
+def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None) -> Plan:
+    """Choose the cheapest methods whose bounded errors stay within a tolerance.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    tolerance : Tolerance, optional
+    base : Settings, optional
+        What to draw, not how well, see `everything_on`.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    ValueError
+        If the scene is too large to be looked at, see ``touched.MOST_PAIRS``.
+
+    Notes
+    -----
+    Bounds of colour are sums, see ``surface_choice`` and ``value_choice``. Outlines have no areas to be bounded: of a
+    wireframe everything is kept.
+    """
+    tolerance = tolerance or Tolerance()
+    everything = everything_on(scene, base)
+    start = perf_counter()
+    touched, colors = _look(scene, everything)
+    findings = Findings(facts_of(touched, colors, scene), perf_counter() - start)
+    advice = tessellations(scene)
+    if table.get("polygon_mode", everything.polygon_mode).function():
+        kept = tuple(
+            Decision(name, getattr(everything, name), getattr(everything, name), WIREFRAME, 0.0) for name in STAGES
+        )
+        return Plan(tolerance, everything, everything, kept, findings, advice)
+    surface = choose_surfaces(touched, colors, scene, everything, tolerance)
+    left = tolerance.bytes - surface.error
+    values = choose_values(
+        touched, colors, scene, surface.settings, surface.surfaces.is_candidate, left, surface.side
+    )
+    chosen = replace(surface.settings, **{name: value.chosen for name, value in values.items()})
+    decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors)
+    error = surface.error + sum(value.error for value in values.values())
+    return Plan(tolerance, everything, chosen, decisions, findings, advice, error, surface.pixels)
+
+
+WIREFRAME = "Outlines have no areas whose colours could be bounded, so nothing is left out."
+
+
+def _look(scene: AnyScene, everything: Settings) -> tuple[Touched, ColorRanges]:
+    touched = touch(scene, replace(everything, polygon_mode="fill"))
+    return touched, color_ranges(touched, scene, everything)
+
+
+def _decisions(
+    everything: Settings,
+    chosen: Settings,
+    surface: SurfaceChoice,
+    values: dict[str, ValueChoice],
+    tolerance: Tolerance,
+    touched: Touched,
+    colors: ColorRanges,
+) -> tuple[Decision, ...]:
+    reasons = surface_reasons(surface, everything, chosen, tolerance)
+    reasons |= value_reasons(values, surface, touched, colors)
+    decisions = []
+    for name in STAGES:
+        dearest, found = getattr(everything, name), getattr(chosen, name)
+        error, pixels = 0.0, 0
+        if name in values:
+            error = values[name].error
+        elif name in SHARED and found != dearest:
+            error = surface.error
+            pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(name, surface.pixels)
+        is_needed = found == dearest and dearest != CHEAPEST[name]
+        decisions.append(Decision(name, found, dearest, reasons[name], error, pixels, is_needed))
+    return tuple(decisions)
+
+
+SHARED = ("cull", "clipping", "depth", "antialiasing")
+"""Families that share one bound where there is one sample a pixel."""
+CHEAPEST = {
+    "cull": "back",
+    "clipping": "homogeneous",
+    "interpolation": "flat",
+    "texture_filter": "nearest",
+    "shading": "unlit",
+    "visibility": "last-drawn",
+    "depth": "z-16",
+    "blend": "opaque",
+    "antialiasing": "none",
+}

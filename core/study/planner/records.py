@@ -1,0 +1,162 @@
+"""What the planner is asked, what it saw, what it chose, and what was measured."""
+
+from dataclasses import dataclass, field
+from math import floor
+
+import numpy as np
+
+from core.arrays import Floats
+from core.scene import AnyScene
+from core.settings import Settings
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """At most ``pixels`` pixels may differ from the reference picture by more than ``color``.
+
+    The reference is the picture of `everything_on`. Colours are compared as a screen shows them: sRGB bytes, the
+    channel that differs most. Bytes are whole, so a ``color`` of 2.5 allows no more than 2.
+    """
+
+    color: float = 2.0
+    """In 1/255, 0 to 255."""
+    pixels: int = 0
+    """How many pixels may differ by more."""
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.color <= 255:
+            raise ValueError(f"tolerance color must be from 0 to 255, got {self.color}")
+        if type(self.pixels) is not int or self.pixels < 0:
+            raise ValueError(f"tolerance pixels must be a whole number from 0 on, got {self.pixels!r}")
+
+    @classmethod
+    def exact(cls) -> "Tolerance":
+        """Return the tolerance that no byte of no pixel may differ."""
+        return cls(0.0, 0)
+
+    @property
+    def bytes(self) -> int:
+        """The largest difference of bytes that is within ``color``."""
+        return floor(self.color)
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One thing that was seen in the scene."""
+
+    name: str
+    """Key, as ``w-ratio``."""
+    title: str
+    """What a person reads: ``Largest ratio of w in a triangle``."""
+    text: str
+    """The value with its unit, as ``3.2``, ``12 of 40 triangles``, ``yes``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """What was seen in a scene before anything was chosen."""
+
+    facts: tuple[Fact, ...]
+    """In pipeline order, to be read."""
+    seconds: float
+    """How long the looking took."""
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What was chosen at one stage, and why."""
+
+    setting: str
+    """Family of the methods, as ``depth``."""
+    chosen: str
+    """Name of the method chosen."""
+    dearest: str
+    """Name of the method of everything on."""
+    reason: str
+    """One sentence with the numbers."""
+    predicted_error: float
+    """Bound of the error of this choice alone, in 1/255 of an sRGB byte's range: every pixel but `predicted_pixels`."""
+    predicted_pixels: int = 0
+    """Pixels that may differ by more than that."""
+    is_needed: bool = False
+    """Whether the dearest method is kept although there are cheaper ones."""
+    unit: str = "1/255"
+
+
+@dataclass(frozen=True, eq=False)
+class Tessellation:
+    """How far a mesh's facets lie from the smooth surface that its normals speak of: advice, not applied."""
+
+    mesh: str
+    """Name of the mesh."""
+    triangles: int
+    deviation: float
+    """Largest distance of a facet from the smooth surface, in pixels."""
+    wanted: int
+    """Triangles that would do for a deviation of a quarter of a pixel, about."""
+    text: str
+    """One sentence with the numbers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """The cheapest methods whose bounded errors stay within a tolerance."""
+
+    tolerance: Tolerance
+    everything: Settings
+    """Settings of the reference picture."""
+    settings: Settings
+    """Settings that were chosen."""
+    decisions: tuple[Decision, ...]
+    """In pipeline order."""
+    findings: Findings
+    tessellations: tuple[Tessellation, ...] = ()
+
+    predicted_error: float = 0.0
+    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, where stages that share one count once."""
+    predicted_pixels: int = 0
+    """Pixels that may differ by more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """One decision's prediction against what was measured: everything on but for this choice."""
+
+    decision: Decision
+    measured_error: float
+    """Largest difference of any pixel but the `Decision.predicted_pixels` that differ most, in 1/255."""
+    measured_pixels: int
+    """Pixels that differ by more than the prediction, rounded up to whole bytes."""
+    is_right: bool
+    """Whether the prediction held."""
+    text: str
+    """As ``predicted 0.8/255, measured 1.4/255: the prediction was wrong``."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlanReport:
+    """A plan, measured."""
+
+    scene: AnyScene
+    plan: Plan
+    outcomes: tuple[Outcome, ...]
+    """One for each decision that chose something else than the dearest method."""
+    largest_error: float
+    """Largest difference of any pixel of the chosen settings from the reference, in 1/255."""
+    pixels_beyond: int
+    """Pixels that differ by more than the tolerance's colour."""
+    is_within: bool
+    """Whether the tolerance holds."""
+    seconds_everything: Floats
+    """(R,) float64, drawings of everything on."""
+    seconds_chosen: Floats
+    """(R,) float64, drawings with the chosen settings, taken in turn with the others."""
+    text: str
+    """One sentence: whether the tolerance holds, and how much time is saved."""
+    fallen_back: tuple[str, ...] = field(default=())
+    """Settings that were put back to the dearest method since the first plan was not within the tolerance."""
+
+    @property
+    def time_saved(self) -> float:
+        """Part of the time of everything on that is saved, by the medians: 0.9 is ten times as fast."""
+        return 1 - float(np.median(self.seconds_chosen)) / float(np.median(self.seconds_everything))

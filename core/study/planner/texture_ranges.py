@@ -1,0 +1,119 @@
+"""What a texture can look like somewhere in it: least and largest texels of blocks, and how its levels differ.
+
+Every filter mixes texels with weights that sum to 1, so a colour lies between the least and the largest texel that the
+filter reaches. Blocks of 2^k texels are kept for every k; nine of them around a place hold all within 2^k texels.
+"""
+
+from dataclasses import dataclass
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.fragments.textures import texture_colors
+from core.scene import Texture
+
+_kept: WeakKeyDictionary[Texture, "TextureRanges"] = WeakKeyDictionary()
+
+
+@dataclass(frozen=True, eq=False)
+class TextureRanges:
+    """Blocks of a texture of h x w texels, level k of blocks of 2^k texels each way."""
+
+    low: tuple[Floats, ...]
+    """(h_k, w_k, C) float64 each."""
+    high: tuple[Floats, ...]
+    neighbours: Floats
+    """(C,) float64, largest difference within four texels around any place."""
+    contrast: Floats
+    """(C,) float64, largest less least texel."""
+
+
+def texture_ranges(texture: Texture) -> TextureRanges:
+    """Return the blocks of a texture; they are made once."""
+    if texture not in _kept:
+        _kept[texture] = _make(texture.pixels.astype(np.float64))
+    return _kept[texture]
+
+
+def _make(texels: Floats) -> TextureRanges:
+    low, high = [texels], [texels]
+    while max(low[-1].shape[:2]) > 1:
+        low.append(_pool(low[-1], np.minimum))
+        high.append(_pool(high[-1], np.maximum))
+    around = [np.roll(texels, shift, (0, 1)) for shift in ((0, 0), (1, 0), (0, 1), (1, 1))]
+    spread = np.max(around, axis=0) - np.min(around, axis=0)
+    return TextureRanges(tuple(low), tuple(high), spread.max(axis=(0, 1)), np.ptp(texels, axis=(0, 1)))
+
+
+def _pool(texels: Floats, choose: np.ufunc) -> Floats:
+    for axis in (0, 1):
+        if texels.shape[axis] % 2:
+            last = texels.take([-1], axis=axis)
+            texels = np.concatenate([texels, last], axis=axis)
+        even, odd = (texels.take(range(start, texels.shape[axis], 2), axis=axis) for start in (0, 1))
+        texels = choose(even, odd)
+    return texels
+
+
+def magnified_range(texture: Texture, low: Floats, high: Floats, wrap: str) -> tuple[Floats, Floats]:
+    """Return the least and largest bilinear colours (Q, C) over texture coordinates from ``low`` to ``high`` (Q, 2).
+
+    Notes
+    -----
+    A step of one texel changes a bilinear colour by no more than neighbouring texels differ, each way.
+    """
+    height, width, channels = texture.pixels.shape
+    with np.errstate(invalid="ignore", over="ignore"):
+        reach = ((high - low) / 2 * (width, height)).sum(axis=1)[:, None]
+        spread = np.nan_to_num(reach * texture_ranges(texture).neighbours, nan=np.inf, posinf=np.inf)
+    middle = texture_colors(texture, np.nan_to_num((low + high) / 2), "bilinear", wrap)[:, :channels]
+    return middle - spread, middle + spread
+
+
+def range_around(
+    texture: Texture, low: Floats, high: Floats, reach: Floats, wrap: str
+) -> tuple[Floats, Floats]:
+    """Return the least and largest colours (Q, C) of what filters read there.
+
+    Parameters
+    ----------
+    low, high : (Q, 2) float64
+        Range of the texture coordinates.
+    reach : (Q,) float64
+        How many texels around it are read.
+    wrap : str
+        Only ``repeat`` is looked at in parts; for the others it is the whole texture.
+    """
+    ranges = texture_ranges(texture)
+    height, width = texture.pixels.shape[:2]
+    scale = np.array([width, height])
+    with np.errstate(invalid="ignore", over="ignore"):
+        half = ((high - low) / 2 * scale).max(axis=1) + reach
+        middle = (low + high) / 2 * scale
+        level = np.ceil(np.log2(np.maximum(half, 1e-9)))
+    top = len(ranges.low) - 1
+    is_whole = ~(level < top - 1) | ~np.isfinite(middle).all(axis=1) | (wrap != "repeat")
+    # Sides that are no power of two leave a smaller last block, and beyond it texels go on at the start.
+    is_whole |= (height & (height - 1) != 0) or (width & (width - 1) != 0)
+    least = np.broadcast_to(ranges.low[0].min(axis=(0, 1)), (len(low), texture.pixels.shape[2])).copy()
+    most = np.broadcast_to(ranges.high[0].max(axis=(0, 1)), least.shape).copy()
+    number = np.where(is_whole, -1, np.maximum(level, 0)).astype(np.int64)
+    for k in np.unique(number[number >= 0]).tolist():
+        chosen = np.flatnonzero(number == k)
+        block = np.floor(middle[chosen] / 2.0**k).astype(np.int64)
+        parts_low, parts_high = _nine(ranges.low[k], block), _nine(ranges.high[k], block)
+        least[chosen], most[chosen] = parts_low.min(axis=0), parts_high.max(axis=0)
+    return least, most
+
+
+def _nine(blocks: Floats, place: Integers) -> Floats:
+    """Return (9, Q, C): the blocks around places (Q, 2) of column and row; they repeat."""
+    rows, columns = blocks.shape[:2]
+    return np.stack(
+        [
+            blocks[(place[:, 1] + up) % rows, (place[:, 0] + right) % columns]
+            for up in (-1, 0, 1)
+            for right in (-1, 0, 1)
+        ]
+    )

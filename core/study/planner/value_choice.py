@@ -1,0 +1,108 @@
+"""Choosing shading, texture filter and interpolation: each the cheapest whose bound still fits into the tolerance.
+
+Their errors are bounds of linear light at every sample, so they add up, whatever the number of samples; each is turned
+into bytes where the light is darkest after all that came before.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Floats
+from core.scene import AnyScene, Scene
+from core.settings import Settings
+from core.study.planner.bytes import byte_error
+from core.study.planner.color_ranges import ColorRanges
+from core.study.planner.touched import Touched
+from core.study.planner.value_bounds import (
+    filter_error,
+    interpolation_error,
+    shading_error,
+    share_of_range,
+    times,
+)
+
+FILTERS = ("nearest", "bilinear")
+SHADINGS = ("unlit", "flat", "gouraud")
+INTERPOLATIONS = ("flat", "affine", "affine-n")
+ROUNDING = 1e-9
+"""Bounds below this, in 1/255, are rounding of equal colours."""
+
+
+@dataclass(frozen=True)
+class ValueChoice:
+    """What was chosen of one family, and the bounds of the others that are cheaper."""
+
+    chosen: str
+    error: float
+    """Bound in 1/255."""
+    rejected: tuple[tuple[str, float], ...]
+    """Cheaper methods and their bounds in 1/255, which are too large."""
+
+
+class Budget:
+    """What is left of the tolerance, at the pairs that can be seen."""
+
+    def __init__(self, colors: ColorRanges, seen: Flags, left: float) -> None:
+        self._low, self._seen = colors.low[seen], seen
+        self._spent = np.zeros_like(self._low)
+        self.left = left
+
+    def cost(self, error: Floats) -> float:
+        """Return what an error (Q, 3) of linear light costs, in 1/255."""
+        here = error[self._seen]
+        if not here.size:
+            return 0.0
+        dark = np.maximum(self._low - self._spent - np.nan_to_num(here, nan=np.inf, posinf=np.inf), 0.0)
+        found = float(byte_error(dark, here).max())
+        return 0.0 if found < ROUNDING else found
+
+    def choose(self, options: dict[str, Floats], dearest: str) -> ValueChoice:
+        """Return the first of the ``options``, each with its error (Q, 3), that fits, and spend it."""
+        rejected = []
+        for name, error in options.items():
+            cost = self.cost(error)
+            if cost <= self.left:
+                self.left -= cost
+                self._spent += error[self._seen]
+                return ValueChoice(name, cost, tuple(rejected))
+            rejected.append((name, cost))
+        return ValueChoice(dearest, 0.0, tuple(rejected))
+
+
+def choose_values(
+    touched: Touched,
+    colors: ColorRanges,
+    scene: AnyScene,
+    settings: Settings,
+    seen: Flags,
+    left: float,
+    side: int,
+) -> dict[str, ValueChoice]:
+    """Choose by family, with ``left`` of the tolerance in 1/255 and ``side`` x ``side`` samples a pixel."""
+    budget = Budget(colors, seen, left)
+    shading = ValueChoice(settings.shading, 0.0, ())
+    if isinstance(scene, Scene) and settings.shading != "unlit":
+        errors = {}
+        for name in SHADINGS:
+            light = shading_error(touched, scene, name)
+            primitive = touched.primitive
+            errors[name] = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+        shading = budget.choose(errors, settings.shading)
+    has_texture = "uv" in touched.geometry.primitives.layout
+    filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
+    found = budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
+
+    def moved(share: Floats) -> Floats:
+        return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
+
+    one = np.ones(len(touched.facing))
+    shares = {
+        "flat": one,
+        "affine": share_of_range(touched),
+        "affine-n": share_of_range(touched, settings.correction_interval),
+    }
+    interpolation = budget.choose(
+        {name: moved(shares[name]) for name in INTERPOLATIONS}, settings.interpolation
+    )
+    return {"interpolation": interpolation, "texture_filter": found, "shading": shading}
