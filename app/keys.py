@@ -42,6 +42,7 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
 )
 MEASURING = "Measuring"
 CHARTS = "Charts"
+PLANNING = "Planning"
 
 ACTIONS: tuple[KeyAction, ...] = (
     *_on(
@@ -102,6 +103,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     ),
     KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
+    KeyAction("page_plan", ("Alt+4",), "What does this scene need?", PAGES, "View", is_checkable=True),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Page before", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
@@ -130,6 +132,9 @@ ACTIONS: tuple[KeyAction, ...] = (
     *_on(
         "compare",
         KeyAction("measure", ("F5",), "Measure all methods of the family", MEASURING, "Compare"),
+        KeyAction(
+            "measure_scene", ("Ctrl+M",), "Measure the whole pipeline on the open scene", MEASURING, "Compare"
+        ),
         KeyAction("cancel_measuring", ("Shift+F5",), "Cancel measuring", MEASURING, "Compare"),
         KeyAction("next_family", ("Ctrl+PgDown",), "Next family", MEASURING, "Compare"),
         KeyAction("previous_family", ("Ctrl+PgUp",), "Family before", MEASURING, "Compare"),
@@ -146,6 +151,15 @@ ACTIONS: tuple[KeyAction, ...] = (
             "Compare",
         ),
         KeyAction("copy_pictures", (), "Copy the pictures", CHARTS, "Compare"),
+    ),
+    *_on(
+        "plan",
+        KeyAction("look", ("F5",), "Look at the scene and choose", PLANNING, "Plan"),
+        KeyAction("cancel_look", ("Shift+F5",), "Stop looking", PLANNING, "Plan"),
+        KeyAction("apply_plan", ("Ctrl+Return",), "Apply what was chosen", PLANNING, "Plan"),
+        KeyAction("plan_difference", ("D",), "Difference from everything on", PLANNING, "Plan"),
+        KeyAction("plan_chart", ("Ctrl+M",), "Show the choice on the chart of the scene", PLANNING, "Plan"),
+        KeyAction("plan_findings", ("I",), "Show or hide what was seen in the scene", PLANNING, "Plan"),
     ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),

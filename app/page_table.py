@@ -17,6 +17,12 @@ def _make_compare(session: Session, parent: QWidget) -> Page:
     return ComparePage(session, parent)
 
 
+def _make_plan(session: Session, parent: QWidget) -> Page:
+    from app.plan_page import PlanPage  # As above.
+
+    return PlanPage(session, parent)
+
+
 PAGE_KINDS = (
     PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
     PageKind(
@@ -26,6 +32,7 @@ PAGE_KINDS = (
         _make_compare,
         (".json",),
     ),
+    PageKind("plan", "Plan", "What does this scene need? No more than that (Alt+4)", _make_plan),
 )
 
 

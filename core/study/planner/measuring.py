@@ -1,5 +1,6 @@
 """Measuring a plan: never trust a prediction."""
 
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import replace
 from time import perf_counter
@@ -17,10 +18,20 @@ from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tole
 from core.study.speed_accuracy import collector_off
 
 ROUNDS = 5
+Watch = Callable[[float, str], None]
+"""Told before every drawing the part that is done and what comes next; whatever it raises ends the measuring."""
+
+
+def unwatched(done: float, doing: str) -> None:
+    """Let everything be drawn."""
 
 
 def measure_plan(
-    scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, fallen_back: tuple[str, ...] = ()
+    scene: AnyScene,
+    chosen: Plan,
+    rounds: int = ROUNDS,
+    fallen_back: tuple[str, ...] = (),
+    watch: Watch = unwatched,
 ) -> PlanReport:
     """Draw a scene with everything on, with a plan's settings, and with each of its decisions alone.
 
@@ -32,21 +43,39 @@ def measure_plan(
         Timed drawings of each, in turn, from 1 on.
     fallen_back : tuple of str
         As `PlanReport.fallen_back`.
+    watch : callable, optional
+        Told what is drawn, see `Watch`.
 
     Notes
     -----
     Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are those
     of `draw_picture`, each of a scene that nothing is known of.
     """
+    cheaper = [decision for decision in chosen.decisions if decision.chosen != decision.dearest]
+    alone = [replace(chosen.everything, **{each.setting: each.chosen}) for each in cheaper]
+    titles = ["everything on", "the chosen settings", *(f"{each.setting} {each.chosen} alone" for each in cheaper)]
+    count = (2 + max(rounds, 1)) * len(titles)
+    drawn = 0
+
+    def next_drawing(place: int, what: str) -> None:
+        nonlocal drawn
+        watch(drawn / count, f"{what} {titles[place]}")
+        drawn += 1
+
+    next_drawing(0, "Comparing")
     reference = shown(scene, chosen.everything)
-    outcomes = []
-    for decision in chosen.decisions:
-        if decision.chosen != decision.dearest:
-            alone = replace(chosen.everything, **{decision.setting: decision.chosen})
-            outcomes.append(_outcome(decision, difference(shown(scene, alone), reference)))
+    next_drawing(1, "Comparing")
     differences = difference(shown(scene, chosen.settings), reference)
     beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
-    times = _times(scene, (chosen.everything, chosen.settings), max(rounds, 1))
+    found = []
+    for place, settings in enumerate(alone):
+        next_drawing(2 + place, "Comparing")
+        found.append(difference(shown(scene, settings), reference))
+    times = _times(scene, (chosen.everything, chosen.settings, *alone), max(rounds, 1), next_drawing)
+    outcomes = [
+        replace(_outcome(decision, differs), seconds=seconds)
+        for decision, differs, seconds in zip(cheaper, found, times[2:], strict=True)
+    ]
     is_within = beyond <= chosen.tolerance.pixels
     ratio = float(np.median(times[0]) / np.median(times[1]))
     largest = int(differences.max(initial=0))
@@ -62,20 +91,24 @@ def measure_plan(
 def plan_and_check(
     scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None, rounds: int = ROUNDS
 ) -> PlanReport:
-    """Plan, measure, and where the tolerance does not hold put decisions back until it does.
+    """Plan, measure, and where the tolerance does not hold put decisions back until it does, see `check_plan`."""
+    return check_plan(scene, plan(scene, tolerance, base), rounds)
+
+
+def check_plan(scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, watch: Watch = unwatched) -> PlanReport:
+    """Measure a plan, and where the tolerance does not hold put decisions back until it does.
 
     Notes
     -----
     The decision whose own measured error is largest goes back first; everything on is within any tolerance.
     """
-    chosen = plan(scene, tolerance, base)
-    report = measure_plan(scene, chosen, rounds)
+    report = measure_plan(scene, chosen, rounds, watch=watch)
     fallen_back: list[str] = []
     while not report.is_within:
         worst = max(report.outcomes, key=lambda outcome: (outcome.measured_pixels, outcome.measured_error))
         fallen_back.append(worst.decision.setting)
         chosen = put_back(chosen, worst.decision.setting)
-        report = measure_plan(scene, chosen, rounds, tuple(fallen_back))
+        report = measure_plan(scene, chosen, rounds, tuple(fallen_back), watch)
     return report
 
 
@@ -124,16 +157,21 @@ def _outcome(decision: Decision, differences: Integers) -> Outcome:
     return Outcome(decision, measured, beyond, is_right, f"{text}: {verdict}")
 
 
-def _times(scene: AnyScene, choices: tuple[Settings, Settings], rounds: int) -> tuple[Floats, Floats]:
-    """Return the seconds (R,) of drawings with both settings, taken in turn after one that does not count."""
-    times: tuple[list[float], list[float]] = [], []
-    for settings in choices:
+def _times(
+    scene: AnyScene, choices: Sequence[Settings], rounds: int, next_drawing: Callable[[int, str], None]
+) -> list[Floats]:
+    """Return for each settings the seconds (R,) of drawings, taken in turn after one that does not count."""
+    times: list[list[float]] = [[] for _ in choices]
+    for place, settings in enumerate(choices):
+        next_drawing(place, "Warming up")
         draw_picture(copy(scene), settings)
     for number in range(rounds):
-        for place in (number % 2, 1 - number % 2):
+        for turn in range(len(choices)):
+            place = (turn + number) % len(choices)
+            next_drawing(place, f"Round {number + 1} of {rounds},")
             fresh = copy(scene)
             with collector_off():
                 start = perf_counter()
                 draw_picture(fresh, choices[place])
                 times[place].append(perf_counter() - start)
-    return np.array(times[0]), np.array(times[1])
+    return [np.array(each) for each in times]
