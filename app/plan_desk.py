@@ -1,7 +1,7 @@
 """Runs the planner off the GUI thread: plans, measures the plan, draws the pictures of what was chosen."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from threading import Lock
 
 import numpy as np
@@ -12,7 +12,7 @@ from app.workers import Job, Progress
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
-from core.study.planner.measuring import difference, shown
+from core.study.planner.measuring import alone_settings, difference, shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,10 +35,12 @@ class PlanPictures:
     setting: str
     """The stage whose choice is drawn alone; empty: all choices together."""
     settings: Settings
+    before: Settings
+    """Everything on, but for what the choice rests on."""
     result: NDArray[np.uint8]
     """(H, W, 3), bytes of a screen."""
     reference: NDArray[np.uint8]
-    """(H, W, 3), with everything on."""
+    """(H, W, 3), drawn with ``before``."""
     difference: NDArray[np.float32]
     """(H, W), of the channel that differs most, in 1/255."""
 
@@ -100,7 +102,7 @@ class PlanDesk(QObject):
                 progress(None, "Looking at the scene")
                 chosen = plan(order.scene, order.tolerance, order.settings)
                 self._planned_in_thread.emit(_Planned(serial, chosen))
-                return check_plan(order.scene, chosen, order.rounds, watch)
+                return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)
 
         self._looking.start(work)
 
@@ -117,16 +119,16 @@ class PlanDesk(QObject):
 
     def draw(self, scene: AnyScene, chosen: Plan, setting: str) -> None:
         """Draw what a plan chose at one stage and nowhere else, or with an empty ``setting`` all that it chose."""
-        settings = chosen.settings
+        before, settings = chosen.everything, chosen.settings
         if setting:
-            settings = replace(chosen.everything, **{setting: getattr(chosen.settings, setting)})
+            decision = next(each for each in chosen.decisions if each.setting == setting)
+            before, settings = alone_settings(chosen, decision)
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PlanPictures:
-            result, reference = shown(scene, settings), shown(scene, chosen.everything)
+            result, reference = shown(scene, settings), shown(scene, before)
             differs = difference(result, reference).astype(np.float32)
-            return PlanPictures(
-                setting, settings, result.astype(np.uint8), reference.astype(np.uint8), differs
-            )
+            pictures = result.astype(np.uint8), reference.astype(np.uint8)
+            return PlanPictures(setting, settings, before, *pictures, differs)
 
         self._drawing.start(work)
 

@@ -89,7 +89,7 @@ class PlanPicturesPresenter(QObject):
                     # White is no difference at any size of it.
                     GridBuffer("difference", drawn.difference, "signed", unit="/255"),
                 ),
-                (title, "Everything on", "Difference, in 1/255"),
+                (title, self._before(drawn), "Difference, in 1/255"),
                 can_step=True,
             )
         )
@@ -99,6 +99,11 @@ class PlanPicturesPresenter(QObject):
             return "All that was chosen"
         chosen = getattr(drawn.settings, drawn.setting)
         return f"{family_title(drawn.setting)}: {table.get(drawn.setting, chosen).title}"
+
+    def _before(self, drawn: PlanPictures) -> str:
+        shown = self._plans.shown
+        is_everything = shown is not None and drawn.before == shown.plan.everything
+        return "Everything on" if is_everything else "Everything on, but for what this choice rests on"
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:
@@ -117,7 +122,7 @@ class PlanPicturesPresenter(QObject):
             row, column = np.unravel_index(int(drawn.difference.argmax()), drawn.difference.shape)
             pixel = int(column), int(row)
         opening = Opening(shown.order.scene, drawn.settings, "resolve", pixel)
-        self.step_requested.emit(StepRequest(opening, self._title(drawn), shown.plan.everything))
+        self.step_requested.emit(StepRequest(opening, self._title(drawn), drawn.before))
 
     @Slot()
     def copy(self) -> None:

@@ -18,7 +18,7 @@ from widgets.labelled import labelled
 from widgets.message_bar import Progress
 
 MOST_COLOR = 255
-MOST_PIXELS = 99_999_999
+MOST_PIXELS = 999_999
 MOST_ROUNDS = 99
 EXACT, WITHIN = "exact", "within"
 
@@ -39,9 +39,11 @@ class PlanControls(QWidget):
         self.setAccessibleName("Tolerance and looking")
         self.kind_box = QComboBox(self)
         self.kind_box.setAccessibleName("Tolerance")
-        self.kind_box.setToolTip("How much the picture may differ from the one with everything on")
-        self.kind_box.addItem("Within a tolerance", WITHIN)
-        self.kind_box.addItem("Exact: no byte may differ", EXACT)
+        self.kind_box.setToolTip(
+            "How much the picture may differ from the one with everything on; exact: no byte of it"
+        )
+        self.kind_box.addItem("Within", WITHIN)
+        self.kind_box.addItem("Exact", EXACT)
         self.color_box = self._number("Colour", "Largest difference of a channel, in 1/255", MOST_COLOR, 2)
         self.color_box.setSuffix("/255")
         self.pixels_box = self._number("Pixels", "How many pixels may differ by more", MOST_PIXELS, 0)

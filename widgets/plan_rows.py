@@ -5,7 +5,7 @@ from enum import Enum
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from widgets.marks import Mark, mark_pixmap
 from widgets.roles import set_role
@@ -61,30 +61,22 @@ class PlanRowView(QWidget):
         self.chosen.setFont(font)
         for label in (self.stage, self.instead):
             label.setProperty("role", "muted")
-        for label in (self.chosen, self.instead, self.reason, self.numbers, self.verdict):
+        for label in (self.stage, self.chosen, self.instead, self.reason, self.numbers, self.verdict):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._lay_out()
         theme_notifier().theme_changed.connect(self._paint_mark)
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(12, 8, 8, 8)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(4)
-        for column, share in ((1, 3), (2, 5), (3, 3)):
-            grid.setColumnStretch(column, share)
-        top = Qt.AlignmentFlag.AlignTop
-        self.stage.setFixedWidth(96)
-        self.stage.setWordWrap(True)
-        grid.addWidget(self.stage, 0, 0, top)
-        grid.addWidget(self.chosen, 0, 1, top)
-        grid.addWidget(self.instead, 1, 1, top)
-        grid.addWidget(self.reason, 0, 2, 2, 1, top)
-        grid.addWidget(self.numbers, 0, 3, top)
-        grid.addWidget(self.verdict, 1, 3, top)
-        grid.addWidget(self.mark, 0, 4, top)
-        grid.addWidget(self.picture_button, 0, 5, 2, 1, top)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 8, 8, 8)
+        row.setSpacing(12)
+        row.addLayout(_stack(self.stage), 2)
+        row.addLayout(_stack(self.chosen, self.instead), 5)
+        row.addLayout(_stack(self.reason), 8)
+        row.addLayout(_stack(self.numbers, self.verdict), 6)
+        for widget in (self.mark, self.picture_button):
+            row.addWidget(widget, 0, Qt.AlignmentFlag.AlignTop)
 
     def show_row(self, row: PlanRow) -> None:
         """Show the choice at one stage."""
@@ -98,8 +90,9 @@ class PlanRowView(QWidget):
             (self.verdict, row.verdict.value.capitalize()),
         ):
             label.setText(text)
+            label.setVisible(bool(text))
         set_role(self.verdict, {Verdict.HELD: "good", Verdict.WRONG: "bad"}.get(row.verdict, "muted"))
-        set_role(self, "kept" if row.is_needed else "")
+        set_role(self, "kept" if row.is_needed else "panel")
         # A hidden button would let the columns of rows differ.
         self.picture_button.setEnabled(row.can_draw)
         self.setAccessibleName(f"{row.stage}: {row.chosen}")
@@ -119,6 +112,18 @@ class PlanRowView(QWidget):
     @Slot()
     def _ask(self) -> None:
         self.picture_requested.emit(self._row.name)
+
+
+def _stack(*labels: QLabel) -> QVBoxLayout:
+    """Return a column of labels that share the room of a row with the other columns."""
+    column = QVBoxLayout()
+    column.setSpacing(2)
+    for label in labels:
+        # Each row by itself must share its width in the same way, whatever is written in it.
+        label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+        column.addWidget(label)
+    column.addStretch(1)
+    return column
 
 
 class PlanRows(QScrollArea):

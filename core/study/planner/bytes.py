@@ -30,7 +30,7 @@ def byte_error(dark: Floats, error: Floats) -> Floats:
 
 
 def byte_width(low: Floats, high: Floats) -> Floats:
-    """Return how far two lights between ``low`` and ``high`` can be apart, in 1/255 of sRGB, 0 to 255."""
+    """Return how far two lights between ``low`` and ``high`` can be apart, in 1/255 of sRGB; any shape, 0 to 255."""
     low = np.clip(np.nan_to_num(low, nan=0.0), 0.0, 1.0)
     high = np.clip(np.nan_to_num(high, nan=np.inf, posinf=np.inf), 0.0, 1.0)
     return np.asarray(255 * (srgb(high) - srgb(low)))

@@ -56,9 +56,7 @@ def doubtful_depths(
     return touched.pixel[pairs][starts][found]
 
 
-def _pairs(
-    touched: Touched, pixels: Integers, is_drawn: Flags | None = None
-) -> tuple[Integers, Integers]:
+def _pairs(touched: Touched, pixels: Integers, is_drawn: Flags | None = None) -> tuple[Integers, Integers]:
     """Return the pairs of the pixels, and where those of each pixel begin."""
     wanted = np.zeros(touched.pixel_count, bool)
     wanted[pixels] = True

@@ -1,9 +1,9 @@
 """The least and the largest colour that a triangle can have in a pixel's square, whatever the samples.
 
 Two hulls bound what is interpolated: the corners of the triangle, and the corners of the pixel's square. A value is
-``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a convex
-one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach
-beyond its corners by `SNAPPED`: the square is grown by more, and the range of the corners is widened by what the weights can be below 0.
+``(a x + b y + c) / (1/w)``, a projective map of the window, which takes a convex polygon in front of the eye to a
+convex one with the same corners; so both hold, and the smaller one is taken. Snapping lets the triangle reach beyond
+its corners by `SNAPPED`: the square is grown by more, and the range of the corners by what the weights can be below 0.
 """
 
 from collections.abc import Iterator
@@ -16,10 +16,14 @@ from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
 from core.study.planner.light_ranges import LightRange, Reflectances, light_range
-from core.study.planner.texture_ranges import magnified_range, range_around
+from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
 from core.study.planner.touched import MARGIN, Touched
 from core.surface import viewpoint
 
+Levels = tuple[Floats, Floats]
+"""The least and the largest level of detail (Q,)."""
+SAMPLES = 4
+"""Samples on a side of a pixel of everything on."""
 CHUNK = 1 << 16
 """Pairs that are worked on together."""
 SNAPPED = 0.75 / 256
@@ -65,8 +69,9 @@ def color_ranges(touched: Touched, scene: AnyScene, settings: Settings) -> Color
     count = len(touched.pixel)
     rows, lod = np.empty((6, count, 3)), np.empty(count)
     for part in _parts(count):
-        lod[part] = _levels_of_detail(touched, scene, part)
-        for row, values in zip(rows, _ranges(touched, scene, settings, lod[part], part), strict=True):
+        levels = _levels_of_detail(touched, scene, part)
+        lod[part] = levels[1]
+        for row, values in zip(rows, _ranges(touched, scene, settings, levels, part), strict=True):
             row[part] = values
     low, high, albedo, texels, gain, bright = rows
     return ColorRanges(low, high, lod, albedo, texels, gain, bright)
@@ -79,14 +84,14 @@ def _parts(count: int) -> Iterator[slice]:
 
 @np.errstate(divide="ignore", invalid="ignore", over="ignore")
 def _ranges(
-    touched: Touched, scene: AnyScene, settings: Settings, lod: Floats, part: slice
+    touched: Touched, scene: AnyScene, settings: Settings, levels: Levels, part: slice
 ) -> tuple[Floats, ...]:
     """Return the fields low, high, albedo, texels, gain and bright of `ColorRanges` for a part of the pairs."""
     count = part.stop - part.start
     low, high = np.full((count, 3), -np.inf), np.full((count, 3), np.inf)
     albedo, texels, gain, bright = np.full((4, count, 3), np.inf)
     for hull in (_square_hull(touched, part), _corner_hull(touched, part)):
-        least, most, spread, factor = _albedo(touched, scene, settings, hull, lod, part)
+        least, most, spread, factor = _albedo(touched, scene, settings, hull, levels, part)
         light = np.ones((count, 3))
         sound = hull.is_sound[:, None]
         albedo = np.where(sound, np.fmin(albedo, most), albedo)
@@ -117,11 +122,13 @@ def weights_below_zero(touched: Touched) -> Floats:
     window = touched.geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched))
+        return np.asarray(
+            np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched)
+        )
 
 
 def w_ratio(touched: Touched) -> Floats:
-    """Return (P,) float64, the largest over the smallest w of each primitive's corners; infinite where one is not positive."""
+    """Return (P,) float64, the largest over the smallest w of the corners; infinite where one is not positive."""
     w = touched.geometry.primitives.clip[..., 3]
     least = w.min(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -139,7 +146,7 @@ def _square_hull(touched: Touched, part: slice) -> Hull:
     for k in range(varyings.shape[2]):
         plane = value_plane(planes, varyings[..., k])
         values[..., k] = _at(plane, primitive, touched, part, ways) / inverse_w
-    is_sound = (inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2))
+    is_sound = np.asarray((inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2)))
     return Hull(np.where(is_sound[:, None], values, 0.0), is_sound, np.zeros(len(primitive)))
 
 
@@ -165,7 +172,7 @@ def hull_range(hull: Hull, part: slice) -> tuple[Floats, Floats]:
 
 
 def _albedo(
-    touched: Touched, scene: AnyScene, settings: Settings, hull: Hull, lod: Floats, part: slice
+    touched: Touched, scene: AnyScene, settings: Settings, hull: Hull, levels: Levels, part: slice
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the range (Q, 3) of colours before they are lit, that of texels times vertex colours, and these."""
     layout, count = touched.geometry.primitives.layout, part.stop - part.start
@@ -176,6 +183,7 @@ def _albedo(
         low, high = np.zeros((count, 3)), np.zeros((count, 3))
         low[:, :width], high[:, :width] = np.maximum(least[:, :width], 0), np.maximum(most[:, :width], 0)
     factor = high.copy()
+    least_lod, lod = levels
     reach = 1.5 * np.exp2(np.ceil(np.maximum(lod, 0.0))) + 1
     for chosen, texture in textures_of(touched, scene, part):
         uv_low, uv_high = (values[chosen] for values in hull_range(hull, layout["uv"]))
@@ -184,8 +192,12 @@ def _albedo(
         spread[chosen] = (most - least) * high[chosen]
         is_magnified = (lod[chosen] <= 0)[:, None]
         inner = magnified_range(texture, uv_low, uv_high, settings.wrap)
-        low[chosen] *= np.where(is_magnified, np.maximum(least, as_rgb(inner[0])), least)
-        high[chosen] *= np.where(is_magnified, np.minimum(most, as_rgb(inner[1])), most)
+        # Trilinear reads no finer level than that of the least step, which samples make shorter.
+        above = minified_range(texture, least_lod[chosen] - np.log2(SAMPLES))
+        least = np.maximum(least, np.where(is_magnified, as_rgb(inner[0]), as_rgb(above[0])))
+        most = np.minimum(most, np.where(is_magnified, as_rgb(inner[1]), as_rgb(above[1])))
+        low[chosen] *= np.maximum(least, 0)
+        high[chosen] *= np.maximum(most, least)
     return low, high, spread, factor
 
 
@@ -207,42 +219,41 @@ def textures_of(touched: Touched, scene: AnyScene, part: slice) -> Iterator[tupl
             yield chosen, of_scene.texture
 
 
-def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Floats:
-    """Return the largest lambda (Q,) in the squares, one sample a pixel.
+def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Levels:
+    """Return the least and the largest lambda (Q,) in the squares, one sample a pixel.
 
     Notes
     -----
     With U = u/w and D = 1/w linear, du/dx is (U_x D - U D_x) / D^2: above is a function of y alone and linear, so it is
-    largest at a corner of the square, and D is smallest at one.
+    largest and smallest at corners of the square, and so is D.
     """
     layout = touched.geometry.primitives.layout
-    lod = np.full(part.stop - part.start, -np.inf)
+    lowest, lod = np.full((2, part.stop - part.start), -np.inf)
     if "uv" not in layout:
-        return lod
+        return lowest, lod
     primitive, varyings = touched.primitive[part], touched.geometry.primitives.varyings
     reach = 0.5 + MARGIN
     ways = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)]
     inverse_w = touched.geometry.inverse_w_plane
     at_corner = _at(inverse_w, primitive, touched, part, ways)
     least = np.maximum(at_corner.min(axis=0), inverse_w_floor(touched).take(primitive))
-    slopes = []
-    for k in range(layout["uv"].start, layout["uv"].stop):
+    most = at_corner.max(axis=0)
+    slopes = np.empty((2, 2, 2, len(primitive)))
+    for number, k in enumerate(range(layout["uv"].start, layout["uv"].stop)):
         plane = value_plane(touched.geometry.planes, varyings[..., k])
         value = _at(plane, primitive, touched, part, ways)
-        slopes.append(
-            [
-                np.abs(plane[way].take(primitive) * at_corner - value * inverse_w[way].take(primitive)).max(axis=0)
-                / (least * least)
-                for way in (0, 1)
-            ]
-        )
+        for way in (0, 1):
+            change = plane[way].take(primitive) * at_corner - value * inverse_w[way].take(primitive)
+            is_one_sign = (change > 0).all(axis=0) | (change < 0).all(axis=0)
+            slopes[0, number, way] = np.where(is_one_sign, np.abs(change).min(axis=0), 0.0) / (most * most)
+            slopes[1, number, way] = np.abs(change).max(axis=0) / (least * least)
     for chosen, texture in textures_of(touched, scene, part):
         height, width = texture.pixels.shape[:2]
-        lengths = [
-            np.hypot(slopes[0][way][chosen] * width, slopes[1][way][chosen] * height) for way in (0, 1)
-        ]
-        lod[chosen] = np.nan_to_num(np.log2(np.maximum(*lengths)), nan=np.inf)
-    return lod
+        lengths = np.hypot(slopes[:, 0][..., chosen] * width, slopes[:, 1][..., chosen] * height).max(axis=1)
+        # A hair, as slopes are rounded another way where they are drawn.
+        lowest[chosen] = np.nan_to_num(np.log2(lengths[0]), nan=-np.inf) - 1e-9
+        lod[chosen] = np.nan_to_num(np.log2(lengths[1]), nan=np.inf)
+    return lowest, lod
 
 
 def inverse_w_floor(touched: Touched) -> Floats:
@@ -258,7 +269,12 @@ def _light(touched: Touched, scene: Scene, hull: Hull, part: slice) -> LightRang
     to_eye = viewpoint(scene.camera, positions.reshape(-1, 3)) - positions.reshape(-1, 3)
     mesh = touched.geometry.primitives.mesh.take(touched.primitive[part])
     return light_range(
-        normals, positions, to_eye.reshape(positions.shape), scene.lights, materials(scene, mesh), hull.below_zero
+        normals,
+        positions,
+        to_eye.reshape(positions.shape),
+        scene.lights,
+        materials(scene, mesh),
+        hull.below_zero,
     )
 
 

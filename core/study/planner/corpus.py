@@ -85,10 +85,14 @@ def _sheet(source: Source) -> Scene:
     x, z = (axis.ravel() for axis in np.meshgrid(grid, grid))
     rise = source.uniform(-0.1, 0.1, len(x)) if source.random() < 0.5 else np.zeros(len(x))
     first = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
-    corners = np.stack([first, first + count + 1, first + count + 2, first, first + count + 2, first + 1], axis=1)
+    corners = np.stack(
+        [first, first + count + 1, first + count + 2, first, first + count + 2, first + 1], axis=1
+    )
     texture, repeats = None, float(source.choice([0.1, 1.0, 8.0]))
     if source.random() < 0.5:
-        texture = _soft_texture(source) if source.random() < 0.5 else checkerboard(16, int(source.integers(99)))
+        texture = (
+            _soft_texture(source) if source.random() < 0.5 else checkerboard(16, int(source.integers(99)))
+        )
     mesh = Mesh(
         np.stack([x, rise - 1, z], axis=1),
         corners.reshape(-1, 3),
@@ -112,12 +116,16 @@ def _picture(source: Source) -> AnyScene:
     """A textured square that fills the picture, with any ratio of w."""
     texture = _soft_texture(source) if source.random() < 0.5 else checkerboard(16, int(source.integers(99)))
     ratio = float(source.choice([1.0, 1.2, 3.0]))
-    return textured_quad(int(source.integers(20, MOST_SIDE)), ratio, float(source.choice([0.05, 0.5, 6.0])), texture)
+    return textured_quad(
+        int(source.integers(20, MOST_SIDE)), ratio, float(source.choice([0.05, 0.5, 6.0])), texture
+    )
 
 
 def _bars(source: Source) -> AnyScene:
     size = _size(source)
-    return flat_scene(overlapping_triangles(size, int(source.integers(1, 8)), int(source.integers(1 << 30))), size)
+    return flat_scene(
+        overlapping_triangles(size, int(source.integers(1, 8)), int(source.integers(1 << 30))), size
+    )
 
 
 def _glass(source: Source) -> Scene:
@@ -144,9 +152,18 @@ def _heap(source: Source) -> Scene:
         transform[:3, 3] = source.uniform(-1, 1, 3)
         colors = _colors(source, len(whole.positions), 0.0)
         meshes.append(
-            Mesh(whole.positions, whole.triangles, whole.normals, colors=colors, transform=transform, material=_material(source))
+            Mesh(
+                whole.positions,
+                whole.triangles,
+                whole.normals,
+                colors=colors,
+                transform=transform,
+                material=_material(source),
+            )
         )
-    return Scene(tuple(meshes), _camera(source, float(source.choice([1.5, 4.0]))), _lights(source), _size(source))
+    return Scene(
+        tuple(meshes), _camera(source, float(source.choice([1.5, 4.0]))), _lights(source), _size(source)
+    )
 
 
 KINDS: dict[str, Callable[[Source], AnyScene]] = {

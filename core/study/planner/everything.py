@@ -5,21 +5,6 @@ from dataclasses import replace
 from core.scene import AnyScene, Scene
 from core.settings import Settings
 
-DEAREST = {
-    "cull": "none",
-    "clipping": "sutherland-hodgman",
-    "coverage": "snapped",
-    "fill_rule": "shared-edge",
-    "fill": "spans",
-    "interpolation": "perspective",
-    "texture_filter": "trilinear",
-    "visibility": "z-buffer",
-    "blend": "over",
-    "antialiasing": "ssaa-16",
-    "resolve_filter": "box",
-}
-"""What everything on means, but for shading and depth, which depend on the scene."""
-
 
 def everything_on(scene: AnyScene, base: Settings | None = None) -> Settings:
     """Return the settings of the reference picture.
@@ -38,8 +23,21 @@ def everything_on(scene: AnyScene, base: Settings | None = None) -> Settings:
     full contrast even 16 samples are sixteenths away from it, so no plan at all would be within 2/255.
     """
     wished = base or Settings()
-    chosen = replace(wished, **DEAREST)
-    chosen = replace(chosen, depth="reversed-z" if is_perspective(scene) else "z-float32")
+    chosen = replace(
+        wished,
+        cull="none",
+        clipping="sutherland-hodgman",
+        coverage="snapped",
+        fill_rule="shared-edge",
+        fill="spans",
+        interpolation="perspective",
+        texture_filter="trilinear",
+        visibility="z-buffer",
+        depth="reversed-z" if is_perspective(scene) else "z-float32",
+        blend="over",
+        antialiasing="ssaa-16",
+        resolve_filter="box",
+    )
     is_lit = isinstance(scene, Scene) and wished.shading != "unlit"
     chosen = replace(chosen, shading="phong" if is_lit else "unlit")
     if wished.blend == "additive":

@@ -23,13 +23,23 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
     facts = [
         Fact("triangles", "Triangles", f"{w.shape[1]:,}"),
         Fact("w-signs", "Triangles with a corner that is not in front of the eye", f"{negative:,}"),
-        Fact("cut", "Triangles that cross a plane of the view volume, or lie beyond one", _count(has_bits(cut, PLANE_BITS))),
-        Fact("w-ratio", "Largest ratio of w in a triangle", f"{w_ratio(touched)[primitive].max(initial=1.0):.4g}"),
+        Fact(
+            "cut",
+            "Triangles that cross a plane of the view volume, or lie beyond one",
+            _count(has_bits(cut, PLANE_BITS)),
+        ),
+        Fact(
+            "w-ratio",
+            "Largest ratio of w in a triangle",
+            f"{w_ratio(touched)[primitive].max(initial=1.0):.4g}",
+        ),
         Fact("closed", "Closed meshes", _closed(scene)),
         Fact("layers", "Triangles that may be seen in a pixel, at most", f"{int(layers.max(initial=0)):,}"),
         Fact("depth-range", "Window depth", _depth_range(touched)),
         Fact("contrast", "Pixels whose candidates differ by more than 2/255", _count(seen.width > 2)),
-        Fact("largest-contrast", "Largest difference within a pixel", f"{seen.width.max(initial=0.0):.3g}/255"),
+        Fact(
+            "largest-contrast", "Largest difference within a pixel", f"{seen.width.max(initial=0.0):.3g}/255"
+        ),
     ]
     lod = colors.lod[seen.is_candidate]
     if np.isfinite(lod).any():

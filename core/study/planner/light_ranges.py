@@ -82,7 +82,8 @@ def angle(first: Floats, second: Floats) -> Floats:
     return np.asarray(
         2
         * np.arctan2(
-            np.linalg.norm(first - second, axis=-1), np.maximum(np.linalg.norm(first + second, axis=-1), 1e-300)
+            np.linalg.norm(first - second, axis=-1),
+            np.maximum(np.linalg.norm(first + second, axis=-1), 1e-300),
         )
     )
 

@@ -74,7 +74,8 @@ def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | N
     advice = tessellations(scene)
     if table.get("polygon_mode", everything.polygon_mode).function():
         kept = tuple(
-            Decision(name, getattr(everything, name), getattr(everything, name), WIREFRAME, 0.0) for name in STAGES
+            Decision(name, getattr(everything, name), getattr(everything, name), WIREFRAME, 0.0)
+            for name in STAGES
         )
         return Plan(tolerance, everything, everything, kept, findings, advice)
     surface = choose_surfaces(touched, colors, scene, everything, tolerance)
@@ -82,7 +83,12 @@ def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | N
     values = choose_values(
         touched, colors, scene, surface.settings, surface.surfaces.is_candidate, left, surface.side
     )
-    chosen = replace(surface.settings, **{name: value.chosen for name, value in values.items()})
+    chosen = replace(
+        surface.settings,
+        interpolation=values["interpolation"].chosen,
+        texture_filter=values["texture_filter"].chosen,
+        shading=values["shading"].chosen,
+    )
     decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors)
     error = surface.error + sum(value.error for value in values.values())
     return Plan(tolerance, everything, chosen, decisions, findings, advice, error, surface.pixels)
@@ -117,12 +123,24 @@ def _decisions(
             error = surface.error
             pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(name, surface.pixels)
         is_needed = found == dearest and dearest != CHEAPEST[name]
-        decisions.append(Decision(name, found, dearest, reasons[name], error, pixels, is_needed))
+        rests_on = tuple(
+            other for other in RESTS_ON.get(name, ()) if getattr(chosen, other) != getattr(everything, other)
+        )
+        decisions.append(
+            Decision(name, found, dearest, reasons[name], error, pixels, is_needed, rests_on=rests_on)
+        )
     return tuple(decisions)
 
 
 SHARED = ("cull", "clipping", "depth", "antialiasing")
 """Families that share one bound where there is one sample a pixel."""
+RESTS_ON = {
+    "interpolation": ("shading", "texture_filter", "antialiasing"),
+    "texture_filter": ("antialiasing",),
+    "visibility": ("cull", "clipping", "depth", "antialiasing"),
+    "depth": ("cull",),
+}
+"""Whose choices each family's bound takes for granted."""
 CHEAPEST = {
     "cull": "back",
     "clipping": "homogeneous",

@@ -38,8 +38,8 @@ def surface_reasons(
         "antialiasing": (
             f"{shared[0].upper()}{shared[1:]}: one is enough."
             if with_one
-            else f"In {counted(surface.beyond, 'pixel')} what can be seen differs by more than {tolerance.bytes}/255, by up "
-            f"to {bound(width)}: edges and details need their samples."
+            else f"In {counted(surface.beyond, 'pixel')} what can be seen differs by more than {tolerance.bytes}/255, "
+            f"by up to {bound(width)}: edges and details need their samples."
         ),
     }
 
@@ -105,19 +105,29 @@ def value_reasons(
     texture = "There is no texture to be filtered"
     if "uv" in touched.geometry.primitives.layout:
         texture = (
-            f"A step of one sample is {2.0**lod:.3g} texels at most" if np.isfinite(lod) else "Some steps are endless"
+            f"A step of one sample is {2.0**lod:.3g} texels at most"
+            if np.isfinite(lod)
+            else "Some steps are endless"
         )
     lit = "normal" in touched.geometry.primitives.layout
     return {
-        "interpolation": _bounded(f"w differs by a factor of {ratio:.4g} at most in a triangle", values["interpolation"]),
+        "interpolation": _bounded(
+            f"w differs by a factor of {ratio:.4g} at most in a triangle", values["interpolation"]
+        ),
         "texture_filter": _bounded(texture, values["texture_filter"]),
-        "shading": _bounded("Normals and highlights were bounded by cones" if lit else "Nothing is lit", values["shading"]),
+        "shading": _bounded(
+            "Normals and highlights were bounded by cones" if lit else "Nothing is lit", values["shading"]
+        ),
     }
 
 
 def _bounded(start: str, value: ValueChoice) -> str:
     rejected = "; ".join(f"{name} may be {bound(error)} off" for name, error in value.rejected)
-    text = f"{start}: {value.chosen} is {bound(value.error)} off at most" if value.error else f"{start}: {value.chosen}"
+    text = (
+        f"{start}: {value.chosen} is {bound(value.error)} off at most"
+        if value.error
+        else f"{start}: {value.chosen}"
+    )
     if not value.error and value.chosen not in ("perspective", "trilinear", "phong"):
         text += " is not off at all"
     return f"{text}{', but ' + rejected if rejected else ''}."

@@ -81,6 +81,8 @@ class Decision:
     is_needed: bool = False
     """Whether the dearest method is kept although there are cheaper ones."""
     unit: str = "1/255"
+    rests_on: tuple[str, ...] = ()
+    """Settings whose choices the prediction takes for granted: flat interpolation of light that flat shading made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,14 +115,14 @@ class Plan:
     tessellations: tuple[Tessellation, ...] = ()
 
     predicted_error: float = 0.0
-    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, where stages that share one count once."""
+    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, one that stages share counted once."""
     predicted_pixels: int = 0
     """Pixels that may differ by more."""
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """One decision's prediction against what was measured: everything on but for this choice."""
+    """One decision's prediction against what was measured: everything on but for this choice, and what it rests on."""
 
     decision: Decision
     measured_error: float

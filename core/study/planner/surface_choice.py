@@ -14,7 +14,7 @@ from core.methods import table
 from core.scene import AnyScene, Scene
 from core.settings import Settings
 from core.study.planner.closer import doubtful_backs, doubtful_depths
-from core.study.planner.color_ranges import ColorRanges
+from core.study.planner.color_ranges import SAMPLES, ColorRanges
 from core.study.planner.orders import doubtful_pixels
 from core.study.planner.records import Tolerance
 from core.study.planner.surfaces import Surfaces, format_margin, surfaces
@@ -23,8 +23,6 @@ from core.study.planner.value_bounds import is_cut
 
 DEPTHS = ("z-16", "z-24", "z-float32")
 """Formats by the bits that they keep."""
-SAMPLES = 4
-"""Samples on a side of a pixel of everything on."""
 ORDERS = ("last-drawn", "painters")
 """Visibility without a depth buffer, the cheaper first."""
 
@@ -69,7 +67,10 @@ def choose_surfaces(
     if everything.blend == "additive":
         dearest = replace(dearest, width=np.full_like(dearest.width, 255.0))
     settings = replace(everything, blend="opaque") if not blended else everything
-    chosen = _with_one_sample(touched, colors, scene, settings, tolerance, blended)
+    # Coarser depths and culled backs hide less, so nothing does where even the dearest are too wide.
+    chosen = None
+    if _beyond(dearest, tolerance) <= tolerance.pixels:
+        chosen = _with_one_sample(touched, colors, scene, settings, tolerance, blended)
     cut = int(np.count_nonzero(is_cut(touched)))
     if chosen is None:
         kept = replace(settings, clipping=settings.clipping if cut else "homogeneous")
@@ -80,7 +81,19 @@ def choose_surfaces(
         found, doubtful = _without_depth(touched, found, 1)
     backs = len(np.unique(touched.pixel[_backs(touched, dearest)]))
     return SurfaceChoice(
-        found, dearest, error, pixels, pixels, pixels, 1, _beyond(dearest, tolerance), doubtful, 0, backs, cut, translucent
+        found,
+        dearest,
+        error,
+        pixels,
+        pixels,
+        pixels,
+        1,
+        _beyond(dearest, tolerance),
+        doubtful,
+        0,
+        backs,
+        cut,
+        translucent,
     )
 
 
@@ -156,13 +169,9 @@ def _with_one_sample(
     blended: bool,
 ) -> tuple[Settings, float, int] | None:
     """Return the cheapest settings with one sample a pixel, their error and pixels beyond; ``None``: there are none."""
-    if settings.blend == "additive":
-        return None
     for depth in (*DEPTHS, settings.depth):
         for cull in ("back", "none") if settings.cull == "none" else (settings.cull,):
-            found = surfaces(
-                touched, colors, scene.background, format_margin(depth), cull == "back", blended
-            )
+            found = surfaces(touched, colors, scene.background, format_margin(depth), cull == "back", blended)
             is_beyond = found.width > tolerance.bytes
             beyond = int(np.count_nonzero(is_beyond))
             if beyond > tolerance.pixels or (blended and cull == "back"):

@@ -1,7 +1,7 @@
 """Which surfaces can be seen in a pixel, and how far apart their colours can be.
 
-Within a pixel's square, a mesh whose outline does not cross it covers every sample as often as any other (see
-``touched.outline_edges``). So the farthest depth of such a mesh and facing hides all that lies wholly behind it; what is
+Within a pixel's square, a piece of surface whose outline does not cross it covers every sample as often as any other
+(see ``touched.outline_edges``). So such a piece of one facing hides all that lies behind every triangle of it; what is
 left are the candidates, and whatever is drawn there, with as many samples as wanted, with faces of a back culled,
 clipped or not, in any depth format that tells the candidates from what they hide, has a colour between the least and
 the largest of theirs: two such pictures are no farther apart than the **width** of that range.
@@ -19,6 +19,10 @@ from core.study.planner.touched import Touched
 
 ROUNDING = 1e-9
 """Widths below this, in 1/255, are rounding of equal colours."""
+
+
+MOST_TRIANGLES = 16
+"""A piece of surface with more triangles in a pixel is looked at by its farthest depth alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,15 +60,13 @@ def surfaces(
         Whether surfaces let others shine through: then all are candidates, and the background too.
     """
     count = touched.pixel_count
-    hidden_behind, hider = np.full(count, np.inf), np.full(count, -1)
+    hidden_behind = np.full(count, np.inf)
+    is_candidate = touched.is_drawn.copy()
     if not is_blended:
-        far, pixel, only = _covering_groups(touched, culls_backs)
-        np.minimum.at(hidden_behind, pixel, far)
-        is_nearest = far == hidden_behind[pixel]
-        hider[pixel[is_nearest]] = only[is_nearest]
-    is_candidate = touched.is_drawn & ~(touched.near > hidden_behind[touched.pixel] + margin)
-    behind = np.flatnonzero(is_candidate & (hider[touched.pixel] >= 0))
-    is_candidate[behind] = ~(depth_between(touched, hider[touched.pixel[behind]], behind)[0] > margin)
+        hiders = _covering_groups(touched, culls_backs)
+        np.minimum.at(hidden_behind, hiders.pixel, hiders.far)
+        is_candidate &= ~(touched.near > hidden_behind[touched.pixel] + margin)
+        is_candidate &= ~_is_behind(touched, hiders, hidden_behind, is_candidate, margin)
     sees_background = ~(hidden_behind < np.inf)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     low[sees_background] = high[sees_background] = background[:3]
@@ -75,27 +77,60 @@ def surfaces(
     return Surfaces(is_candidate, sees_background, np.where(width < ROUNDING, 0.0, width))
 
 
-def _covering_groups(touched: Touched, culls_backs: bool) -> tuple[Floats, Integers, Integers]:
-    """Return the farthest depth and the pixel of every mesh and facing that covers all of a pixel's square.
+@dataclass(frozen=True, eq=False)
+class _Hiders:
+    """G pieces of surface that cover all of a pixel's square."""
 
-    The third is the pair that does it, or -1 where it takes several.
-    """
+    pixel: Integers
+    """(G,) int64."""
+    far: Floats
+    """(G,) float64, their farthest depth there."""
+    start: Integers
+    """(G,) int64, where its pairs begin in ``order``."""
+    count: Integers
+    """(G,) int64."""
+    order: Integers
+    """Numbers of pairs."""
+
+
+def _covering_groups(touched: Touched, culls_backs: bool) -> _Hiders:
+    """Return the components of one facing that cover all of a pixel's square."""
     primitive = touched.primitive
-    is_back = touched.facing.take(primitive) < 0
-    chosen = ~is_back if culls_backs else np.ones(len(primitive), bool)
-    chosen &= touched.facing.take(primitive) != 0
-    mesh = touched.geometry.primitives.mesh.take(primitive)
-    group = (touched.pixel * (int(mesh.max(initial=0)) + 1) + mesh) * 2 + is_back
+    facing = touched.facing.take(primitive)
+    chosen = facing > 0 if culls_backs else facing != 0
+    component = touched.component.take(primitive)
+    group = (touched.pixel * (int(component.max(initial=0)) + 1) + component) * 2 + (facing < 0)
     index = np.flatnonzero(chosen)
     order = index[np.argsort(group[index], kind="stable")]
-    if not len(order):
-        return np.empty(0), np.empty(0, np.int64), np.empty(0, np.int64)
     starts = np.flatnonzero(np.diff(group[order], prepend=-1))
+    if not len(starts):
+        none = np.empty(0, np.int64)
+        return _Hiders(none, np.empty(0), none, none, none)
     far = np.maximum.reduceat(touched.far[order], starts)
-    is_outlined = np.logical_or.reduceat(touched.is_outlined[order], starts)
-    first = order[starts]
-    only = np.where(np.diff(np.append(starts, len(order))) == 1, first, -1)
-    return far[~is_outlined], touched.pixel[first][~is_outlined], only[~is_outlined]
+    covers = ~np.logical_or.reduceat(touched.is_outlined[order], starts)
+    counts = np.diff(np.append(starts, len(order)))
+    return _Hiders(touched.pixel[order[starts]][covers], far[covers], starts[covers], counts[covers], order)
+
+
+def _is_behind(
+    touched: Touched, hiders: _Hiders, hidden_behind: Floats, is_candidate: Flags, margin: float
+) -> Flags:
+    """Return (Q,) bool: the candidate is behind every triangle of the nearest piece that covers its pixel."""
+    nearest = np.full(touched.pixel_count, -1)
+    is_nearest = hiders.far == hidden_behind[hiders.pixel]
+    nearest[hiders.pixel[is_nearest]] = np.flatnonzero(is_nearest)
+    behind = np.zeros(len(touched.pixel), bool)
+    index = np.flatnonzero(is_candidate & (nearest[touched.pixel] >= 0))
+    piece = nearest[touched.pixel[index]]
+    few = hiders.count[piece] <= MOST_TRIANGLES
+    index, piece = index[few], piece[few]
+    still = np.ones(len(index), bool)
+    for step in range(int(hiders.count[piece].max(initial=0))):
+        there = np.flatnonzero(still & (hiders.count[piece] > step))
+        front = hiders.order[hiders.start[piece[there]] + step]
+        still[there] = depth_between(touched, front, index[there])[0] > margin
+    behind[index[still]] = True
+    return behind
 
 
 def format_margin(depth: str) -> float:

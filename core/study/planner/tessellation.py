@@ -1,8 +1,8 @@
 """How fine a tessellation is enough: how far facets lie from the smooth surface that the normals speak of.
 
 An edge of length l whose ends' normals are an angle t apart is the chord of an arc of radius l / (2 sin(t/2)); the arc
-rises (l/2) tan(t/4) above it, its sagitta. A sphere of radius r with n edges around has the sagitta r (1 - cos(pi/n)). It
-falls with the square of the edge, so with the number of triangles.
+rises (l/2) tan(t/4) above it, its sagitta. A sphere of radius r with n edges around has the sagitta r (1 - cos(pi/n)).
+It falls with the square of the edge, so with the number of triangles.
 """
 
 from math import acos, ceil, pi
@@ -24,7 +24,7 @@ def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
     if not isinstance(scene, Scene):
         return ()
     vertices = transform_vertices(scene)
-    assert vertices.world is not None and vertices.normals is not None
+    assert vertices.normals is not None
     found = []
     for number, mesh in enumerate(scene.meshes):
         corners = vertices.corners[vertices.mesh == number]
@@ -59,7 +59,7 @@ def _advice(name: str, count: int, deviation: float) -> Tessellation:
         return Tessellation(name, count, 0.0, count, text)
     way = "fewer would do" if wanted < count else "more would look rounder"
     text = (
-        f"{name}: facets lie up to {deviation:.3g} pixels from the smooth surface; {way}, about {wanted:,} triangles for "
-        f"{WANTED:g} pixels instead of {count:,}."
+        f"{name}: facets lie up to {deviation:.3g} pixels from the smooth surface; {way}, about {wanted:,} triangles "
+        f"for {WANTED:g} pixels instead of {count:,}."
     )
     return Tessellation(name, count, deviation, wanted, text)

@@ -10,6 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
 from core.scene import Texture
 
@@ -27,23 +28,37 @@ class TextureRanges:
     """(C,) float64, largest difference within four texels around any place."""
     contrast: Floats
     """(C,) float64, largest less least texel."""
+    level_low: Floats
+    """(L, C) float64, the least texel of mipmap level k and all above it."""
+    level_high: Floats
+    """(L, C) float64, the largest."""
 
 
 def texture_ranges(texture: Texture) -> TextureRanges:
     """Return the blocks of a texture; they are made once."""
     if texture not in _kept:
-        _kept[texture] = _make(texture.pixels.astype(np.float64))
+        _kept[texture] = _make(texture)
     return _kept[texture]
 
 
-def _make(texels: Floats) -> TextureRanges:
+def _make(texture: Texture) -> TextureRanges:
+    texels = texture.pixels.astype(np.float64)
     low, high = [texels], [texels]
     while max(low[-1].shape[:2]) > 1:
         low.append(_pool(low[-1], np.minimum))
         high.append(_pool(high[-1], np.maximum))
     around = [np.roll(texels, shift, (0, 1)) for shift in ((0, 0), (1, 0), (0, 1), (1, 1))]
     spread = np.max(around, axis=0) - np.min(around, axis=0)
-    return TextureRanges(tuple(low), tuple(high), spread.max(axis=(0, 1)), np.ptp(texels, axis=(0, 1)))
+    levels = [level.pixels.astype(np.float64) for level in mipmap_levels(texture)]
+    least, most = (np.stack([choose(level, axis=(0, 1)) for level in levels]) for choose in (np.min, np.max))
+    return TextureRanges(
+        tuple(low),
+        tuple(high),
+        spread.max(axis=(0, 1)),
+        np.ptp(texels, axis=(0, 1)),
+        np.minimum.accumulate(least[::-1])[::-1],
+        np.maximum.accumulate(most[::-1])[::-1],
+    )
 
 
 def _pool(texels: Floats, choose: np.ufunc) -> Floats:
@@ -69,6 +84,14 @@ def magnified_range(texture: Texture, low: Floats, high: Floats, wrap: str) -> t
         spread = np.nan_to_num(reach * texture_ranges(texture).neighbours, nan=np.inf, posinf=np.inf)
     middle = texture_colors(texture, np.nan_to_num((low + high) / 2), "bilinear", wrap)[:, :channels]
     return middle - spread, middle + spread
+
+
+def minified_range(texture: Texture, lod: Floats) -> tuple[Floats, Floats]:
+    """Return the least and largest trilinear colours (Q, C) at a level of detail of ``lod`` (Q,) or more."""
+    ranges = texture_ranges(texture)
+    top = len(ranges.level_low) - 1
+    level = np.clip(np.floor(np.nan_to_num(lod, nan=0.0, neginf=0.0, posinf=top)), 0, top).astype(np.int64)
+    return ranges.level_low[level], ranges.level_high[level]
 
 
 def range_around(

@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.frame import STAGES, StageCount
 from core.fragments.interpolation import value_plane
+from core.frame import STAGES, StageCount
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry_record import Geometry
 from core.geometry_stages import process_geometry
@@ -55,11 +55,13 @@ class Touched:
     far: Floats
     """(Q,) float64, window depth at most."""
     is_outlined: Flags
-    """(Q,) bool, an edge of the primitive's mesh that has no neighbour of the same facing crosses the square."""
+    """(Q,) bool, an edge that has no neighbour of the same facing crosses the square."""
     depth_plane: tuple[Floats, Floats, Floats]
     """(P,) float64 each: window depth is a x + b y + c."""
     is_drawn: Flags
     """(Q,) bool, False: a triangle so thin that it covers no sample there, of one or of 4 x 4."""
+    component: Integers
+    """(P,) int64, which primitives hang together by their corners."""
     facing: Floats
     """(P,) float64, twice the signed area in the window; positive: a front."""
     size: tuple[int, int]
@@ -91,37 +93,43 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     x, y = window[..., 0].T, window[..., 1].T
     facing = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     edges = _edges(x, y, facing)
-    outlined = outline_edges(geometry, facing)
+    vertex = _vertices(geometry)
+    component = components(vertex)
+    outlined = outline_edges(vertex, component, facing)
     found, total = [], 0
     for number, column, row in _boxes(x, y, scene.size, offset):
-        centre = column + offset, row + offset
-        kept, crossing = _touches(edges, outlined, number, *centre, _inside(column, row, scene.size, offset))
+        at_x, at_y = column + np.float64(offset), row + np.float64(offset)
+        kept, crossing = _touches(
+            edges, outlined, number, at_x, at_y, _inside(column, row, scene.size, offset)
+        )
         total += int(np.count_nonzero(kept))
         if total > MOST_PAIRS:
             raise ValueError(f"a scene to be planned must touch at most {MOST_PAIRS:,} pixels, got more")
         pixel = row * scene.size[0] + column
-        parts = (number, pixel, *centre, crossing)
-        found.append([np.compress(kept, part) for part in parts])
-    empty = [np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, bool)]
-    primitive, pixel, at_x, at_y, is_outlined = (
-        np.concatenate(parts) for parts in zip(empty, *found, strict=True)
-    )
+        found.append((number[kept], pixel[kept], at_x[kept], at_y[kept], crossing[kept]))
+    empty = np.empty(0, np.int64)
+    primitive = np.concatenate([empty, *(part[0] for part in found)])
+    pixel = np.concatenate([empty, *(part[1] for part in found)])
     order = np.lexsort((primitive, pixel))
-    primitive, pixel, at_x, at_y = (part[order] for part in (primitive, pixel, at_x, at_y))
+    primitive, pixel = primitive[order], pixel[order]
+    x_of_pixel = np.concatenate([np.empty(0), *(part[2] for part in found)])[order]
+    y_of_pixel = np.concatenate([np.empty(0), *(part[3] for part in found)])[order]
+    is_outlined = np.concatenate([np.empty(0, bool), *(part[4] for part in found)])[order]
     clip = geometry.primitives.clip
     plane = value_plane(geometry.planes, (clip[..., 2] + clip[..., 3]) / 2)
-    near, far = _depths(geometry, plane, primitive, at_x, at_y)
+    near, far = _depths(geometry, plane, primitive, x_of_pixel, y_of_pixel)
     return Touched(
         geometry,
         pixel,
         primitive,
-        at_x,
-        at_y,
+        x_of_pixel,
+        y_of_pixel,
         near,
         far,
-        is_outlined[order],
+        is_outlined,
         plane,
-        _is_drawn(geometry, facing, primitive, at_x, at_y),
+        _is_drawn(geometry, facing, primitive, x_of_pixel, y_of_pixel),
+        component,
         facing,
         scene.size,
     )
@@ -245,23 +253,47 @@ def _touches(
     return kept, crossing
 
 
-def outline_edges(geometry: Geometry, facing: Floats) -> Flags:
-    """Return (3, P) bool: edge k of a primitive has no neighbour in its mesh that faces the same way.
+def _vertices(geometry: Geometry) -> Integers:
+    """Return (P, 3) int64 numbers of the corners, the same where their clip positions are, bit for bit."""
+    corners = (geometry.primitives.clip + 0.0).reshape(-1, 4)
+    if not len(corners):
+        return np.empty((0, 3), np.int64)
+    return np.asarray(np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1, 3))
+
+
+def components(vertex: Integers) -> Integers:
+    """Return (P,) int64, the same number for triangles (P, 3) that hang together by their corners."""
+    label = np.arange(int(vertex.max(initial=-1)) + 1)
+    while True:
+        least = label[vertex].min(axis=1)
+        joined = label.copy()
+        np.minimum.at(joined, vertex, least[:, None])
+        joined = joined[joined]
+        if (joined == label).all():
+            return np.asarray(least)
+        label = joined
+
+
+def outline_edges(vertex: Integers, component: Integers, facing: Floats) -> Flags:
+    """Return (3, P) bool: edge k of a primitive has no neighbour in its component that faces the same way.
+
+    Parameters
+    ----------
+    vertex : (P, 3) int64
+        Corners of one number are snapped alike, so no pixel is lost between.
+    component : (P,) int64
+    facing : (P,) float64
 
     Notes
     -----
-    Corners are the same where their clip positions are, bit for bit: then they are snapped alike and no pixel is lost
-    between. Crossing an edge that is not outlined, the number of triangles of this mesh and facing stays the same: an
-    edge goes as often one way as the other.
+    Crossing an edge that is not outlined, the number of triangles of this component and facing stays the same: an edge
+    goes as often one way as the other.
     """
-    primitives = geometry.primitives
-    count = len(primitives)
+    count = len(vertex)
     if not count:
         return np.zeros((3, 0), bool)
-    corners = (primitives.clip + 0.0).reshape(-1, 4)
-    vertex = np.unique(corners, axis=0, return_inverse=True)[1].reshape(count, 3)
     start, end = vertex.T, np.roll(vertex, -1, axis=1).T
-    group = np.broadcast_to(primitives.mesh * 2 + (facing < 0), (3, count))
+    group = np.broadcast_to(component * 2 + (facing < 0), (3, count))
     keys = np.stack([group, np.minimum(start, end), np.maximum(start, end)], axis=-1).reshape(-1, 3)
     edge = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
     direction = np.where(start < end, 1, -1).reshape(-1)

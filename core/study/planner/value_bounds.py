@@ -1,18 +1,18 @@
 """How wrong cheaper filters, interpolation and shading can be: bounds of linear light, then of bytes.
 
-**Filters.** All mix texels with weights that sum to 1, so two of them differ by no more than the texels in reach do. At a
-level of detail of 0 or below trilinear reads level 0 only, as bilinear does: no difference.
+**Filters.** All mix texels with weights that sum to 1, so two of them differ by no more than the texels in reach do. At
+a level of detail of 0 or below trilinear reads level 0 only, as bilinear does: no difference.
 
-**Affine interpolation.** Of weights a (affine) perspective makes b_i = a_i q_i / sum a_j q_j with q = 1/w. Where b > a the
-affine weights sum to some A, and to at most A q / (A q + 1 - A) with q the ratio r of the corners' w; that exceeds A by at
-most k = (sqrt r - 1)/(sqrt r + 1). So no attribute is off by more than k times the range of its values at the corners.
-With corrections every n columns, r is what 1/w can change by in n columns.
+**Affine interpolation.** Of weights a (affine) perspective makes b_i = a_i q_i / sum a_j q_j with q = 1/w. Where b > a
+the affine weights sum to some A, and b to at most A r / (A r + 1 - A) with the ratio r of the corners' w; that is above
+A by at most k = (sqrt r - 1)/(sqrt r + 1). So no attribute is off by more than k times the range of its values at the
+corners. With corrections every n columns, r is what 1/w can change by in n columns.
 
-**Gouraud.** With unit normals n_i at the corners and a distant light L, sum b_i n_i.L is what Gouraud interpolates and, over
-|sum b_i n_i|, what Phong computes. |sum b_i n_i|^2 is 1 - sum over pairs of 2 b_i b_j (1 - n_i.n_j), at least
-m^2 = (1 + 2 c)/3 for the smallest cosine c: they differ by (1/m - 1) of the brightest corner, the sagitta of the cosine.
-Where corners lie on both sides of the terminator, by p n/(p + n) of the cosines p and -n there as well. A near light adds
-twice the radius of the cone of its directions. Highlights are bounded by their cones, see ``light_ranges``.
+**Gouraud.** With unit normals n_i at the corners and a distant light L, sum b_i n_i.L is what Gouraud interpolates and,
+over |sum b_i n_i|, what Phong computes. |sum b_i n_i|^2 is 1 - sum over pairs of 2 b_i b_j (1 - n_i.n_j), at least
+m^2 = (1 + 2 c)/3 for the smallest cosine c: they differ by (1/m - 1) of the brightest corner, the sagitta of the
+cosine. Where corners lie on both sides of the terminator, by p n/(p + n) of the cosines p and -n there as well. A near
+light adds twice the radius of the cone of its directions. Highlights are bounded by cones, see ``light_ranges``.
 
 **Flat.** The normal of a face and the interpolated one are no farther apart than the face's is from the corners'.
 
@@ -139,7 +139,8 @@ def _interpolated_light_error(touched: Touched, scene: Scene, share: Floats, sha
     )
     if shading == "flat":
         return LightError(np.zeros_like(diffuse), np.zeros_like(specular))
-    most = np.minimum(share, 1.0)[:, None] if shading == "gouraud" else (share > 0)[:, None]
+    part = np.minimum(share, 1.0) if shading == "gouraud" else np.where(share > 0, 1.0, 0.0)
+    most = part[:, None]
     error = LightError(times(most, diffuse), times(most, specular))
     lost = np.isinf(share)
     error.diffuse[lost] = error.specular[lost] = np.inf
@@ -155,10 +156,12 @@ def shading_error(touched: Touched, scene: Scene, name: str) -> LightError:
         away = np.maximum(np.abs(spread.diffuse_low - 1), np.abs(spread.diffuse_high - 1))
         return LightError(away, spread.specular_high)
     angles = _gouraud_error(touched, scene) if name == "gouraud" else _flat_error(touched, scene)
-    lost = is_cut(touched)[:, None]
+    # Light at the corners of a triangle, or at its middle, is not bounded by what is in view of it.
+    material = materials(scene, touched.geometry.primitives.mesh)
+    cut = is_cut(touched) & bool(scene.lights)
     return LightError(
-        np.where(lost & (diffuse > 0), np.inf, np.minimum(angles, diffuse)),
-        np.where(lost & (specular > 0), np.inf, specular),
+        np.where((cut & (material.diffuse > 0))[:, None], np.inf, np.minimum(angles, diffuse)),
+        np.where((cut & (material.specular > 0))[:, None], np.inf, specular),
     )
 
 
@@ -244,6 +247,6 @@ def _face_normal(touched: Touched) -> Floats:
 
 
 def times(first: Floats, second: Floats) -> Floats:
-    """Return the product of bounds; nothing times the unknown is nothing."""
+    """Return the product of bounds, arrays of any shape; nothing times the unknown is nothing."""
     with np.errstate(invalid="ignore"):
         return np.asarray(np.where((first == 0) | (second == 0), 0.0, first * second))

@@ -17,6 +17,7 @@ from core.study.planner.touched import Touched
 from core.study.planner.value_bounds import (
     filter_error,
     interpolation_error,
+    is_cut,
     shading_error,
     share_of_range,
     times,
@@ -59,7 +60,7 @@ class Budget:
 
     def choose(self, options: dict[str, Floats], dearest: str) -> ValueChoice:
         """Return the first of the ``options``, each with its error (Q, 3), that fits, and spend it."""
-        rejected = []
+        rejected: list[tuple[str, float]] = []
         for name, error in options.items():
             cost = self.cost(error)
             if cost <= self.left:
@@ -79,7 +80,22 @@ def choose_values(
     left: float,
     side: int,
 ) -> dict[str, ValueChoice]:
-    """Choose by family, with ``left`` of the tolerance in 1/255 and ``side`` x ``side`` samples a pixel."""
+    """Choose by family.
+
+    Parameters
+    ----------
+    touched : Touched
+    colors : ColorRanges
+    scene : Scene or ClipScene
+    settings : Settings
+        With what was chosen of the stages that decide what is seen.
+    seen : (Q,) bool
+        The pairs of the look that may be seen.
+    left : float
+        What is left of the tolerance, in 1/255.
+    side : int
+        Samples on a side of a pixel.
+    """
     budget = Budget(colors, seen, left)
     shading = ValueChoice(settings.shading, 0.0, ())
     if isinstance(scene, Scene) and settings.shading != "unlit":
@@ -91,14 +107,16 @@ def choose_values(
         shading = budget.choose(errors, settings.shading)
     has_texture = "uv" in touched.geometry.primitives.layout
     filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
-    found = budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
+    found = (
+        budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
+    )
 
     def moved(share: Floats) -> Floats:
         return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
 
-    one = np.ones(len(touched.facing))
     shares = {
-        "flat": one,
+        # One vertex's value is off by the whole range; of a cut triangle it is another vertex than the piece's.
+        "flat": np.where(is_cut(touched), np.inf, 1.0),
         "affine": share_of_range(touched),
         "affine-n": share_of_range(touched, settings.correction_interval),
     }
