@@ -80,7 +80,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
     lines = [predicted, measured]
     if len(outcome.seconds):
         alone, everything = float(np.median(outcome.seconds)), float(np.median(report.seconds_everything))
-        lines.append(f"alone {time_text(alone)}, {alone / everything:.0%} of everything on")
+        lines.append(f"time alone {time_text(alone)} ({alone / everything:.0%})")
     return "\n".join(lines)
 
 
@@ -92,10 +92,9 @@ def headline(plan: Plan, report: PlanReport | None) -> str:
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
     within = "Within the tolerance" if report.is_within else "Beyond the tolerance"
-    return (
-        f"{within}, {digits(everything / chosen)} times as fast as everything on: "
-        f"{time_text(chosen)} instead of {time_text(everything)}"
-    )
+    ratio = everything / chosen
+    speed = f"{digits(ratio)} times as fast as" if ratio >= 1 else f"{digits(1 / ratio)} times as slow as"
+    return f"{within}, {speed} everything on: {time_text(chosen)} instead of {time_text(everything)}"
 
 
 def details(plan: Plan, report: PlanReport) -> str:

@@ -56,6 +56,9 @@ class PlanRowView(QWidget):
         self.picture_button = QPushButton("Difference", self)
         self.picture_button.setToolTip("Draw this choice alone beside everything on, and where they differ")
         self.picture_button.clicked.connect(self._ask)
+        policy = self.picture_button.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)  # The columns of all rows stand under one another.
+        self.picture_button.setSizePolicy(policy)
         font = self.chosen.font()
         font.setBold(True)
         self.chosen.setFont(font)
@@ -71,8 +74,7 @@ class PlanRowView(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 8, 8, 8)
         row.setSpacing(12)
-        row.addLayout(_stack(self.stage), 2)
-        row.addLayout(_stack(self.chosen, self.instead), 5)
+        row.addLayout(_stack(self.stage, self.chosen, self.instead), 5)
         row.addLayout(_stack(self.reason), 8)
         row.addLayout(_stack(self.numbers, self.verdict), 6)
         for widget in (self.mark, self.picture_button):
@@ -93,8 +95,7 @@ class PlanRowView(QWidget):
             label.setVisible(bool(text))
         set_role(self.verdict, {Verdict.HELD: "good", Verdict.WRONG: "bad"}.get(row.verdict, "muted"))
         set_role(self, "kept" if row.is_needed else "panel")
-        # A hidden button would let the columns of rows differ.
-        self.picture_button.setEnabled(row.can_draw)
+        self.picture_button.setVisible(row.can_draw)
         self.setAccessibleName(f"{row.stage}: {row.chosen}")
         self.picture_button.setAccessibleName(f"Difference of {row.stage}")
         self._paint_mark()
