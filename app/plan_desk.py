@@ -99,8 +99,7 @@ class PlanDesk(QObject):
                 progress(done, doing)
 
             with self._turn:
-                progress(None, "Looking at the scene")
-                chosen = plan(order.scene, order.tolerance, order.settings)
+                chosen = plan(order.scene, order.tolerance, order.settings, watch)
                 self._planned_in_thread.emit(_Planned(serial, chosen))
                 return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)
 

@@ -15,7 +15,7 @@ from app.study_words import machine_sentence, work_sentence
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.record import Point, Study
-from core.study.whole_picture import PIPELINE
+from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.chart import Chart
 from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
@@ -299,8 +299,10 @@ class StudyPresenter(QObject):
         self._desk.measure(order)
 
     def measure_scene(self) -> None:
-        """Measure the whole pipeline on the open scene."""
+        """Measure the whole pipeline on the open scene; beside a plan with an error that does not mind samples."""
         self.show_family(PIPELINE.name)
+        if self._session.plan is not None and self._session.document.settings.polygon_mode == "fill":
+            self.choice.measure = SAMPLED_COLOR.name
         self.measure()
 
     @Slot()

@@ -1,6 +1,5 @@
 """Measuring a plan: never trust a prediction."""
 
-from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -13,17 +12,11 @@ from core.picture import draw_picture
 from core.pipeline import render
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
-from core.study.planner.planning import plan
+from core.study.planner.planning import Watch, plan, unwatched
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
 from core.study.speed_accuracy import collector_off
 
 ROUNDS = 5
-Watch = Callable[[float, str], None]
-"""Told before every drawing the part that is done and what comes next; whatever it raises ends the measuring."""
-
-
-def unwatched(done: float, doing: str) -> None:
-    """Let everything be drawn."""
 
 
 def measure_plan(
