@@ -136,6 +136,7 @@ class ComparePage(Page):
         """Return what the keys of this page do."""
         return {
             "measure": self.studies.measure,
+            "measure_scene": self.studies.measure_scene,
             "cancel_measuring": self.studies.cancel,
             "next_family": lambda: self.studies.show_neighbour(1),
             "previous_family": lambda: self.studies.show_neighbour(-1),

@@ -44,6 +44,7 @@ MEASURING = "Measuring"
 EXPERIMENTS = "Experiments"
 MAPS = "Maps"
 CHARTS = "Charts"
+PLANNING = "Planning"
 
 ACTIONS: tuple[KeyAction, ...] = (
     *_on(
@@ -105,6 +106,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
     KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
+    KeyAction("page_plan", ("Alt+4",), "What does this scene need?", PAGES, "View", is_checkable=True),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Page before", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
@@ -133,6 +135,9 @@ ACTIONS: tuple[KeyAction, ...] = (
     *_on(
         "compare",
         KeyAction("measure", ("F5",), "Measure all methods of the family", MEASURING, "Compare"),
+        KeyAction(
+            "measure_scene", ("Ctrl+M",), "Measure the whole pipeline on the open scene", MEASURING, "Compare"
+        ),
         KeyAction("cancel_measuring", ("Shift+F5",), "Cancel measuring", MEASURING, "Compare"),
         KeyAction("next_family", ("Ctrl+PgDown",), "Next family", MEASURING, "Compare"),
         KeyAction("previous_family", ("Ctrl+PgUp",), "Family before", MEASURING, "Compare"),
@@ -159,6 +164,15 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("step_cell", ("Ctrl+Return",), "Open the chosen cell in the stepper", MAPS, "Stability"),
         KeyAction("shrink_cell", ("S",), "Shrink the chosen cell", MAPS, "Stability"),
         KeyAction("save_case", (), "Save the smallest case…", MAPS, "Stability"),
+    ),
+    *_on(
+        "plan",
+        KeyAction("look", ("F5",), "Look at the scene and choose", PLANNING, "Plan"),
+        KeyAction("cancel_look", ("Shift+F5",), "Stop looking", PLANNING, "Plan"),
+        KeyAction("apply_plan", ("Ctrl+Return",), "Apply what was chosen", PLANNING, "Plan"),
+        KeyAction("plan_difference", ("D",), "Difference from everything on", PLANNING, "Plan"),
+        KeyAction("plan_chart", ("Ctrl+M",), "Show the choice on the chart of the scene", PLANNING, "Plan"),
+        KeyAction("plan_findings", ("I",), "Show or hide what was seen in the scene", PLANNING, "Plan"),
     ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),

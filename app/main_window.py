@@ -209,6 +209,7 @@ class MainWindow(QMainWindow):
         page.message_sent.connect(self.tell)
         page.edit_refused.connect(self._warn)
         page.step_requested.connect(self.opening.open_request)
+        page.action_requested.connect(self.run_action)
         page.restore_layout(self.preferences.layout)
 
     @Slot(str)

@@ -25,6 +25,12 @@ def _make_stability(session: Session, parent: QWidget) -> Page:
     return StabilityPage(session, parent)
 
 
+def _make_plan(session: Session, parent: QWidget) -> Page:
+    from app.plan_page import PlanPage  # As above.
+
+    return PlanPage(session, parent)
+
+
 PAGE_KINDS = (
     PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
     PageKind(
@@ -43,6 +49,7 @@ PAGE_KINDS = (
         (".json",),
         b'"rasterscope stress"',
     ),
+    PageKind("plan", "Plan", "What does this scene need? No more than that (Alt+4)", _make_plan),
 )
 HEAD = 256
 """Bytes at the beginning of a file that name the program it is of."""

@@ -41,6 +41,9 @@ class Page(QWidget):
     step_requested = Signal(object)
     """A `StepRequest`: the user wants to step something that this page shows."""
 
+    action_requested = Signal(str)
+    """Name of an action of ``app.keys.ACTIONS`` that is another page's, or shows another page."""
+
     def handlers(self) -> Handlers:
         """Return what the actions of this page do."""
         return {}

@@ -1,6 +1,7 @@
 """The only mutable state of the program: what is open, where the cursor is, what is pointed at. With signals."""
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -10,6 +11,9 @@ from app.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_now
 from core import STAGES, Settings, Trace
 from core.steps import Level
 from core.trace import Explanation, StageTrace
+
+if TYPE_CHECKING:
+    from core.study.planner import PlanReport  # As in app.pages.
 
 Pixel = tuple[int, int]
 
@@ -35,6 +39,8 @@ class Session(QObject):
     """What can be undone, redone or gone back to."""
     predicting_changed = Signal()
     """What comes next is hidden, or shown again."""
+    plan_changed = Signal()
+    """Something else is known of what the scene needs."""
     edit_failed = Signal(object)
     """Why an edit that was traced in the background came to nothing: the exception."""
 
@@ -50,6 +56,7 @@ class Session(QObject):
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
         self._is_predicting = False
+        self._plan: PlanReport | None = None
         self._trace = document.make_trace()
 
     @property
@@ -86,6 +93,16 @@ class Session(QObject):
     def hover(self) -> Pixel | None:
         """The pixel under the pointer."""
         return self._hover
+
+    @property
+    def plan(self) -> "PlanReport | None":
+        """What the open scene needs; ``None``: it has not been measured, or another scene is open by now."""
+        return self._plan if self._plan is not None and self._plan.scene is self.document.scene else None
+
+    def set_plan(self, plan: "PlanReport") -> None:
+        """Say what a scene needs."""
+        self._plan = plan
+        self.plan_changed.emit()
 
     # Editing.
 

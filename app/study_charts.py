@@ -53,7 +53,7 @@ def title_of(point: Point, methods: Iterable[str]) -> str:
 
 
 def scatter_of(
-    study: Study, measure_name: str, cost: str, numbers: Mapping[str, int]
+    study: Study, measure_name: str, cost: str, numbers: Mapping[str, int], ringed: tuple[str, ...] = ()
 ) -> ChartPicture | ChartEmpty:
     """Return the chart of an error against a cost, with the front of the methods that no other beats in both.
 
@@ -61,6 +61,8 @@ def scatter_of(
     ----------
     numbers : mapping of str to int
         Every method's number, those included that are still to be measured.
+    ringed : tuple of str
+        Methods that stand out: what a plan chose.
     """
     measure = measure_of(study, measure_name)
     series = tuple(
@@ -83,6 +85,7 @@ def scatter_of(
         ChartAxis(measure.title, measure.unit),
         series,
         tuple(point.method for point in front),
+        ringed,
     )
 
 

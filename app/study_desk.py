@@ -16,6 +16,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, Pictures, Point, Study, machine, measure, opening, pictures
 from core.study.divergence import first_divergence
+from core.study.family import Candidate
 from core.trace import scene_triangle_count
 
 
@@ -32,6 +33,8 @@ class StudyOrder:
     """For the family that takes a scene, with ``settings`` and ``scene_title``."""
     settings: Settings | None = None
     scene_title: str = ""
+    extra: tuple[Candidate, ...] = ()
+    """Settings that are measured along with the family's own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +126,7 @@ class StudyDesk(QObject):
                     scene=order.scene,
                     settings=order.settings,
                     scene_title=order.scene_title,
+                    extra=order.extra,
                     rounds=order.rounds,
                     seed=order.seed,
                     machine=machine(__version__),

@@ -5,14 +5,17 @@ from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.plan_points import chosen_points, plan_candidates
 from app.session import Session
 from app.study_charts import growth_of, numbers_of, scatter_of
 from app.study_choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
 from app.study_desk import StudyDesk, StudyOrder, StudyResult
 from app.study_figures import point_text, study_text, table_of
 from app.study_words import machine_sentence, work_sentence
+from core.scene import AnyScene
 from core.settings import Settings
 from core.study.record import Point, Study
+from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.chart import Chart
 from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
@@ -64,6 +67,7 @@ class StudyPresenter(QObject):
         self._pointed = ""
         self._chosen = ""
         self._connect()
+        session.plan_changed.connect(self.refresh)
         self.refresh()
 
     def _connect(self) -> None:
@@ -156,7 +160,7 @@ class StudyPresenter(QObject):
             growth = ChartEmpty(NO_GROWTH)
             self._table.show_table(TableRecord((), (), ()))
         else:
-            scatter = scatter_of(study, choice.measure, choice.cost, self._numbers)
+            scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
             growth = growth_of(study, choice.cost, self._numbers)
             if self.is_partial:
                 growth = ChartEmpty("Measured after the points of the other chart.")
@@ -168,6 +172,16 @@ class StudyPresenter(QObject):
                 chart.show_picture(picture)
         self._show_readout()
         self.shown_text_changed.emit(self._shown_text())
+
+    def _ringed(self, study: Study) -> tuple[str, ...]:
+        """Return the points that a plan chose for the scene that was measured."""
+        plan = self._session.plan
+        is_of_plan = plan is not None and (self.is_partial or self._is_of(plan.scene))
+        return chosen_points(study, plan.plan if plan is not None and is_of_plan else None)
+
+    def _is_of(self, scene: AnyScene) -> bool:
+        """Return whether the result that is shown was measured on a scene."""
+        return self.result is not None and self.result.scene is scene
 
     def _shown_text(self) -> str:
         study = self.study
@@ -267,11 +281,15 @@ class StudyPresenter(QObject):
             order = replace(
                 order, scene=document.scene, settings=settings, scene_title=document.title or "scene"
             )
+            plan = self._session.plan
+            if plan is not None:
+                order = replace(order, extra=plan_candidates(plan.plan, settings))
         self._desk.cancel()
         self._running = choice.name
         self._partial = None
         self._numbers = {
-            each.method: number for number, each in enumerate(choice.family.candidates(settings))
+            each.method: number
+            for number, each in enumerate((*choice.family.candidates(settings), *order.extra))
         }
         self._blank = _unmeasured(choice, order)
         self._pointed = self._chosen = ""
@@ -279,6 +297,13 @@ class StudyPresenter(QObject):
         self.shown_changed.emit()
         self._show_study()
         self._desk.measure(order)
+
+    def measure_scene(self) -> None:
+        """Measure the whole pipeline on the open scene; beside a plan with an error that does not mind samples."""
+        self.show_family(PIPELINE.name)
+        if self._session.plan is not None and self._session.document.settings.polygon_mode == "fill":
+            self.choice.measure = SAMPLED_COLOR.name
+        self.measure()
 
     @Slot()
     def cancel(self) -> None:

@@ -212,12 +212,16 @@ class Chart(ChartCanvas):
                 painter.restore()
 
     def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:
-        """Ring what is pointed at and chosen: of a line its last point."""
+        """Ring what is pointed at and chosen, and twice what stands out: of a line its last point."""
         theme = current_theme()
         reach = 0.9 * self.mark_size()
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for series in picture.series:
             at = self.place_of(series.key)
+            if at is not None and series.key in picture.ringed:
+                painter.setPen(QPen(QColor(theme.text), 2.0))
+                for share in (1.0, 1.4):
+                    painter.drawEllipse(at, share * reach, share * reach)
             if at is not None and (series.key in self._marks or series.key == self._pointed):
                 painter.setPen(QPen(QColor(theme.text), 2.0 if series.key in self._marks else 1.4))
                 painter.drawEllipse(at, reach, reach)
@@ -236,7 +240,10 @@ class Chart(ChartCanvas):
         if len(picture.series) <= _FEW:
             for bar in self.bars():
                 places.take(bar)
-        wanted = sorted(picture.series, key=lambda s: (s.key != self._pointed, s.key not in self._marks))
+        wanted = sorted(
+            picture.series,
+            key=lambda s: (s.key != self._pointed, s.key not in self._marks, s.key not in picture.ringed),
+        )
         for series in wanted:
             end = self.place_of(series.key)
             if end is None:
@@ -247,7 +254,7 @@ class Chart(ChartCanvas):
             found = places.find(end, size, reach, _FURTHER)
             if found is None:
                 continue
-            is_strong = series.key == self._pointed or bool(letter)
+            is_strong = series.key == self._pointed or bool(letter) or series.key in picture.ringed
             self._paint_leader(painter, end, found, reach)
             painter.fillRect(found, faded(theme.panel, 0.75))
             painter.setPen(QColor(theme.text if is_strong else series_color(series.number)))

@@ -49,6 +49,8 @@ class ChartPicture:
     series: tuple[ChartSeries, ...] = ()
     front: tuple[str, ...] = ()
     """Keys of the series of one point that no other beats on both axes, the smallest x first."""
+    ringed: tuple[str, ...] = ()
+    """Keys of the series that stand out, whatever is pointed at: what a plan chose."""
 
 
 @dataclass(frozen=True)

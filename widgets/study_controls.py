@@ -7,8 +7,6 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
-    QLabel,
     QSizePolicy,
     QSpinBox,
     QVBoxLayout,
@@ -17,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from widgets.dial_control import DialChoice, DialControl
 from widgets.flow_layout import FlowLayout
+from widgets.labelled import labelled
 from widgets.message_bar import Progress
 from widgets.run_controls import RunControls
 
@@ -105,13 +104,13 @@ class StudyControls(QWidget):
     def _lay_out(self) -> None:
         self._work_row = QWidget(self)
         self._work_flow = FlowLayout(self._work_row, 12)
-        self._work_flow.addWidget(self._labelled("Work", self.work_box))
-        self._work_flow.addWidget(self._labelled("Rounds", self.rounds_box))
-        self._work_flow.addWidget(self._labelled("Seed", self.seed_box))
+        self._work_flow.addWidget(labelled("Work", self.work_box))
+        self._work_flow.addWidget(labelled("Rounds", self.rounds_box))
+        self._work_flow.addWidget(labelled("Seed", self.seed_box))
         axes = QWidget(self)
         flow = FlowLayout(axes, 12)
-        flow.addWidget(self._labelled("Error", self.measure_box))
-        flow.addWidget(self._labelled("Cost", self.cost_box))
+        flow.addWidget(labelled("Error", self.measure_box))
+        flow.addWidget(labelled("Cost", self.cost_box))
         for widget in self.running.widgets:
             flow.addWidget(widget)
         for row in (self._work_row, axes):
@@ -121,17 +120,6 @@ class StudyControls(QWidget):
         layout.setSpacing(8)
         layout.addWidget(self._work_row)
         layout.addWidget(axes)
-
-    def _labelled(self, text: str, control: QWidget) -> QWidget:
-        pair = QWidget(self)
-        row = QHBoxLayout(pair)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
-        label = QLabel(text, pair)
-        label.setBuddy(control)
-        row.addWidget(label)
-        row.addWidget(control)
-        return pair
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep room for all lines of controls."""

@@ -108,13 +108,14 @@ QLabel[role="title"] { font-size: ${title_px}px; font-weight: 600; }
 QLabel[role="bad"] { color: $bad; }
 QLabel[role="good"] { color: $good; }
 QWidget[role="panel"] { background: $panel; border-radius: 4px; }
+QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 """)
 
 
 def style_sheet(theme: "Theme") -> str:
     """Return the application's style sheet for ``theme``.
 
-    Labels may set the property ``role`` to muted, title, good or bad, containers to panel, and buttons
+    Labels may set the property ``role`` to muted, title, good or bad, containers to panel or kept, and buttons
     ``flat`` to true.
     """
     unit = theme.unit

@@ -84,6 +84,7 @@ def measure(
     scene: AnyScene | None = None,
     settings: Settings | None = None,
     scene_title: str = "",
+    extra: tuple[Candidate, ...] = (),
     rounds: int = ROUNDS,
     grow: bool = True,
     seed: int = 0,
@@ -105,6 +106,8 @@ def measure(
     scene, settings, scene_title : optional
         What is measured on, by the family ``pipeline``: the scene, the settings that each point changes one of, and
         what the scene is called.
+    extra : tuple of Candidate
+        Settings that are measured along with the family's own, as the choice of a plan.
     rounds : int
         Timed runs of every method, fewer of slow ones.
     grow : bool
@@ -140,7 +143,7 @@ def measure(
     kind = found.work(work)
     base = found.base if settings is None else settings
     assignment = Assignment(kind.name, chosen_dials(kind, dials), seed, base, scene)
-    candidates = found.candidates(base)
+    candidates = (*found.candidates(base), *extra)
     dial = cost_dial(kind) if grow else None
     others = [value for value in dial.values if value != assignment.dials[dial.name]] if dial else []
     watch = _Watch(

@@ -1,7 +1,7 @@
 """No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance."""
 
 from core.study.planner.everything import everything_on
-from core.study.planner.measuring import measure_plan, plan_and_check
+from core.study.planner.measuring import check_plan, measure_plan, plan_and_check
 from core.study.planner.planning import look_at, plan
 from core.study.planner.records import (
     Decision,
@@ -23,6 +23,7 @@ __all__ = [
     "PlanReport",
     "Tessellation",
     "Tolerance",
+    "check_plan",
     "everything_on",
     "look_at",
     "measure_plan",

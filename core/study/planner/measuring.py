@@ -1,7 +1,7 @@
 """Measuring a plan: never trust a prediction."""
 
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
@@ -11,8 +11,8 @@ from core.framebuffer.display import to_display
 from core.picture import draw_picture
 from core.pipeline import render
 from core.scene import AnyScene
-from core.settings import Settings
-from core.study.planner.planning import plan
+from core.settings import Settings, settings_from_texts
+from core.study.planner.planning import Watch, plan, unwatched
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
 from core.study.speed_accuracy import collector_off
 
@@ -20,7 +20,12 @@ ROUNDS = 5
 
 
 def measure_plan(
-    scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, fallen_back: tuple[str, ...] = ()
+    scene: AnyScene,
+    chosen: Plan,
+    rounds: int = ROUNDS,
+    fallen_back: tuple[str, ...] = (),
+    watch: Watch = unwatched,
+    times_each: bool = False,
 ) -> PlanReport:
     """Draw a scene with everything on, with a plan's settings, and with each of its decisions alone.
 
@@ -32,23 +37,35 @@ def measure_plan(
         Timed drawings of each, in turn, from 1 on.
     fallen_back : tuple of str
         As `PlanReport.fallen_back`.
+    watch : callable, optional
+        Told what is drawn, see `Watch`.
+    times_each : bool
+        Whether each decision alone is timed too.
 
     Notes
     -----
     Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are
     those of `draw_picture`, each of a scene that nothing is known of.
     """
+    cheaper = [decision for decision in chosen.decisions if decision.chosen != decision.dearest]
+    timed = [chosen.everything, chosen.settings]
+    if times_each:
+        timed += [with_choices(chosen, (decision.setting,)) for decision in cheaper]
+    steps = _Steps(watch, 2 + len(cheaper) + len(timed) * (1 + max(rounds, 1)))
+    steps.next("Comparing: everything on")
     reference = shown(scene, chosen.everything)
-    outcomes = []
-    for decision in chosen.decisions:
-        if decision.chosen != decision.dearest:
-            rest = {name: getattr(chosen.settings, name) for name in decision.rests_on}
-            before = shown(scene, replace(chosen.everything, **rest)) if rest else reference
-            alone = replace(chosen.everything, **{**rest, decision.setting: decision.chosen})
-            outcomes.append(_outcome(decision, difference(shown(scene, alone), before)))
+    steps.next("Comparing: the whole choice")
     differences = difference(shown(scene, chosen.settings), reference)
     beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
-    times = _times(scene, (chosen.everything, chosen.settings), max(rounds, 1))
+    outcomes = []
+    for decision in cheaper:
+        steps.next(f"Comparing: {decision.setting} {decision.chosen}")
+        before, alone = alone_settings(chosen, decision)
+        drawn_before = reference if before == chosen.everything else shown(scene, before)
+        outcomes.append(_outcome(decision, difference(shown(scene, alone), drawn_before)))
+    times = _times(scene, timed, max(rounds, 1), steps)
+    for place, seconds in enumerate(times[2:]):
+        outcomes[place] = replace(outcomes[place], seconds=seconds)
     is_within = beyond <= chosen.tolerance.pixels
     ratio = float(np.median(times[0]) / np.median(times[1]))
     largest = int(differences.max(initial=0))
@@ -62,23 +79,58 @@ def measure_plan(
     )
 
 
+@dataclass(eq=False)
+class _Steps:
+    """Tells a `Watch` what is drawn next."""
+
+    watch: Watch
+    count: int
+    done: int = 0
+
+    def next(self, doing: str) -> None:
+        self.watch(min(self.done / self.count, 1.0), doing)
+        self.done += 1
+
+
+def with_choices(chosen: Plan, names: tuple[str, ...]) -> Settings:
+    """Return everything on but for a plan's choices of the settings ``names``."""
+    texts = {name: str(getattr(chosen.everything, name)) for name in vars(chosen.everything)}
+    return settings_from_texts(texts | {name: str(getattr(chosen.settings, name)) for name in names})
+
+
+def alone_settings(chosen: Plan, decision: Decision) -> tuple[Settings, Settings]:
+    """Return what a decision's prediction is about: settings with what it rests on, and those with the decision too."""
+    rest = decision.rests_on
+    return with_choices(chosen, rest), with_choices(chosen, (*rest, decision.setting))
+
+
 def plan_and_check(
     scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None, rounds: int = ROUNDS
 ) -> PlanReport:
-    """Plan, measure, and where the tolerance does not hold put decisions back until it does.
+    """Plan, measure, and where the tolerance does not hold put decisions back until it does, see `check_plan`."""
+    return check_plan(scene, plan(scene, tolerance, base), rounds)
+
+
+def check_plan(
+    scene: AnyScene,
+    chosen: Plan,
+    rounds: int = ROUNDS,
+    watch: Watch = unwatched,
+    times_each: bool = False,
+) -> PlanReport:
+    """Measure a plan as `measure_plan` does, and where the tolerance does not hold put decisions back until it does.
 
     Notes
     -----
     The decision whose own measured error is largest goes back first; everything on is within any tolerance.
     """
-    chosen = plan(scene, tolerance, base)
-    report = measure_plan(scene, chosen, rounds)
+    report = measure_plan(scene, chosen, rounds, (), watch, times_each)
     fallen_back: list[str] = []
     while not report.is_within:
         worst = max(report.outcomes, key=lambda outcome: (outcome.measured_pixels, outcome.measured_error))
         fallen_back.append(worst.decision.setting)
         chosen = put_back(chosen, worst.decision.setting)
-        report = measure_plan(scene, chosen, rounds, tuple(fallen_back))
+        report = measure_plan(scene, chosen, rounds, tuple(fallen_back), watch, times_each)
     return report
 
 
@@ -127,16 +179,19 @@ def _outcome(decision: Decision, differences: Integers) -> Outcome:
     return Outcome(decision, measured, beyond, is_right, f"{text}: {verdict}")
 
 
-def _times(scene: AnyScene, choices: tuple[Settings, Settings], rounds: int) -> tuple[Floats, Floats]:
-    """Return the seconds (R,) of drawings with both settings, taken in turn after one that does not count."""
-    times: tuple[list[float], list[float]] = [], []
-    for settings in choices:
+def _times(scene: AnyScene, choices: list[Settings], rounds: int, steps: _Steps) -> list[Floats]:
+    """Return for each settings the seconds (R,) of drawings, taken in turn after one that does not count."""
+    times: list[list[float]] = [[] for _ in choices]
+    for number, settings in enumerate(choices):
+        steps.next(f"Warming up: {number + 1} of {len(choices)}")
         draw_picture(copy(scene), settings)
     for number in range(rounds):
-        for place in (number % 2, 1 - number % 2):
+        for turn in range(len(choices)):
+            place = (turn + number) % len(choices)
+            steps.next(f"Timing: round {number + 1} of {rounds}, {turn + 1} of {len(choices)}")
             fresh = copy(scene)
             with collector_off():
                 start = perf_counter()
                 draw_picture(fresh, choices[place])
                 times[place].append(perf_counter() - start)
-    return np.array(times[0]), np.array(times[1])
+    return [np.array(each) for each in times]

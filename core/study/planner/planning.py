@@ -1,5 +1,6 @@
 """The plan: look at a scene, choose stage by stage what is cheapest within the tolerance, and say why."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
 
@@ -30,6 +31,14 @@ STAGES = (
 """Families that a plan decides on, in pipeline order."""
 
 
+Watch = Callable[[float, str], None]
+"""Told the part that is done and what is done next; whatever it raises ends planning or measuring."""
+
+
+def unwatched(done: float, doing: str) -> None:
+    """Let everything be done."""
+
+
 def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:
     """Look at a scene, and return what a plan would be made of.
 
@@ -42,7 +51,12 @@ def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:
     return Findings(facts_of(touched, colors, scene), perf_counter() - start)
 
 
-def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None) -> Plan:
+def plan(
+    scene: AnyScene,
+    tolerance: Tolerance | None = None,
+    base: Settings | None = None,
+    watch: Watch = unwatched,
+) -> Plan:
     """Choose the cheapest methods whose bounded errors stay within a tolerance.
 
     Parameters
@@ -51,6 +65,8 @@ def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | N
     tolerance : Tolerance, optional
     base : Settings, optional
         What to draw, not how well, see `everything_on`.
+    watch : callable, optional
+        Told what is done, see `Watch`.
 
     Returns
     -------
@@ -68,6 +84,7 @@ def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | N
     """
     tolerance = tolerance or Tolerance()
     everything = everything_on(scene, base)
+    watch(0.0, "Looking at the scene")
     start = perf_counter()
     touched, colors = _look(scene, everything)
     findings = Findings(facts_of(touched, colors, scene), perf_counter() - start)
@@ -78,7 +95,9 @@ def plan(scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | N
             for name in STAGES
         )
         return Plan(tolerance, everything, everything, kept, findings, advice)
+    watch(1 / 3, "Choosing how what is seen is found")
     surface = choose_surfaces(touched, colors, scene, everything, tolerance)
+    watch(2 / 3, "Choosing how it is coloured")
     left = tolerance.bytes - surface.error
     values = choose_values(
         touched, colors, scene, surface.settings, surface.surfaces.is_candidate, left, surface.side

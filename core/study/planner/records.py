@@ -133,6 +133,8 @@ class Outcome:
     """Whether the prediction held."""
     text: str
     """As ``predicted 0.8/255, measured 1.4/255: the prediction was wrong``."""
+    seconds: Floats = field(default_factory=lambda: np.empty(0))
+    """(R,) float64, drawings with everything on but for this choice; empty: not timed."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,268 @@
+"""The Plan page: looking, choices and how they turned out, applying, pictures, and the point on the chart."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.compare_page import ComparePage
+from app.main_window import MainWindow
+from app.plan_page import PlanPage
+from app.plan_words import details, headline, rows_of
+from core.study import PlanReport, Tolerance, measure_plan, plan
+from core.study.family import settings_of
+from core.study.planner import touched
+from core.study.planner.planning import STAGES
+from lessons.scenes import built_in_scene
+from widgets.plan_rows import Verdict
+
+CTRL = Qt.KeyboardModifier.ControlModifier
+
+
+@pytest.fixture
+def page(window: MainWindow) -> PlanPage:
+    """Return the page, reached by its key."""
+    QTest.keyClick(window, Qt.Key.Key_4, Qt.KeyboardModifier.AltModifier)
+    found = window.pages.current
+    assert isinstance(found, PlanPage)
+    found.controls.rounds_box.setValue(1)
+    return found
+
+
+def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
+    """Look by the key and wait."""
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    assert page.desk.is_looking
+    qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    shown = page.plans.shown
+    assert shown is not None
+    assert shown.report is not None
+    return shown.report
+
+
+def wait_for_pictures(page: PlanPage, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: page.pictures.linked.grids[0].buffer() is not None, timeout=60000)
+
+
+def another_scene(window: MainWindow) -> None:
+    document = window.session.document
+    scene = built_in_scene("intersecting").make()
+    window.session.edit(replace(document, scene=scene, title="Another"))
+
+
+def test_the_page_is_reached_from_step_and_compare(window: MainWindow) -> None:
+    for start in ("step", "compare"):
+        window.pages.show_page(start)
+        window.menus.actions_by_name["page_plan"].trigger()
+        assert window.pages.current_name == "plan"
+
+
+def test_empty_it_says_what_it_is_for(page: PlanPage) -> None:
+    assert "What does this scene need?" in page.rows.empty.text()
+    assert page.rows.empty.isVisible()
+    assert not page.summary.isVisible()
+    assert not page.controls.apply_button.isEnabled()
+
+
+def test_a_look_shows_every_stage_with_reason_and_numbers(page: PlanPage, qtbot: QtBot) -> None:
+    report = looked(page, qtbot)
+    assert tuple(page.rows.rows) == STAGES
+    for decision in report.plan.decisions:
+        view = page.rows.rows[decision.setting]
+        assert view.reason.text() == decision.reason
+        assert view.picture_button.isVisible() == (decision.chosen != decision.dearest)
+        assert ("predicted" in view.numbers.text()) == (decision.chosen != decision.dearest)
+        assert (view.property("role") == "kept") == decision.is_needed
+    assert "measured 0/255" in page.rows.rows["cull"].numbers.text()
+    assert "time alone" in page.rows.rows["cull"].numbers.text()
+    assert "needed" in page.rows.rows["antialiasing"].instead.text()
+    assert "Within the tolerance" in page.summary.headline.text()
+    assert "everything on" in page.summary.headline.text()
+    assert "0 pixels beyond 2/255, 0 allowed" in page.summary.details.text()
+    assert page.controls.apply_button.isEnabled()
+
+
+def test_the_tolerance_is_the_one_that_was_set(page: PlanPage, qtbot: QtBot) -> None:
+    page.controls.color_box.setValue(9)
+    page.controls.pixels_box.setValue(30)
+    assert looked(page, qtbot).plan.tolerance == Tolerance(9.0, 30)
+    page.controls.kind_box.setFocus()
+    QTest.keyClick(page.controls.kind_box, Qt.Key.Key_Down)
+    assert not page.controls.color_box.isEnabled()
+    page.controls.look_button.click()
+    qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    assert page.plans.shown is not None
+    assert page.plans.shown.plan.tolerance == Tolerance.exact()
+    assert "exact" in page.summary.about.text()
+
+
+def test_findings_are_unfolded(page: PlanPage, qtbot: QtBot) -> None:
+    report = looked(page, qtbot)
+    assert not page.findings.findings.text.isVisible()
+    QTest.keyClick(page.window(), Qt.Key.Key_I)
+    assert page.findings.findings.text.isVisible()
+    for fact in report.plan.findings.facts:
+        assert fact.title in page.findings.findings.text.text()
+
+
+def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
+    report = looked(page, qtbot)
+    before = window.session.document
+    QTest.mouseClick(page.controls.apply_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.session.document is not before, timeout=60000)
+    assert window.session.document.settings == report.plan.settings
+    assert not page.plans.is_stale
+    combo = window.page.settings_panel.combo("visibility")
+    assert combo.currentData() == report.plan.settings.visibility == "last-drawn"
+    window.session.undo()
+    assert window.session.document is before
+    assert combo.currentData() == before.settings.visibility
+
+
+def test_another_scene_leaves_the_results_as_those_of_the_earlier(
+    window: MainWindow, page: PlanPage, qtbot: QtBot
+) -> None:
+    looked(page, qtbot)
+    assert not page.summary.stale.isVisible()
+    another_scene(window)
+    assert "earlier scene" in page.summary.stale.text()
+    assert page.summary.stale.isVisible()
+    assert not page.controls.apply_button.isEnabled()
+    settings = window.session.document.settings
+    QTest.keyClick(window, Qt.Key.Key_Return, CTRL)
+    assert window.session.document.settings == settings
+    assert "look again" in window.messages.text.text()
+    assert window.session.plan is None
+    window.session.undo()
+    assert not page.summary.stale.isVisible()
+    assert page.controls.apply_button.isEnabled()
+
+
+def test_other_things_to_be_seen_make_the_results_old(
+    window: MainWindow, page: PlanPage, qtbot: QtBot
+) -> None:
+    looked(page, qtbot)
+    window.session.set_setting("fill", "blocks")
+    assert not page.plans.is_stale
+    window.session.set_setting("wrap", "mirror")
+    assert page.plans.is_stale
+
+
+def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -> None:
+    report = looked(page, qtbot)
+    page.controls.rounds_box.setValue(99)
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    qtbot.waitUntil(lambda: page.plans.shown is not None and page.plans.shown.report is None, timeout=60000)
+    assert "Measuring" in page.summary.headline.text()
+    QTest.keyClick(page.window(), Qt.Key.Key_Escape)
+    assert not page.desk.is_looking
+    assert page.plans.shown is not None
+    assert page.plans.shown.report is report
+    assert page.controls.look_button.isVisible()
+
+
+def test_a_scene_that_is_too_large_is_told(
+    window: MainWindow, page: PlanPage, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = looked(page, qtbot)
+    monkeypatch.setattr(touched, "MOST_PAIRS", 1)
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    qtbot.waitUntil(window.messages.isVisible, timeout=60000)
+    assert "could not be planned" in window.messages.text.text()
+    assert page.plans.shown is not None
+    assert page.plans.shown.report is report
+
+
+def test_a_wrong_prediction_is_said_plainly() -> None:
+    scene = built_in_scene("shared-edge").make()
+    report = measure_plan(scene, plan(scene), 1)
+    broken = replace(report.outcomes[0], is_right=False, text="predicted 0/255, measured 7/255")
+    report = replace(report, outcomes=(broken, *report.outcomes[1:]), fallen_back=("depth",))
+    rows = rows_of(report.plan, report)
+    assert rows[0].verdict is Verdict.WRONG
+    assert {row.verdict for row in rows[1:]} == {Verdict.HELD, Verdict.OPEN}
+    text = details(report.plan, report)
+    assert "A prediction was wrong: Cull, predicted 0/255, measured 7/255." in text
+    assert "beyond the tolerance when measured, so everything is on again at Depth" in text
+    slow = replace(report, seconds_everything=np.array([1.0]), seconds_chosen=np.array([2.0]))
+    assert "2.00 times as slow" in headline(slow.plan, slow)
+
+
+def test_difference_pictures(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
+    page.controls.color_box.setValue(255)
+    report = looked(page, qtbot)
+    assert report.plan.settings.antialiasing == "none"
+    QTest.keyClick(window, Qt.Key.Key_D)
+    wait_for_pictures(page, qtbot)
+    differs = page.pictures.linked.grids[2].buffer()
+    assert differs is not None
+    assert differs.values.max() == report.largest_error > 0
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert not page.pictures.isVisible()
+    page.pictures.linked.show_nothing()
+    QTest.mouseClick(page.rows.rows["cull"].picture_button, Qt.MouseButton.LeftButton)
+    wait_for_pictures(page, qtbot)
+    assert "none of 3,072 pixels differs" in page.pictures.heading.text()
+
+
+def test_a_difference_opens_in_the_stepper(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
+    page.controls.color_box.setValue(255)
+    report = looked(page, qtbot)
+    QTest.keyClick(window, Qt.Key.Key_D)
+    wait_for_pictures(page, qtbot)
+    with qtbot.waitSignal(window.opening.opened, timeout=60000):
+        QTest.mouseClick(page.pictures.step_button, Qt.MouseButton.LeftButton)
+    assert window.pages.current_name == "step"
+    assert window.session.document.settings == report.plan.settings
+    assert window.page.comparing.other.antialiasing == "ssaa-16"
+
+
+def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
+    report = looked(page, qtbot)
+    compare = window.pages.page("compare")
+    assert isinstance(compare, ComparePage)
+    compare.studies.show_family("pipeline")
+    compare.studies.choice.rounds = 1
+    compare.studies.choice.dials["scene", "scale"] = 1
+    QTest.keyClick(window, Qt.Key.Key_M, CTRL)
+    assert window.pages.current is compare
+    qtbot.waitUntil(lambda: not compare.desk.is_measuring, timeout=120000)
+    study, picture = compare.studies.study, compare.scatter.picture
+    assert study is not None
+    assert picture is not None
+    (ringed,) = picture.ringed
+    assert settings_of(study.settings, ringed) == report.plan.settings
+    titles = {series.key: series.title for series in picture.series}
+    assert titles[ringed] == "What the scene needs"
+    assert "Everything on" in titles.values()
+    another_scene(window)
+    compare.studies.refresh()
+    assert compare.scatter.picture is not None
+    assert compare.scatter.picture.ringed == ()
+
+
+def test_without_a_plan_the_chart_has_no_ring_and_says_so(window: MainWindow, page: PlanPage) -> None:
+    QTest.keyClick(window, Qt.Key.Key_M, CTRL)
+    assert window.pages.current is page
+    assert "look first" in window.statusBar().currentMessage()
+
+
+def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> None:
+    page.controls.rounds_box.setValue(99)
+    page.plans.look()
+    start = time.perf_counter()
+    page.window().close()
+    assert not page.desk.is_looking
+    assert time.perf_counter() - start < 20
+
+
+def test_panes_come_back_as_they_were(page: PlanPage) -> None:
+    page.columns.setSizes([300, 900])
+    state = page.layout_state()
+    page.columns.setSizes([400, 800])
+    page.restore_layout(state)
+    assert page.columns.sizes()[0] == pytest.approx(300, abs=8)
