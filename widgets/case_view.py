@@ -113,7 +113,7 @@ class CaseView(QWidget):
         column = QVBoxLayout(words)
         column.setContentsMargins(0, 4, 0, 0)
         column.setSpacing(8)
-        for widget in (self.heading, self.verdict, buttons, self.values):
+        for widget in (self.heading, buttons, self.verdict, self.values):
             column.addWidget(widget)
         column.addStretch(1)
         scroll = QScrollArea(self)
