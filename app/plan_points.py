@@ -7,12 +7,19 @@ from core.study.family import Candidate, settings_of
 CHOICE, EVERYTHING = "What the scene needs", "Everything on"
 
 
-def plan_candidates(plan: Plan, base: Settings) -> tuple[Candidate, ...]:
-    """Return what a plan chose, and everything on, as points of a study whose other points change ``base``."""
-    return (
-        Candidate(_method(plan.settings, base), CHOICE),
-        Candidate(_method(plan.everything, base), EVERYTHING),
-    )
+def plan_candidates(plan: Plan, base: Settings, others: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+    """Return what a plan chose, and everything on, as points of a study, unless they are among the ``others`` already.
+
+    The other points change ``base`` in one setting, or not at all: once a plan is applied it is the scene as it is.
+    """
+    taken = {other.method for other in others}
+    found = []
+    for settings, title in ((plan.settings, CHOICE), (plan.everything, EVERYTHING)):
+        method = _method(settings, base)
+        if method not in taken:
+            taken.add(method)
+            found.append(Candidate(method, title))
+    return tuple(found)
 
 
 def _method(settings: Settings, base: Settings) -> str:

@@ -283,7 +283,8 @@ class StudyPresenter(QObject):
             )
             plan = self._session.plan
             if plan is not None:
-                order = replace(order, extra=plan_candidates(plan.plan, settings))
+                others = choice.family.candidates(settings)
+                order = replace(order, extra=plan_candidates(plan.plan, settings, others))
         self._desk.cancel()
         self._running = choice.name
         self._partial = None

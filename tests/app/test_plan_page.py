@@ -12,11 +12,14 @@ from pytestqt.qtbot import QtBot
 from app.compare_page import ComparePage
 from app.main_window import MainWindow
 from app.plan_page import PlanPage
+from app.plan_points import chosen_points, plan_candidates
 from app.plan_words import details, headline, rows_of
-from core.study import PlanReport, Tolerance, measure_plan, plan
-from core.study.family import settings_of
+from app.study_words import names_of
+from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
+from core.study.family import Candidate, settings_of
 from core.study.planner import touched
 from core.study.planner.planning import STAGES
+from core.study.whole_picture import PIPELINE
 from lessons.scenes import built_in_scene
 from widgets.plan_rows import Verdict
 
@@ -266,3 +269,20 @@ def test_panes_come_back_as_they_were(page: PlanPage) -> None:
     page.columns.setSizes([400, 800])
     page.restore_layout(state)
     assert page.columns.sizes()[0] == pytest.approx(300, abs=8)
+
+
+def test_a_plan_that_is_applied_is_the_scene_as_it_is() -> None:
+    chosen = plan(built_in_scene("shared-edge").make())
+    others = PIPELINE.candidates(chosen.settings)
+    (everything,) = plan_candidates(chosen, chosen.settings, others)
+    assert settings_of(chosen.settings, everything.method) == chosen.everything
+    study = replace(
+        measure("visibility", "cycle", rounds=1),
+        settings=chosen.settings,
+        points=tuple(Point(each.method, each.title, np.ones(1), 1) for each in (*others, everything)),
+    )
+    assert chosen_points(study, chosen) == (f"fill={chosen.settings.fill}",)
+    assert names_of(study)[everything.method] == "Everything on"
+    one_away = replace(chosen.everything, antialiasing="none")
+    (choice,) = plan_candidates(chosen, one_away, (Candidate("antialiasing=ssaa-16", ""),))
+    assert settings_of(one_away, choice.method) == chosen.settings
