@@ -133,9 +133,12 @@ class PlanControls(QWidget):
     def show_progress(self, progress: Progress | None) -> None:
         """Show how far the look has come; ``None``: nobody is looking."""
         is_running = progress is not None
+        had_focus = self.look_button.hasFocus() or self.cancel_button.hasFocus()
         for widget in (self.cancel_button, self.progress, self.doing):
             widget.setVisible(is_running)
         self.look_button.setVisible(not is_running)
+        if had_focus:  # One takes the place of the other, for the keyboard too.
+            (self.cancel_button if is_running else self.look_button).setFocus()
         if progress is not None:
             self.progress.setRange(0, progress.total)
             self.progress.setValue(progress.done)

@@ -92,7 +92,8 @@ class PlanRowView(QWidget):
             (self.verdict, row.verdict.value.capitalize()),
         ):
             label.setText(text)
-            label.setVisible(bool(text))
+            # An empty column keeps its share of the row.
+            label.setVisible(bool(text) or label is self.numbers)
         set_role(self.verdict, {Verdict.HELD: "good", Verdict.WRONG: "bad"}.get(row.verdict, "muted"))
         set_role(self, "kept" if row.is_needed else "panel")
         self.picture_button.setVisible(row.can_draw)

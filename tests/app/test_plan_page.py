@@ -166,6 +166,7 @@ def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -
     assert page.plans.shown is not None
     assert page.plans.shown.report is report
     assert page.controls.look_button.isVisible()
+    assert page.controls.look_button.hasFocus()
 
 
 def test_a_scene_that_is_too_large_is_told(
