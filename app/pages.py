@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QTabBar, QVBoxLayout, QWidget
+from PySide6.QtCore import QByteArray, Qt, Signal, Slot
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QStackedWidget, QTabBar, QVBoxLayout, QWidget
 
 from app.session import Session
 from core.settings import Settings
@@ -66,12 +66,21 @@ class Page(QWidget):
     def stop(self) -> None:
         """End every thread: the window closes."""
 
+    def splitters(self) -> dict[str, QSplitter]:
+        """Return what divides the panes, by names that no other page uses."""
+        return {}
+
     def layout_state(self) -> dict[str, str]:
         """Return sizes of panes as texts, by names that no other page uses."""
-        return {}
+        return {
+            name: splitter.saveState().toBase64().toStdString() for name, splitter in self.splitters().items()
+        }
 
     def restore_layout(self, state: dict[str, str]) -> None:
         """Give panes the sizes that they had."""
+        for name, splitter in self.splitters().items():
+            if name in state:
+                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))
 
 
 @dataclass(frozen=True)

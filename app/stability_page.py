@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Slot
+from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QPushButton, QSplitter, QVBoxLayout, QWidget
 
 from app.atlas_export import atlas_content
@@ -138,20 +138,8 @@ class StabilityPage(Page):
         """End all runs."""
         self.desk.shut_down()
 
-    def layout_state(self) -> dict[str, str]:
-        """Return the splitters' positions as texts."""
-        return {
-            name: splitter.saveState().toBase64().toStdString()
-            for name, splitter in self._splitters().items()
-        }
-
-    def restore_layout(self, state: dict[str, str]) -> None:
-        """Put the splitters where they were."""
-        for name, splitter in self._splitters().items():
-            if name in state:
-                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))
-
-    def _splitters(self) -> dict[str, QSplitter]:
+    def splitters(self) -> dict[str, QSplitter]:
+        """Return what divides the panes, by names that no other page uses."""
         return {
             "stability columns": self.columns,
             "stability left": self.left,

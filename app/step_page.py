@@ -1,6 +1,6 @@
 """The stepping page: rail, scene, grids, inspector and timeline around one session."""
 
-from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QThread, Slot
+from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
 from PySide6.QtWidgets import (
     QComboBox,
     QLabel,
@@ -362,14 +362,6 @@ class StepPage(Page):
         self.comparing.stop()
         self.views.stop()
 
-    def layout_state(self) -> dict[str, str]:
-        """Return the splitters' positions as texts."""
-        splitters = {"columns": self.columns, "rows": self.rows, "inspector": self.inspector_rows}
-        return {name: splitter.saveState().toBase64().toStdString() for name, splitter in splitters.items()}
-
-    def restore_layout(self, state: dict[str, str]) -> None:
-        """Put the splitters where they were."""
-        splitters = {"columns": self.columns, "rows": self.rows, "inspector": self.inspector_rows}
-        for name, splitter in splitters.items():
-            if name in state:
-                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))
+    def splitters(self) -> dict[str, QSplitter]:
+        """Return what divides the panes."""
+        return {"columns": self.columns, "rows": self.rows, "inspector": self.inspector_rows}
