@@ -37,6 +37,7 @@ COMMANDS = (
     Command("screenshot", "save a picture of the window without showing it", "app.cli_screenshot"),
     Command("opengl-check", "compare the core with the OpenGL of this machine", "app.cli_opengl_check"),
     Command("study", "measure the methods of a family: speed against accuracy", "app.cli_study"),
+    Command("stress", "map where methods fail, and make failing cases small", "app.cli_stress"),
     Command("plan", "choose no more than a scene needs, within a tolerance", "app.cli_plan"),
     Command("bench", "measure the core against other libraries", "app.cli_bench"),
 )

@@ -5,7 +5,7 @@ import os
 import sys
 
 from app.cli import UsageError
-from app.cli_arguments import add_file, size_from_text
+from app.cli_arguments import add_file, add_settings, chosen_settings, size_from_text
 from app.cli_window import load_qt
 from core import STAGES
 
@@ -14,6 +14,7 @@ EXAMPLES = """examples:
   rasterscope screenshot shared-edge -o edge.png
   rasterscope screenshot teapot.obj -o teapot.png --theme dark --size 1600x1000
   rasterscope screenshot near-plane -o clip.svg --stage clip --step 4
+  rasterscope screenshot cube -o samples.png --stage resolve --set antialiasing=msaa-4
 """
 ENDINGS = (".png", ".svg", ".pdf")
 SMALLEST = (900, 600)
@@ -56,6 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--step", metavar="N", type=step_from_text, help="operations of the stage that are done; default: all"
     )
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
+    add_settings(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -68,6 +70,13 @@ def run(options: argparse.Namespace) -> int:
     from app.window_start import grab_window
 
     grab_window(
-        options.file, options.output, options.size, options.theme, options.stage, options.step, options.view
+        options.file,
+        options.output,
+        options.size,
+        options.theme,
+        options.stage,
+        options.step,
+        options.view,
+        lambda settings: chosen_settings(settings, options.set),
     )
     return 0

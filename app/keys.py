@@ -41,6 +41,8 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Pages",
 )
 MEASURING = "Measuring"
+EXPERIMENTS = "Experiments"
+MAPS = "Maps"
 CHARTS = "Charts"
 PLANNING = "Planning"
 
@@ -103,6 +105,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     ),
     KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
+    KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
     KeyAction("page_plan", ("Alt+4",), "What does this scene need?", PAGES, "View", is_checkable=True),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Page before", PAGES),
@@ -153,6 +156,16 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("copy_pictures", (), "Copy the pictures", CHARTS, "Compare"),
     ),
     *_on(
+        "stability",
+        KeyAction("run_experiment", ("F5",), "Run every method of the experiment", EXPERIMENTS, "Stability"),
+        KeyAction("cancel_experiment", ("Shift+F5",), "Cancel running", EXPERIMENTS, "Stability"),
+        KeyAction("next_experiment", ("Ctrl+PgDown",), "Next experiment", EXPERIMENTS, "Stability"),
+        KeyAction("previous_experiment", ("Ctrl+PgUp",), "Experiment before", EXPERIMENTS, "Stability"),
+        KeyAction("step_cell", ("Ctrl+Return",), "Open the chosen cell in the stepper", MAPS, "Stability"),
+        KeyAction("shrink_cell", ("S",), "Shrink the chosen cell", MAPS, "Stability"),
+        KeyAction("save_case", (), "Save the smallest case…", MAPS, "Stability"),
+    ),
+    *_on(
         "plan",
         KeyAction("look", ("F5",), "Look at the scene and choose", PLANNING, "Plan"),
         KeyAction("cancel_look", ("Shift+F5",), "Stop looking", PLANNING, "Plan"),
@@ -168,8 +181,8 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
 )
 
-LOCAL_KEYS = tuple(
-    _on(
+LOCAL_KEYS = (
+    *_on(
         "compare",
         KeyAction(
             "chart_go", ("Left", "Right", "Up", "Down"), "In a chart: go to the neighbouring point", CHARTS
@@ -183,7 +196,18 @@ LOCAL_KEYS = tuple(
             "In a chart: lock a second point to the first, as Ctrl+click does",
             CHARTS,
         ),
-    )
+    ),
+    *_on(
+        "stability",
+        KeyAction("map_go", ("Left", "Right", "Up", "Down"), "In a map: go to the neighbouring cell", MAPS),
+        KeyAction(
+            "map_next",
+            ("Tab",),
+            "In a map: the same cell of the next map; Shift+Tab: of the one before",
+            MAPS,
+        ),
+        KeyAction("map_open", ("Return",), "In a map: open the chosen cell in the stepper", MAPS),
+    ),
 )
 """What a widget does by itself while it has the keyboard: for the page of keys only."""
 

@@ -12,7 +12,7 @@ from app.look import THEMES
 from lessons.scenes import CATALOGUE
 from widgets.theme import current_theme
 
-MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Plan", "View", "Help")
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "Plan", "View", "Help")
 BEFORE_SEPARATORS = (
     "save_state",
     "copy_view",
@@ -23,6 +23,7 @@ BEFORE_SEPARATORS = (
     "page_plan",
     "previous_family",
     "fit_charts",
+    "previous_experiment",
 )
 """Actions that a separator follows."""
 

@@ -1,5 +1,7 @@
 """Which pages the window has: one row for each, in the order of the bar."""
 
+from pathlib import Path
+
 from PySide6.QtWidgets import QWidget
 
 from app.pages import Page, PageKind
@@ -17,6 +19,12 @@ def _make_compare(session: Session, parent: QWidget) -> Page:
     return ComparePage(session, parent)
 
 
+def _make_stability(session: Session, parent: QWidget) -> Page:
+    from app.stability_page import StabilityPage  # All experiments come along: not before the page is shown.
+
+    return StabilityPage(session, parent)
+
+
 def _make_plan(session: Session, parent: QWidget) -> Page:
     from app.plan_page import PlanPage  # As above.
 
@@ -31,17 +39,43 @@ PAGE_KINDS = (
         "Chart speed against accuracy for every family (Alt+2)",
         _make_compare,
         (".json",),
+        b'"rasterscope study"',
+    ),
+    PageKind(
+        "stability",
+        "Stability",
+        "See where methods fail: one map for each, every cell a real run (Alt+3)",
+        _make_stability,
+        (".json",),
+        b'"rasterscope stress"',
     ),
     PageKind("plan", "Plan", "What does this scene need? No more than that (Alt+4)", _make_plan),
 )
+HEAD = 256
+"""Bytes at the beginning of a file that name the program it is of."""
 
 
 def page_of_file(path: str) -> str:
-    """Return the name of the page that shows a file; empty: it is a scene or a state."""
-    name = path.lower()
-    return next((kind.name for kind in PAGE_KINDS if kind.endings and name.endswith(kind.endings)), "")
+    """Return the name of the page that shows a file; empty: it is a scene or a state.
+
+    Of several pages that take its ending it is the one that the file names; the first, if it names none.
+    """
+    kinds = [kind for kind in PAGE_KINDS if kind.endings and path.lower().endswith(kind.endings)]
+    if len(kinds) > 1:
+        head = _head(path)
+        kinds = [kind for kind in kinds if kind.signature in head] or kinds
+    return kinds[0].name if kinds else ""
+
+
+def _head(path: str) -> bytes:
+    """Return the beginning of a file; nothing where it cannot be read: the page that opens it says why."""
+    try:
+        with Path(path).open("rb") as file:
+            return file.read(HEAD)
+    except OSError:
+        return b""
 
 
 def page_endings() -> list[str]:
     """Return the endings of all files that a page shows."""
-    return [ending for kind in PAGE_KINDS for ending in kind.endings]
+    return sorted({ending for kind in PAGE_KINDS for ending in kind.endings})

@@ -86,6 +86,8 @@ class PageKind:
     """Called when it is first shown; imports what only this page needs."""
     endings: tuple[str, ...] = ()
     """Files with these endings are shown on this page, not opened as scenes; lower case."""
+    signature: bytes = b""
+    """Stands at the beginning of its files, where another page has files of the same ending."""
 
 
 class Pages(QWidget):

@@ -1,14 +1,13 @@
 """A study as a file (JSON), written whole and opened again; a saved study shows the numbers of the day it was made."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from app.field_problems import field_problem
 from app.file_writing import whole_file
+from app.saved_records import SavedRecordError, read_record
 from app.state_files import readable_json
 from app.state_models import Count, Record
 from core.settings import Settings, settings_from_texts
@@ -17,8 +16,6 @@ from core.study.record import Dial, ErrorMeasure, Point, Study, WorkKind
 VERSION: Literal[1] = 1
 """Of the format; files of others are refused."""
 EXTENSION = ".json"
-SIZE_LIMIT = 1 << 26
-"""Largest study file in bytes."""
 
 Seconds = Annotated[float, Field(ge=0)]
 
@@ -157,36 +154,9 @@ def load_study(path: str | Path) -> Study:
     """
     path = Path(path)
     try:
-        return _study(_parse(_read(path)))
-    except StudyFileError as problem:
+        return _study(read_record(path, StudyRecord, "rasterscope study", "a study", VERSION))
+    except SavedRecordError as problem:
         raise StudyFileError(f"{path.name} cannot be opened: {problem}") from problem
-
-
-def _read(path: Path) -> bytes:
-    try:
-        if path.stat().st_size > SIZE_LIMIT:
-            raise StudyFileError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
-        return path.read_bytes()
-    except FileNotFoundError as problem:
-        raise StudyFileError("there is no such file") from problem
-    except OSError as problem:
-        raise StudyFileError((problem.strerror or str(problem)).lower()) from problem
-
-
-def _parse(content: bytes) -> StudyRecord:
-    try:
-        found = json.loads(content)
-    except (ValueError, RecursionError) as problem:
-        raise StudyFileError("it is not a study, or only a part of one: it is not JSON") from problem
-    if not isinstance(found, dict) or found.get("program") != "rasterscope study":
-        raise StudyFileError("it is not a study of Rasterscope")
-    if found.get("version") != VERSION or isinstance(found.get("version"), bool | float):
-        version = str(found.get("version"))[:20]
-        raise StudyFileError(f"it is of version {version}, and this Rasterscope opens version {VERSION}")
-    try:
-        return StudyRecord.model_validate_json(content)
-    except ValidationError as problem:
-        raise StudyFileError(field_problem(problem)) from problem
 
 
 def _study(record: StudyRecord) -> Study:
@@ -214,7 +184,7 @@ def _settings(texts: dict[str, str | int]) -> Settings:
     try:
         return settings_from_texts({name: str(value) for name, value in texts.items()})
     except ValueError as problem:
-        raise StudyFileError(f"settings: {problem}") from problem
+        raise SavedRecordError(f"settings: {problem}") from problem
 
 
 def _point(record: PointRecord) -> Point:

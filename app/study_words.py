@@ -1,5 +1,6 @@
 """How the numbers of a study read: times with their unit, errors, and what was measured on."""
 
+from collections.abc import Mapping
 from math import floor, isnan, log10
 
 from core.settings import Settings
@@ -51,7 +52,11 @@ def work_sentence(study: Study) -> str:
 
 def machine_sentence(study: Study) -> str:
     """Return what was measured on, with the versions and the day."""
-    here = study.machine
+    return machine_words(study.machine)
+
+
+def machine_words(here: Mapping[str, str]) -> str:
+    """Return a machine as `core.study.machine` describes it, in words."""
     if not here:
         return "The machine was not noted."
     return (

@@ -1,6 +1,8 @@
 """Starting the window: what it shows first, how it looks, and a picture of it without showing it."""
 
 import sys
+from collections.abc import Callable
+from dataclasses import replace
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
@@ -12,6 +14,7 @@ from app.main_window import MainWindow
 from app.open_any import Opened, open_any
 from app.preferences import Preferences, load_preferences
 from core.picture.workers import BandWorkers
+from core.settings import Settings
 from lessons.scenes import CATALOGUE
 from widgets.message_bar import MessageKind
 from widgets.theme import DARK, LIGHT, Theme, apply_theme
@@ -78,6 +81,7 @@ def grab_window(
     stage: str | None = None,
     step: int | None = None,
     view: str | None = None,
+    choose: Callable[[Settings], Settings] | None = None,
 ) -> None:
     """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
 
@@ -89,6 +93,8 @@ def grab_window(
         Position in the stage, in operations done; by default all of them.
     view : str, optional
         Main view, as ``pixels`` or ``scene``.
+    choose : callable, optional
+        Takes the document's settings and returns those that are shown.
 
     Raises
     ------
@@ -98,8 +104,11 @@ def grab_window(
     application = the_application()
     apply_theme(application, theme_of(theme, application))
     opened = open_any(target)
-    window = MainWindow(opened.document)
-    window.files.show_opened(opened)
+    document = opened.document
+    if choose is not None:
+        document = replace(document, settings=choose(document.settings))
+    window = MainWindow(document)
+    window.files.show_opened(replace(opened, document=document))
     if stage is not None or step is not None or opened.state is None:
         window.session.set_stage(stage or window.session.cursor.stage, step)
     if view is not None and view not in window.page.view_names():

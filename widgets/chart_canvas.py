@@ -28,6 +28,8 @@ class ChartCanvas(pg.GraphicsView):
         super().__init__(parent)
         self._picture: ChartPicture | None = None
         self._scales: tuple[ChartScale, ChartScale] | None = None
+        self._fitted: list[list[float]] = []
+        """The ranges that show everything; others are the user's."""
         self._items: list[pg.GraphicsObject] = []
         self._places: dict[str, Floats] = {}
         self.view = pg.ViewBox(enableMenu=False)
@@ -120,7 +122,7 @@ class ChartCanvas(pg.GraphicsView):
     # Building.
 
     def _is_zoomed(self) -> bool:
-        return self._scales is not None and self.view.viewRange() != getattr(self, "_fitted", None)
+        return self._scales is not None and self.view.viewRange() != self._fitted
 
     def _rebuild(self) -> None:
         for item in self._items:
@@ -221,6 +223,8 @@ class ChartCanvas(pg.GraphicsView):
 
     @Slot()
     def _follow_theme(self) -> None:
+        if self.closed:
+            return  # Closing has emptied the scene already; the widget itself ends a little later.
         theme = current_theme()
         self.setBackground(theme.panel)
         metrics = QFontMetricsF(text_font(theme, theme.small_px))

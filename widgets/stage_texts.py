@@ -94,7 +94,7 @@ STAGE_CARDS: Mapping[str, StageCard] = {
         source="Porter and Duff 1984; Pellacini, Framebuffer processing",
     ),
     "resolve": StageCard(
-        title="Resolve: from samples and light to display bytes",
+        title="Resolve: samples to display bytes",
         gets="The colour buffer in linear light, every sample of it.",
         gives="One colour a pixel: red, green and blue as sRGB bytes, alpha as it is.",
         purpose="Averages the samples of a pixel, and puts the mean on the sRGB curve that screens want.",
@@ -106,7 +106,7 @@ STAGE_CARDS: Mapping[str, StageCard] = {
 FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
     "cull": ("Cull", "Geometry"),
     "clipping": ("Clipping", "Geometry"),
-    "coverage": ("Corners", "Raster"),
+    "coverage": ("Numbers", "Raster"),
     "fill_rule": ("Fill rule", "Raster"),
     "fill": ("Fill", "Raster"),
     "block_size": ("Block size", "Raster"),

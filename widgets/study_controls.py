@@ -7,8 +7,6 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QProgressBar,
-    QPushButton,
     QSizePolicy,
     QSpinBox,
     QVBoxLayout,
@@ -16,10 +14,10 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.dial_control import DialChoice, DialControl
-from widgets.elided_label import ElidedLabel
 from widgets.flow_layout import FlowLayout
 from widgets.labelled import labelled
 from widgets.message_bar import Progress
+from widgets.run_controls import RunControls
 
 MOST_ROUNDS = 99
 Named = Sequence[tuple[str, str]]
@@ -69,16 +67,14 @@ class StudyControls(QWidget):
         )
         self.rounds_box = self._number("Rounds", "How often every method is timed, in turns", 1, MOST_ROUNDS)
         self.seed_box = self._number("Seed", "The random numbers that the work is made from", 0, 9999)
-        self.measure_button = QPushButton("Measure", self)
-        self.measure_button.setToolTip("Measure all methods on this work (F5)")
-        self.cancel_button = QPushButton("Cancel", self)
-        self.cancel_button.setToolTip("Stop measuring; what was measured before stays (Escape)")
-        self.progress = QProgressBar(self)
-        self.progress.setTextVisible(False)
-        self.progress.setFixedSize(160, 8)
-        self.doing = ElidedLabel(self)
-        self.doing.setProperty("role", "muted")
-        self.doing.setFixedWidth(320)
+        self.running = RunControls(
+            "Measure",
+            "Measure all methods on this work (F5)",
+            "Stop measuring; what was measured before stays (Escape)",
+            self,
+        )
+        self.measure_button, self.cancel_button = self.running.start_button, self.running.cancel_button
+        self.progress, self.doing = self.running.progress, self.running.doing
         self._dials: dict[str, DialControl] = {}
         self._lay_out()
         self.work_box.activated.connect(self._choose_work)
@@ -115,7 +111,7 @@ class StudyControls(QWidget):
         flow = FlowLayout(axes, 12)
         flow.addWidget(labelled("Error", self.measure_box))
         flow.addWidget(labelled("Cost", self.cost_box))
-        for widget in (self.measure_button, self.cancel_button, self.progress, self.doing):
+        for widget in self.running.widgets:
             flow.addWidget(widget)
         for row in (self._work_row, axes):
             row.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
@@ -175,15 +171,7 @@ class StudyControls(QWidget):
 
     def show_progress(self, progress: Progress | None) -> None:
         """Show how far measuring has come; ``None``: nothing is being measured."""
-        is_running = progress is not None
-        for widget in (self.cancel_button, self.progress, self.doing):
-            widget.setVisible(is_running)
-        self.measure_button.setVisible(not is_running)
-        if progress is not None:
-            self.progress.setRange(0, progress.total)
-            self.progress.setValue(progress.done)
-            self.progress.setAccessibleName(progress.text)
-            self.doing.setText(progress.text)
+        self.running.show_progress(progress)
         self._keep_height()
 
     # What the user chose.

@@ -69,7 +69,7 @@ def _examine(
 ) -> SquareFragments:
     """Keep of squares (Q,) those that no edge has outside as a whole."""
     x, y = raster.centers(column, row)
-    a, b, c = edges.a[primitive], edges.b[primitive], edges.c[primitive]
+    a, b, c = edges.shown_a[primitive], edges.shown_b[primitive], edges.shown_c[primitive]
     value = edge_value(a, b, c, x[:, None], y[:, None])
     reach = (np.abs(a) + np.abs(b)) * 0.5
     touches = np.flatnonzero(np.all(value + reach > 0, axis=1))

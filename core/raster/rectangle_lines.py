@@ -30,7 +30,9 @@ from core.raster.line_records import LineRun, Segments, enumerate_steps, major_f
 SUBPIXELS = 256
 """Steps of the lattice that the ends are snapped to, in one pixel."""
 CANDIDATES = 3
-"""Pixels of a column that are looked at: the one nearest to the line and both beside it. At most two are inside."""
+"""Pixels of a column that are looked at: the one nearest to the line and both beside it. """
+MOST_INSIDE = 2
+"""Most of them that are inside: the rectangle is at most 1.42 pixels high in a column."""
 FIRST_COLUMNS = 4
 """Columns among the first of which the line's first pixel is, if it is longer than that."""
 
@@ -144,8 +146,8 @@ class _Verdict:
     """Decisions about Q candidates: `CANDIDATES` pixels of every (segment, column) pair."""
 
     owner: Integers
-    index: Integers
-    """(Q,) int64, number of the candidate on its line."""
+    k: Integers
+    """(Q,) int64, column of the candidate, counted from the line's first."""
     column: Integers
     row: Integers
     is_inside: Flags
@@ -185,9 +187,7 @@ def _judge(rectangles: _Rectangles, owner: Integers, k: Integers, last_pixel: bo
     is_inside = (np.abs(cross) <= half) & (owns | ~is_side)
     is_inside &= (dot >= 0) & ((dot < squared) | ((dot == squared) & last_pixel))
     pixel = rectangles.pixel[owner]
-    return _Verdict(
-        owner, CANDIDATES * k + which, column, row, is_inside, cross / pixel, dot / pixel, is_side
-    )
+    return _Verdict(owner, k, column, row, is_inside, cross / pixel, dot / pixel, is_side)
 
 
 @method(
@@ -221,28 +221,29 @@ def rectangle(segments: Segments, last_pixel: bool) -> LineRun:
     owner, k = enumerate_steps(first, last)
     verdict = _judge(rectangles, owner, k, last_pixel)
     drawn = np.flatnonzero(verdict.is_inside)
-    owner, index = verdict.owner[drawn], verdict.index[drawn]
-    start = _first_index(rectangles, last_pixel)[owner]
-    k = index // CANDIDATES
+    owner, k = verdict.owner[drawn], verdict.k[drawn]
+    is_second = np.zeros(len(drawn), bool)
+    is_second[1:] = (owner[1:] == owner[:-1]) & (k[1:] == k[:-1])
+    index = MOST_INSIDE * (k - _first_drawn(rectangles, last_pixel)[owner]) + is_second
     now, before = _nearest(rectangles, owner, k), _nearest(rectangles, owner, k - 1)
     return LineRun(
         owner,
-        index - start,
+        index,
         verdict.column[drawn],
         verdict.row[drawn],
         verdict.across[drawn],
-        (now != before) & (index > start),
+        (now != before) & (index > 0),
         verdict.is_tie[drawn],
         along=verdict.along[drawn],
     )
 
 
-def _first_index(rectangles: _Rectangles, last_pixel: bool) -> Integers:
-    """Return the number (L,) of the first candidate that is drawn: near an end, a column may have none."""
+def _first_drawn(rectangles: _Rectangles, last_pixel: bool) -> Integers:
+    """Return the first column (L,) that a pixel is drawn in, counted from ``start``: near an end, there may be none."""
     count = len(rectangles.start)
     owner, k = np.arange(count).repeat(FIRST_COLUMNS), np.tile(np.arange(FIRST_COLUMNS), count)
     verdict = _judge(rectangles, owner, k, last_pixel)
-    drawn = verdict.is_inside.reshape(count, CANDIDATES * FIRST_COLUMNS)
+    drawn = verdict.is_inside.reshape(count, FIRST_COLUMNS, CANDIDATES).any(axis=2)
     return np.asarray(drawn.argmax(axis=1))
 
 

@@ -12,6 +12,7 @@ from core.study.depth_walls import DEPTH
 from core.study.family import StudyFamily
 from core.study.fill import COVERAGE, FILL
 from core.study.interpolated import INTERPOLATION
+from core.study.line_clippers import LINE_CLIPPING
 from core.study.lines import LINE
 from core.study.sphere_shading import SHADING
 from core.study.visible import CLIPPING, VISIBILITY
@@ -21,6 +22,7 @@ OWN = (
     LINE,
     FILL,
     COVERAGE,
+    LINE_CLIPPING,
     CLIPPING,
     INTERPOLATION,
     TEXTURE_FILTER,

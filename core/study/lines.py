@@ -8,14 +8,13 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.raster.line_records import LinePixels
 from core.raster.lines import draw_lines
-from core.scene import ClipScene
 from core.settings import Settings
 from core.study.counted_numbers import COUNTED, count_line_operations
 from core.study.exact.areas import distance_from_line, line_areas
 from core.study.family import Assignment, Errors, StudyFamily, Task
 from core.study.frame_task import per_million, scalar_pictures
 from core.study.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
-from core.study.workloads import COLORS, clip_of_window, random_lines
+from core.study.workloads import outline_scene, random_lines
 
 COUNT = 100
 COUNTED_LINES = 8
@@ -125,16 +124,7 @@ class LineTask(Task):
         ends = self.segments[made.owner[worst]]
         pixel = (int(column[worst]), int(row[worst]))
         wireframe = {"polygon_mode": "wireframe", "cull": "none", "clipping": "homogeneous"}
-        return Opening(self._triangle_beside(ends), _replaced(settings, wireframe), "raster", pixel)
-
-    def _triangle_beside(self, ends: Floats) -> ClipScene:
-        """Return a triangle whose first edge is the segment; its third corner lies to the left of it."""
-        along = ends[1] - ends[0]
-        third = ends.mean(axis=0) + np.array([-along[1], along[0]]) / 2 + np.array([0.25, 0.25])
-        window = np.concatenate([ends, np.rint(third[None] * 4) / 4])[None]
-        level = np.ones((1, 3))
-        clip = clip_of_window(window, self.size, 0.5 * level, level)
-        return ClipScene(clip, np.repeat(COLORS[:1, None], 3, axis=1), self.size)
+        return Opening(outline_scene(ends, self.size), _replaced(settings, wireframe), "raster", pixel)
 
 
 def _replaced(settings: Settings, changes: dict[str, str]) -> Settings:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Flags, Floats, Integers
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 
 LATTICE = 1024
@@ -103,6 +103,21 @@ def random_lines(size: tuple[int, int], count: int, length: float, seed: int, is
     return np.floor(ends) + 0.5 if is_on_centers else on_lattice(ends)
 
 
+def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = None) -> ClipScene:
+    """Return a triangle whose first edge is a segment (2, 2) in pixels.
+
+    Its ``third`` corner (2,) lies to the left of the segment by default.
+    """
+    if third is None:
+        along = ends[1] - ends[0]
+        third = ends.mean(axis=0) + np.array([-along[1], along[0]]) / 2 + np.array([0.25, 0.25])
+        third = on_lattice(third, 4)
+    window = np.concatenate([ends, third[None]])[None]
+    level = np.ones((1, 3))
+    clip = clip_of_window(window, size, 0.5 * level, level)
+    return ClipScene(clip, np.repeat(COLORS[:1, None], 3, axis=1), size)
+
+
 def overlapping_triangles(size: tuple[int, int], count: int, seed: int) -> Floats:
     """Return clip corners (count, 3, 4) of large triangles at all depths, which pass through each other."""
     source = random_source(seed)
@@ -148,6 +163,25 @@ def sphere_scene(rows: int, size: int) -> Scene:
     return Scene((sphere_mesh(rows),), camera, lights, (size, size))
 
 
+def layered_walls(farther: Floats, nearer: Floats, triangles: Integers, is_early: Flags) -> tuple[Mesh, ...]:
+    """Return a wall (N, 3) before another one (N, 3), drawn after some triangles (T, 3) of that and before the others.
+
+    Parameters
+    ----------
+    is_early : (T,) bool
+        Which triangles of the farther wall are drawn first.
+    """
+
+    def wall(positions: Floats, part: Integers, color: int, name: str) -> Mesh:
+        return Mesh(positions, part, colors=np.tile(COLORS[color], (len(positions), 1)), name=name)
+
+    return (
+        wall(farther, triangles[is_early], 1, "farther wall, drawn before"),
+        wall(nearer, triangles, 0, "nearer wall"),
+        wall(farther, triangles[~is_early], 1, "farther wall, drawn after"),
+    )
+
+
 def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     """Return two slanted walls that fill the picture, the first mesh a part ``gap`` of the distance before the others.
 
@@ -166,15 +200,7 @@ def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
     # Every second part of the farther wall, of two triangles each, is drawn before the nearer wall.
     is_early = np.arange(len(triangles)) // 2 % 2 == 0
-
-    def wall(scale: float, part: Integers, color: int, name: str) -> Mesh:
-        return Mesh(positions * scale, part, colors=np.tile(COLORS[color], (len(positions), 1)), name=name)
-
-    meshes = (
-        wall(1.0, triangles[is_early], 1, "farther wall, drawn before"),
-        wall(1.0 - gap, triangles, 0, "nearer wall"),
-        wall(1.0, triangles[~is_early], 1, "farther wall, drawn after"),
-    )
+    meshes = layered_walls(positions, (1.0 - gap) * positions, triangles, is_early)
     camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=near, far=far)
     return Scene(meshes, camera, (), (size, size))
 

@@ -44,6 +44,12 @@ def test_stage_step_and_view_are_those_that_were_asked_for(tmp_path):
     assert (space != last).any(axis=2).mean() > 0.01
 
 
+def test_methods_are_those_that_were_asked_for(tmp_path):
+    plain = shot(tmp_path, "shared-edge", "--stage", "resolve")
+    smooth = shot(tmp_path, "shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16")
+    assert (plain != smooth).any(axis=2).mean() > 0.01
+
+
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [

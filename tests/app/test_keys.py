@@ -15,7 +15,7 @@ from widgets.theme import DARK, current_theme
 
 
 def test_no_key_stands_twice() -> None:
-    for page in ("step", "compare"):
+    for page in ("step", "compare", "stability"):
         shown = [action for action in ACTIONS if action.page in ("", page)]
         keys = [QKeySequence(key).toString() for action in shown for key in action.keys]
         assert "" not in keys

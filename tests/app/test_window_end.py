@@ -35,6 +35,7 @@ sys.exit(window_start.run_window({target!r}))
         ("torus", "window.files.open_path('knot')"),
         ("/nowhere/gone.obj", "pass"),
         ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
+        ("single-triangle", "window.pages.show_page('stability'); window.pages.current.runs.run()"),
     ],
 )
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:

@@ -217,7 +217,7 @@ def test_buffers_have_the_shapes_and_types_that_the_public_core_promises() -> No
     shapes = {
         name: (getattr(frame, name).shape, getattr(frame, name).dtype.name)
         for name in vars(frame)
-        if name != "statistics"
+        if name not in ("statistics", "samples")
     }
     assert shapes == {
         "color": ((3, 5, 4), "float32"),
@@ -226,6 +226,7 @@ def test_buffers_have_the_shapes_and_types_that_the_public_core_promises() -> No
         "attributes": ((3, 5, 7), "float32"),
         "cover_count": ((3, 5), "int32"),
     }
+    assert frame.samples is None
 
 
 # Numbers of triangles

@@ -5,13 +5,13 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from widgets.chart import Chart
 from widgets.chart_records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 from widgets.series_marks import SHAPES, series_color, series_icon, series_shape
-from widgets.theme import DARK, LIGHT, contrast
+from widgets.theme import DARK, LIGHT, apply_theme, contrast
 
 TIME, ERROR = ChartAxis("Time per line", "s"), ChartAxis("Misclassified pixels", "per million")
 
@@ -180,3 +180,10 @@ def test_shapes_tell_series_apart_without_colour(qtbot: QtBot) -> None:
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_colours_of_series_are_readable_as_text(theme) -> None:
     assert min(contrast(series_color(number, theme), theme.panel) for number in range(8)) > 4.5
+
+
+def test_a_closed_chart_leaves_another_theme_alone(chart: Chart, qapp: QApplication) -> None:
+    chart.close()
+    apply_theme(qapp, DARK)
+    apply_theme(qapp, LIGHT)
+    assert chart.closed

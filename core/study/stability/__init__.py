@@ -1,6 +1,8 @@
 """Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
 
+from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 from core.study.stability.experiment import Experiment, Verdict, experiments
+from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 from core.study.stability.stress import StressCancelledError, count_outcomes, stress
 
@@ -17,3 +19,6 @@ __all__ = [
     "experiments",
     "stress",
 ]
+
+for each in (*COVERAGE_EXPERIMENTS, *FRAGMENT_EXPERIMENTS):
+    experiments.add(each)

@@ -2,6 +2,7 @@
 
 import gc
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -24,9 +25,11 @@ from core.study import speed_accuracy as module
 from core.study.family import settings_of
 from core.study.frame_task import check_pixel_tests
 from core.study.whole_picture import SAMPLED_COLOR, PictureTask, scaled, standard_scene
+from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
 """Values of dials that make the work of a test small."""
+SCENE = replace(make_scene("cube"), size=(128, 96))
 CASES = [(family.name, work.name) for family in study_families() for work in family.works]
 
 
@@ -38,7 +41,13 @@ def small_dials(family: str, work: str) -> dict[str, float]:
 def measured(family: str, work: str | None = None, **options) -> Study:
     kind = study_family(family).work(work)
     dials = small_dials(family, kind.name) | options.pop("dials", {})
+    if family == "pipeline":
+        options.setdefault("scene", SCENE)
     return measure(family, kind.name, dials, rounds=1, grow=False, **options)
+
+
+measured_once = cache(measured)
+"""The same study for all tests that only look at it."""
 
 
 def by_method(study: Study) -> dict[str, Point]:
@@ -47,7 +56,7 @@ def by_method(study: Study) -> dict[str, Point]:
 
 @pytest.mark.parametrize(("family", "work"), CASES)
 def test_every_family_gives_numbers_or_reasons(family: str, work: str) -> None:
-    study = measured(family, work)
+    study = measured_once(family, work)
     names = {each.name for each in study.measures}
     assert study.points
     assert any(point.is_measured for point in study.points)
@@ -72,13 +81,14 @@ def test_every_family_gives_numbers_or_reasons(family: str, work: str) -> None:
 
 @pytest.mark.parametrize(("family", "work"), CASES)
 def test_every_point_has_pictures_and_opens(family: str, work: str) -> None:
-    study = measured(family, work)
+    study = measured_once(family, work)
     point = next(point for point in reversed(study.points) if point.is_measured)
-    shown = pictures(study, point)
+    scene = SCENE if family == "pipeline" else None
+    shown = pictures(study, point, scene)
     assert shown.result.shape == shown.reference.shape
     assert shown.difference.shape == shown.result.shape[:2]
     assert shown.result.dtype == shown.reference.dtype == shown.difference.dtype == np.float32
-    where = opening(study, point)
+    where = opening(study, point, scene)
     assert where is not None
     if where.pixel is not None:
         column, row = where.pixel

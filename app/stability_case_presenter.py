@@ -1,0 +1,220 @@
+"""What a click on a cell opens: its run once more, its picture, the smallest scene that fails, and the stepper."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.pages import StepRequest
+from app.stability_desk import CaseFound, CaseOrder, ShrunkFound, StabilityDesk
+from app.stability_presenter import StabilityPresenter
+from app.stability_records import (
+    case_record,
+    dial_row,
+    has_formats,
+    place_sentence,
+    shrunk_record,
+    values_at,
+)
+from core.scene import ClipScene
+from core.study import Opening
+from core.study.stability import StressCancelledError
+from core.study.stability.coverage.precision_dial import DialReading
+from widgets.atlas_records import CellPlace
+from widgets.atlas_view import AtlasView
+from widgets.case_view import CaseView
+
+DIAL = "precision-dial"
+"""The experiment that is about number formats itself."""
+
+
+class StabilityCasePresenter(QObject):
+    """Keeps the case of the chosen cell and what it was shrunk to."""
+
+    step_requested = Signal(object)
+    """A ``StepRequest``."""
+    message_sent = Signal(str)
+    refused = Signal(str)
+
+    def __init__(
+        self,
+        runs: StabilityPresenter,
+        desk: StabilityDesk,
+        maps: AtlasView,
+        view: CaseView,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._runs, self._desk, self._view = runs, desk, view
+        self._found: CaseFound | None = None
+        self._shrunk: ShrunkFound | None = None
+        self._steps_when_found = False
+        maps.cell_chosen.connect(self.choose)
+        maps.cell_opened.connect(self._open)
+        runs.shown_changed.connect(self._show_again)
+        desk.case_found.connect(self._show_case)
+        desk.case_failed.connect(self._show_failure)
+        desk.shrunk_found.connect(self._show_shrunk)
+        desk.shrinking_failed.connect(self._tell_no_shrinking)
+        desk.dial_read.connect(self._show_dial)
+        desk.dial_failed.connect(self._tell_no_dial)
+        view.pixel_pinned.connect(self._read_dial)
+        view.step_requested.connect(self.step)
+        view.shrink_requested.connect(self.shrink)
+        view.closing_requested.connect(self.close)
+        view.hide()
+
+    @property
+    def found(self) -> CaseFound | None:
+        """The case that is shown."""
+        return self._found
+
+    @property
+    def shrunk(self) -> ShrunkFound | None:
+        """The case made small, if that is what is shown."""
+        return self._shrunk
+
+    @Slot(object)
+    def choose(self, place: CellPlace) -> None:
+        """Run the cell once more and show it."""
+        self._runs.choose(place)
+        self._found = self._shrunk = None
+        self._steps_when_found = False
+        experiment, info = self._runs.choice.experiment, self._runs.info
+        values = values_at(info, place)
+        heading = f"{place.key} at {place_sentence(info, values)}"
+        self._view.show()
+        if experiment is None:
+            self._view.show_waiting(heading, "This version has no such experiment: the case cannot be run.")
+        elif place.key not in experiment.info.methods:
+            self._view.show_waiting(heading, "This version has no such method: the case cannot be run.")
+        else:
+            self._view.show_waiting(heading, "Running …")
+            self._desk.look(CaseOrder(experiment, place, values, self._runs.seed()))
+
+    @Slot(object)
+    def _open(self, place: CellPlace) -> None:
+        """Open a cell in the stepper, as soon as it has been run."""
+        if self._found is not None and self._found.order.place == place:
+            self.step()
+            return
+        if self._runs.choice.chosen != place:
+            self.choose(place)
+        self._steps_when_found = True
+
+    @Slot()
+    def close(self) -> None:
+        """Close the case and choose no cell."""
+        self._desk.stop_looking()
+        self._found = self._shrunk = None
+        self._runs.choose(None)
+        self._view.hide()
+
+    @Slot()
+    def _show_again(self) -> None:
+        """Show the case of the cell that was chosen of this experiment before."""
+        chosen = self._runs.choice.chosen
+        if chosen is None or not self._runs.is_shown(chosen):
+            self.close()
+        elif not self._is_shown_already(chosen):
+            self.choose(chosen)
+
+    def _is_shown_already(self, place: CellPlace) -> bool:
+        """Return whether the case that is shown is of this very run: a grid that is finished changes nothing."""
+        if self._found is None:
+            return False
+        order, values = self._found.order, values_at(self._runs.info, place)
+        here = (self._runs.choice.experiment, place, values, self._runs.seed())
+        return (order.experiment, order.place, order.values, order.seed) == here
+
+    @Slot(object)
+    def _show_case(self, found: CaseFound) -> None:
+        self._found = found
+        self._view.show_case(case_record(found))
+        self._view.show_tab("formats" if found.order.experiment.info.name == DIAL else "pictures")
+        self._dial_pinned()
+        if self._steps_when_found:
+            self._steps_when_found = False
+            self.step()
+
+    @Slot(object)
+    def _show_failure(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self._view.show_waiting("This cell", f"It cannot be run: {error}")
+
+    # The precision dial.
+
+    def _dial_pinned(self) -> None:
+        self._view.show_formats(())
+        if self._view.pin is not None:
+            self._read_dial(*self._view.pin)
+
+    @Slot(int, int)
+    def _read_dial(self, column: int, row: int) -> None:
+        """Look at a pixel in every number format, where the case is triangles in clip space."""
+        if self._found is None:
+            return
+        opening = self._found.opening if self._shrunk is None else self._shrunk.opening
+        if opening is not None and has_formats(opening) and isinstance(opening.scene, ClipScene):
+            self._desk.read_dial(opening.scene, (column, row))
+
+    @Slot(object)
+    def _show_dial(self, readings: tuple[DialReading, ...]) -> None:
+        self._view.show_formats([dial_row(reading) for reading in readings])
+
+    @Slot(object)
+    def _tell_no_dial(self, error: Exception) -> None:
+        if not isinstance(error, ValueError):
+            raise error
+        self.refused.emit(f"The pixel could not be looked at in every number format: {error}")
+
+    # To the stepper.
+
+    @Slot()
+    def step(self) -> None:
+        """Open the case that is shown on the Step page, at the pinned pixel."""
+        if self._found is None:
+            self.message_sent.emit("Click a cell first: its run opens in the stepper.")
+            return
+        opening: Opening | None = self._found.opening
+        title = f"{self._found.order.experiment.info.title}: {self._found.order.place.key}"
+        if self._shrunk is not None:
+            opening, title = self._shrunk.opening, f"{title}, smallest case"
+        if opening is None:
+            self.message_sent.emit("This run cannot be stepped: it is not a stage of the pipeline.")
+            return
+        if self._view.pin is not None:
+            opening = replace(opening, pixel=self._view.pin)
+        self.step_requested.emit(StepRequest(opening, title))
+
+    # Shrinking.
+
+    @Slot()
+    def shrink(self) -> None:
+        """Make the case small."""
+        found = self._found
+        if found is None or not case_record(found).can_shrink:
+            self.message_sent.emit(
+                "Only a cell that fails, of an experiment on triangles, can be made smaller."
+            )
+            return
+        stage = "raster" if found.opening is None else found.opening.stage
+        self._view.show_waiting(
+            "Shrinking …", "Leaving out triangles, pixels and digits as long as it fails."
+        )
+        self._desk.shrink(found.order, stage)
+
+    @Slot(object)
+    def _show_shrunk(self, shrunk: ShrunkFound) -> None:
+        if self._found is not None and self._found.order is shrunk.order:
+            self._shrunk = shrunk
+            self._view.show_case(shrunk_record(shrunk))
+            self._dial_pinned()
+
+    @Slot(object)
+    def _tell_no_shrinking(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError | StressCancelledError):
+            raise error
+        if self._found is not None:
+            self._view.show_case(case_record(self._found))
+        self.refused.emit(f"It could not be made smaller: {error}")

@@ -1,0 +1,68 @@
+"""What is chosen for each experiment of the Stability page, and what has been run of it, while the window lives."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from core.study.stability import Atlas, Experiment, ExperimentInfo, experiments
+from core.study.stability.resolution import axes_at
+from widgets.atlas_records import CellPlace
+from widgets.family_list import FamilyEntry
+from widgets.number_text import counted
+
+TITLES = {"coarse": "Coarse", "normal": "Normal", "fine": "Fine"}
+
+
+@dataclass(frozen=True, eq=False)
+class AtlasResult:
+    """An atlas, and what its runs said."""
+
+    atlas: Atlas
+    remarks: Mapping[CellPlace, str] = field(default_factory=dict)
+    """Sentences of the cells; a saved atlas has none."""
+    path: str = ""
+    """The file it was opened from; empty: it was run here."""
+
+
+@dataclass(eq=False)
+class ExperimentChoice:
+    """One experiment: its choices, and the last atlas of it."""
+
+    info: ExperimentInfo
+    experiment: Experiment | None
+    """``None``: a saved atlas of an experiment that this version does not have."""
+    resolution: str = "normal"
+    seed: int = 0
+    result: AtlasResult | None = None
+    chosen: CellPlace | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the experiment."""
+        return self.info.name
+
+    @property
+    def resolutions(self) -> list[tuple[str, str]]:
+        """Names and titles of the grids, with their sizes."""
+        rows = []
+        for name, title in TITLES.items():
+            sizes = [str(len(axis.values)) for axis in axes_at(self.info.axes, name)]
+            rows.append((name, f"{title} ({' × '.join(sizes)})"))
+        return rows
+
+    def is_set_as(self, atlas: Atlas) -> bool:
+        """Return whether an atlas is one of what is chosen now."""
+        axes = axes_at(self.info.axes, self.resolution)
+        return atlas.seed == self.seed and atlas.experiment.axes == axes
+
+
+def choices_of_all() -> dict[str, ExperimentChoice]:
+    """Return every experiment that there is."""
+    return {each.info.name: ExperimentChoice(each.info, each) for each in experiments}
+
+
+def entry_of(choice: ExperimentChoice) -> FamilyEntry:
+    """Return the row of the list."""
+    note = f"{choice.info.question}\n{counted(len(choice.info.methods), 'method')}"
+    if choice.result is not None:
+        note += f"\nRun {choice.result.atlas.machine.get('date', '')}".rstrip()
+    return FamilyEntry(choice.info.name, choice.info.title, note, choice.result is not None)

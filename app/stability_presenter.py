@@ -1,0 +1,332 @@
+"""The Stability page's experiments: which one is shown, its maps as they are run, and the figures of a cell."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.atlas_text import WORDS
+from app.session import Session
+from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
+from app.stability_desk import CellRun, StabilityDesk, StressOrder
+from app.stability_records import (
+    atlas_record,
+    blank_cells,
+    cell_text,
+    cells_of,
+    counts_sentence,
+    experiment_text,
+    method_titles,
+    place_sentence,
+    values_at,
+)
+from app.study_words import machine_words
+from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
+from core.study.stability.open_scene import NAME as OPEN_SCENE
+from core.study.stability.open_scene import watertightness
+from core.study.stability.resolution import axes_at
+from widgets.atlas_records import UNKNOWN, CellPlace
+from widgets.atlas_view import AtlasView
+from widgets.family_list import FamilyList
+from widgets.message_bar import Progress
+from widgets.readout import Readout
+from widgets.stability_controls import StabilityControls
+
+NOTHING = (
+    "One map for each method, one cell for each place: what came of a real run there. Press Run (F5); "
+    "cells appear as they are run."
+)
+PERCENT = 100
+
+
+class StabilityPresenter(QObject):
+    """Keeps the choices and atlases of all experiments and shows those of one."""
+
+    message_sent = Signal(str)
+    refused = Signal(str)
+    shown_changed = Signal()
+    """Another atlas is shown: the chosen cell is another one, or none."""
+    shown_text_changed = Signal(str)
+
+    def __init__(
+        self,
+        session: Session,
+        desk: StabilityDesk,
+        experiments: FamilyList,
+        controls: StabilityControls,
+        maps: AtlasView,
+        readout: Readout,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._desk = session, desk
+        self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
+        self._choices = choices_of_all() | {OPEN_SCENE: self._open_scene()}
+        self._current = next(iter(self._choices))
+        self._running = ""
+        """Experiment that is being run; empty: none."""
+        self._running_info: ExperimentInfo | None = None
+        self._cells: dict[str, NDArray[np.int16]] = {}
+        """Of the run that is going on."""
+        self._verdicts: dict[CellPlace, Verdict] = {}
+        self._hover: CellPlace | None = None
+        experiments.family_chosen.connect(self.show_experiment)
+        controls.resolution_chosen.connect(self._choose_resolution)
+        controls.seed_chosen.connect(self._choose_seed)
+        controls.running_requested.connect(self.run)
+        controls.cancel_requested.connect(self.cancel)
+        maps.cell_hovered.connect(self._point_at)
+        maps.cell_left.connect(self._point_away)
+        desk.cells_run.connect(self._take_cells)
+        desk.progressed.connect(self._show_progress)
+        desk.ran.connect(self._take_result)
+        desk.running_failed.connect(self._fail)
+        desk.running_ended.connect(self._finish)
+        session.document_changed.connect(self._take_document)
+        self.refresh()
+
+    def _open_scene(self) -> ExperimentChoice:
+        """Return the experiment on the scene that is open now."""
+        document = self._session.document
+        experiment = watertightness(document.scene, document.title)
+        return ExperimentChoice(experiment.info, experiment)
+
+    @Slot()
+    def _take_document(self) -> None:
+        """Make the experiment on the open scene one on the scene that is open now, unless it has been run."""
+        if self._choices[OPEN_SCENE].result is None and self._running != OPEN_SCENE:
+            self._choices[OPEN_SCENE] = self._open_scene()
+            if self._current == OPEN_SCENE:
+                self.refresh()
+
+    # What is shown.
+
+    @property
+    def choice(self) -> ExperimentChoice:
+        """The experiment that is shown."""
+        return self._choices[self._current]
+
+    @property
+    def result(self) -> AtlasResult | None:
+        """What has been run of it, or opened."""
+        return self.choice.result
+
+    @property
+    def is_partial(self) -> bool:
+        """Whether the experiment that is shown is being run."""
+        return bool(self._running) and self._running == self._current
+
+    @property
+    def info(self) -> ExperimentInfo:
+        """The experiment with the axes of the maps that are shown."""
+        if self.is_partial and self._running_info is not None:
+            return self._running_info
+        return self.choice.info if self.result is None else self.result.atlas.experiment
+
+    @property
+    def cells(self) -> Mapping[str, NDArray[np.int16]]:
+        """Kinds of the cells that are shown; empty: there are no maps."""
+        if self.is_partial:
+            return self._cells
+        return {} if self.result is None else cells_of(self.result.atlas.maps)
+
+    def seed(self) -> int:
+        """Return the seed of the maps that are shown."""
+        return self.choice.seed if self.result is None or self.is_partial else self.result.atlas.seed
+
+    @Slot(str)
+    def show_experiment(self, name: str) -> None:
+        """Show another experiment."""
+        if name != self._current:
+            self._current, self._hover = name, None
+            self.refresh()
+            self.shown_changed.emit()
+
+    def show_neighbour(self, direction: int) -> None:
+        """Show the next experiment of the list, or the one before."""
+        names = list(self._choices)
+        self.show_experiment(names[(names.index(self._current) + direction) % len(names)])
+
+    def refresh(self) -> None:
+        """Show the experiment, its controls and its maps."""
+        choice = self.choice
+        self._list.show_families([entry_of(each) for each in self._choices.values()], self._current)
+        self._controls.show_sentences(choice.info.question, f"Claim: {choice.info.claim}")
+        self._controls.show_choices(
+            choice.resolutions, choice.resolution, choice.seed, choice.experiment is not None
+        )
+        self._show_maps()
+
+    def _show_maps(self) -> None:
+        cells = self.cells
+        if cells:
+            self._maps.show_atlas(atlas_record(self.info, cells))
+        else:
+            self._maps.show_empty(NOTHING)
+        self._maps.show_chosen(self.choice.chosen)
+        self._show_readout()
+        self.shown_text_changed.emit(self._shown_text())
+
+    def _shown_text(self) -> str:
+        result = self.result
+        if self.is_partial:
+            return "Being run; cells appear row by row."
+        if result is None:
+            return ""
+        parts = [counts_sentence(result), f"Seed {result.atlas.seed}."]
+        if self.choice.experiment is not None and not self.choice.is_set_as(result.atlas):
+            parts.append("The controls are set otherwise by now: run to see that.")
+        if result.atlas.machine:
+            parts.append(f"{machine_words(result.atlas.machine)}.")
+        return " ".join(parts)
+
+    # The cell that is pointed at.
+
+    @Slot(object)
+    def _point_at(self, place: CellPlace) -> None:
+        self._hover = place
+        self._show_readout()
+
+    @Slot()
+    def _point_away(self) -> None:
+        self._hover = None
+        self._show_readout()
+
+    def _show_readout(self) -> None:
+        place = self._hover or self.choice.chosen
+        if place is None or not self.is_shown(place):
+            self._readout.show_text(experiment_text(self.choice))
+            self._maps.canvas.setAccessibleDescription("")
+            return
+        severity, remark = self._figures(place)
+        kind = int(self.cells[place.key][place.row, place.column])
+        title = method_titles(self.info.methods)[place.key]
+        text = cell_text(self.info, place, kind, severity, remark, title)
+        self._readout.show_text(text)
+        outcome = "not run yet" if kind == UNKNOWN else WORDS[Outcome(kind)]
+        where = place_sentence(self.info, values_at(self.info, place))
+        self._maps.canvas.setAccessibleDescription(f"{title}, {where}: {outcome}")
+
+    def is_shown(self, place: CellPlace) -> bool:
+        """Return whether the maps that are shown have such a cell."""
+        cells = self.cells.get(place.key)
+        return cells is not None and place.row < cells.shape[0] and place.column < cells.shape[1]
+
+    def _figures(self, place: CellPlace) -> tuple[float, str]:
+        """Return severity and remark of a cell, as far as they are known."""
+        if self.is_partial:
+            verdict = self._verdicts.get(place)
+            return (0.0, "") if verdict is None else (verdict.severity, verdict.remark)
+        result = self.result
+        assert result is not None
+        each = next(each for each in result.atlas.maps if each.method == place.key)
+        return float(each.severity[place.row, place.column]), result.remarks.get(place, "")
+
+    def choose(self, place: CellPlace | None) -> None:
+        """Keep a cell as the chosen one of this experiment."""
+        self.choice.chosen = place
+        self._maps.show_chosen(place)
+        self._show_readout()
+
+    # Choosing.
+
+    @Slot(str)
+    def _choose_resolution(self, name: str) -> None:
+        self.choice.resolution = name
+        self.shown_text_changed.emit(self._shown_text())
+
+    @Slot(int)
+    def _choose_seed(self, seed: int) -> None:
+        self.choice.seed = seed
+        self.shown_text_changed.emit(self._shown_text())
+
+    # Running.
+
+    @Slot()
+    def run(self) -> None:
+        """Run the experiment that is shown on the chosen grid."""
+        choice = self.choice
+        if choice.experiment is None:
+            self.refused.emit(
+                "This version has no such experiment: a saved atlas can be looked at, not run again."
+            )
+            return
+        self._desk.cancel()
+        if choice.name == OPEN_SCENE:
+            made = self._open_scene()
+            choice.info, choice.experiment = made.info, made.experiment
+        experiment = choice.experiment
+        assert experiment is not None
+        axes = axes_at(choice.info.axes, choice.resolution)
+        self._running, self._running_info = choice.name, replace(choice.info, axes=axes)
+        self._cells, self._verdicts = blank_cells(self._running_info), {}
+        choice.chosen = self._hover = None
+        self._controls.show_progress(Progress("Preparing", 0, 0))
+        self._show_maps()
+        self.shown_changed.emit()
+        self._desk.run(StressOrder(experiment, axes, choice.seed))
+
+    @Slot()
+    def cancel(self) -> None:
+        """Stop running; the maps of before are shown again."""
+        if self._desk.is_running:
+            self._desk.cancel()
+            self._forget_cell()
+            self.message_sent.emit("Running was cancelled; the maps of before are as they were.")
+
+    def _forget_cell(self) -> None:
+        """Choose no cell any more: the maps of before are shown again."""
+        self.choice.chosen = self._hover = None
+        self._maps.show_chosen(None)
+        self._show_readout()
+        self.shown_changed.emit()
+
+    @Slot(object, str)
+    def _show_progress(self, fraction: float, doing: str) -> None:
+        if self._running:
+            self._controls.show_progress(Progress(doing, round(fraction * PERCENT), PERCENT))
+
+    @Slot(object)
+    def _take_cells(self, cells: tuple[CellRun, ...]) -> None:
+        for each in cells:
+            place = each.place
+            self._cells[place.key][place.row, place.column] = int(each.verdict.outcome)
+            self._verdicts[place] = each.verdict
+        if self.is_partial:
+            self._maps.show_atlas(atlas_record(self.info, self._cells))
+
+    @Slot(object)
+    def _take_result(self, result: AtlasResult) -> None:
+        choice = self._choices[result.atlas.experiment.name]
+        choice.result = result
+        self.refresh()
+        self.shown_changed.emit()
+        self.message_sent.emit(f"Ran {choice.info.title.lower()}: {counts_sentence(result)}")
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self._forget_cell()
+        self.refused.emit(f"It could not be run: {error} The maps of before are as they were.")
+
+    @Slot()
+    def _finish(self) -> None:
+        """Go back to the maps of before, unless a result follows."""
+        self._running, self._running_info = "", None
+        self._cells, self._verdicts = {}, {}
+        self._controls.show_progress(None)
+        self.refresh()
+
+    # Saved atlases.
+
+    def take_saved(self, atlas: Atlas, path: str) -> None:
+        """Show an atlas that was opened from a file, as the result of its experiment."""
+        info = atlas.experiment
+        choice = self._choices.setdefault(info.name, ExperimentChoice(info, None))
+        choice.result, choice.seed, choice.chosen = AtlasResult(atlas, path=path), atlas.seed, None
+        self._current, self._hover = info.name, None
+        self.refresh()
+        self.shown_changed.emit()

@@ -1,0 +1,190 @@
+"""Line clippers on segments that are parallel to a border, have no length, or pass a corner: all within a few ulp."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from core.arrays import Floats
+from core.geometry.line_clipping import clip_lines
+from core.raster.snapping import window_position
+from core.scene import ClipScene
+from core.settings import Settings
+from core.study.exact.segments import Ends, clipped_ends
+from core.study.family import settings_of
+from core.study.record import Opening
+from core.study.stability.experiment import Verdict
+from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.workloads import on_lattice, outline_scene
+
+SIDE = 64
+ULP = 2.0**-46
+"""Unit in the last place of coordinates at the right and upper border; exact in clip space too."""
+PROMISED = 4.0
+"""Units in the last place that the ends of a clipped segment may be off."""
+CLIPPERS = (
+    "line_clipping=cyrus-beck-lecture",
+    "line_clipping=cohen-sutherland",
+    "line_clipping=liang-barsky",
+    "line_clipping=cyrus-beck",
+    "line_clipping=exact",
+)
+WIREFRAME = Settings(polygon_mode="wireframe", coverage="exact")
+"""Outlines of triangles however thin: snapped, those of a few ulp would be culled."""
+INSIDE = np.array([17.25, 8.75])
+"""The third corner of the triangle that is stepped: it has to be seen, or it would be culled."""
+
+
+@dataclass(frozen=True, eq=False)
+class LineClipExperiment:
+    """One segment and the raster's border; wrong is a segment that is lost or kept, or ends in the wrong place."""
+
+    info: ExperimentInfo
+    segment: Callable[[tuple[float, ...]], Floats]
+    """The segment (2, 2) in pixels at a place of the axes."""
+
+    def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
+        """Clip the segment of one place."""
+        return judge_clip(self.segment(place), method.partition("=")[2])
+
+    def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
+        """Return the segment as an edge of an outlined triangle; ``None`` for a segment without length."""
+        segment = self.segment(place)
+        if (segment[0] == segment[1]).all():
+            return None
+        return Opening(outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), "raster")
+
+    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
+        """Return the segment of one place as an edge of a triangle, and the clipper's settings."""
+        return outline_scene(self.segment(place), (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method)
+
+    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
+        """Clip the first edge of a triangle to the raster."""
+        return judge_clip(first_edge(scene), settings.line_clipping, scene.size)
+
+    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+        """Return the statements of a test: what is left of the segment."""
+        segment, (width, height) = first_edge(scene), scene.size
+        wanted = clipped_ends(segment, (0.0, 0.0, width, height))
+        window = (0, 0, width, height)
+        call = f'clip_lines([segment], {window}, "{settings.line_clipping}")'
+        clipping = f"segment = {segment.tolist()}\nclipped = {call}"
+        if wanted is None:
+            return f"{clipping}\nassert not clipped.is_kept[0]"
+        tolerance = PROMISED * float(np.spacing(np.abs(segment).max()))
+        return (
+            f"{clipping}\nassert clipped.is_kept[0]\nwanted = {_shown(wanted)}\n"
+            f"np.testing.assert_allclose(clipped.segments[0], wanted, rtol=0, atol={tolerance})"
+        )
+
+    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
+        """Return no pixel: it is about the ends of a segment."""
+        return None
+
+
+def first_edge(scene: ClipScene) -> Floats:
+    """Return the first edge (2, 2) of the first triangle in pixels; ValueError where it lies behind the eye."""
+    ends = window_position(scene.clip[0, :2], scene.size)
+    if not np.isfinite(ends).all():
+        raise ValueError("the first edge must lie in front of the eye")
+    return ends
+
+
+def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:
+    """Clip a segment (2, 2) to the raster and compare with rational arithmetic; severity is in ulp."""
+    window = (0.0, 0.0, float(size[0]), float(size[1]))
+    clipped = clip_lines(segment[None], window, clipper)
+    wanted = clipped_ends(segment, window)
+    if wanted is None:
+        if not clipped.is_kept[0]:
+            return Verdict(Outcome.RIGHT, 0.0, "the segment lies outside, and is dropped")
+        return Verdict(Outcome.DOUBLE_HIT, 1.0, f"kept from {clipped.segments[0].tolist()}, but lies outside")
+    if not clipped.is_kept[0]:
+        return Verdict(Outcome.HOLE, 1.0, f"dropped, but {_shown(wanted)} lies inside")
+    found = clipped.segments[0]
+    if not np.isfinite(found).all():
+        return Verdict(Outcome.NOT_A_NUMBER, np.nan, f"the ends are {found.tolist()}")
+    error = ulps_off(found, wanted, float(np.spacing(np.abs(segment).max())))
+    remark = f"the ends are {error:.3g} ulp off"
+    return Verdict(Outcome.RIGHT if error <= PROMISED else Outcome.WRONG_PICTURE, error, remark)
+
+
+def ulps_off(found: Floats, wanted: Ends, ulp: float) -> float:
+    """Return the largest distance along an axis between ends (2, 2) and the right ones, in ``ulp``."""
+    return max(
+        float(abs(Fraction(float(value)) - right)) / ulp
+        for end, right_end in zip(found, wanted, strict=True)
+        for value, right in zip(end, right_end, strict=True)
+    )
+
+
+def _shown(ends: Ends) -> str:
+    return str([[float(value) for value in end] for end in ends])
+
+
+def along_the_border(place: tuple[float, ...]) -> Floats:
+    """Return a long segment at the upper border; both ends are given by how many ulp they lie above it."""
+    first, second = place
+    return np.array([[-9.0, SIDE + first * ULP], [80.0, SIDE + second * ULP]])
+
+
+def beside_the_corner(place: tuple[float, ...]) -> Floats:
+    """Return a segment of a few ulp, or a point, that begins 2 ulp right of the right border and 2 below the top."""
+    start = np.array([SIDE + 2 * ULP, SIDE - 2 * ULP])
+    return np.array([start, start + np.array(place) * ULP])
+
+
+def past_the_corner(place: tuple[float, ...]) -> Floats:
+    """Return a falling segment that passes the upper right corner ``offset`` ulp above it, ends to a whole ulp."""
+    offset, slope = place
+    corner = np.array([SIDE, SIDE + offset * ULP])
+    ends = [corner + 24.1 * np.array([-1.0, slope]), corner + 16.7 * np.array([1.0, -slope])]
+    return on_lattice(np.array(ends), round(1 / ULP))
+
+
+STEPS = tuple(map(float, range(-6, 7)))
+PARALLEL = LineClipExperiment(
+    ExperimentInfo(
+        "parallel-segments",
+        "Segments along a border",
+        "A segment lies along the upper border, its ends some ulp above or below: what is kept of it?",
+        (
+            Axis("first", "First end above the border", "ulp", STEPS),
+            Axis("second", "Second end above the border", "ulp", STEPS),
+        ),
+        CLIPPERS,
+        "Cyrus-Beck as printed keeps segments that are parallel to a border and outside of it; the others drop them.",
+    ),
+    along_the_border,
+)
+SHORT = LineClipExperiment(
+    ExperimentInfo(
+        "zero-length-segments",
+        "Segments of no length, or of a few ulp",
+        "A segment begins just right of the window; it has no length or reaches a few ulp: is it dropped outside?",
+        (
+            Axis("across", "Reach to the right", "ulp", STEPS),
+            Axis("up", "Reach upwards", "ulp", STEPS),
+        ),
+        CLIPPERS,
+        "Cyrus-Beck as printed keeps upright segments outside, however short; all drop a point outside, and keep "
+        "what reaches in.",
+    ),
+    beside_the_corner,
+)
+CORNER = LineClipExperiment(
+    ExperimentInfo(
+        "segments-past-a-corner",
+        "Segments past a corner",
+        "A segment passes the corner of the window within a few ulp: does it touch the window?",
+        (
+            Axis("offset", "Above the corner", "ulp", STEPS),
+            Axis("slope", "Fall of the segment", "", tuple((np.arange(4, 68, 5) / 32).tolist())),
+        ),
+        CLIPPERS,
+        "Every clipper that rounds its crossings errs within a few ulp of a corner; exact signs never do.",
+    ),
+    past_the_corner,
+)
+EXPERIMENTS = (PARALLEL, SHORT, CORNER)

@@ -1,0 +1,152 @@
+"""Meshes without gaps, and how often each pixel is covered: 0 is a crack, 1 is right, 2 is a double hit."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from core.arrays import Integers
+from core.scene import ClipScene
+from core.settings import Settings
+from core.study.stability.coverage.covered_pixels import (
+    CoverageExperiment,
+    count_cover,
+    once_everywhere,
+)
+from core.study.stability.coverage.number_formats import powers, scene_of_window
+from core.study.stability.record import Axis, ExperimentInfo
+from core.study.workloads import flat_scene, on_lattice, random_source, window_mesh
+
+SIDE = 32
+"""Columns and rows of the pictures."""
+
+
+def uneven_grid(cells: int, steps: int, seed: int) -> ClipScene:
+    """Return a mesh of uneven cells that reaches beyond the window, with corners at multiples of 1/steps pixel."""
+    return scene_of_window(window_mesh((SIDE, SIDE), cells, seed, steps), (SIDE, SIDE))
+
+
+def fan(spokes: int, steps: int, seed: int) -> ClipScene:
+    """Return triangles around one corner in the middle, on a pixel centre if ``steps`` is even."""
+    turn = (np.arange(spokes) + random_source(seed).uniform(-0.3, 0.3, spokes)) * (2 * np.pi / spokes)
+    middle = np.array([SIDE / 2, SIDE / 2]) + np.floor(steps / 2) / steps
+    rim = on_lattice(middle + 2 * SIDE * np.stack([np.cos(turn), np.sin(turn)], axis=1), steps)
+    corners = np.stack([np.broadcast_to(middle, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
+    return scene_of_window(corners, (SIDE, SIDE))
+
+
+def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
+    """Return a plane that fills the window and goes on behind the eye, as a grid of ``cells`` x ``cells`` cells.
+
+    Notes
+    -----
+    Its points are (s, t, 1 - tilt t) in clip x, y, w. The window's top sees t = 1 / (1 + tilt), its bottom
+    t = -1 / (1 - tilt); the grid reaches to t = 4, where w is negative for a tilt above 1/4.
+    """
+    source = random_source(seed)
+    low, high = -1.0 / (1.0 - tilt) - 1.0, 4.0
+    across, along = np.meshgrid(np.linspace(-5, 5, cells + 1), np.linspace(low, high, cells + 1))
+    points = np.stack([across, along], axis=-1)
+    step = np.array([10.0, high - low]) / cells
+    points[1:-1, 1:-1] += source.uniform(-0.24, 0.24, (cells - 1, cells - 1, 2)) * step
+    x, y = on_lattice(points).transpose(2, 0, 1)
+    clip = np.stack([x, y, np.zeros_like(x), 1.0 - tilt * y], axis=-1)
+    first, second = clip[:-1, :-1].reshape(-1, 4), clip[:-1, 1:].reshape(-1, 4)
+    fourth, third = clip[1:, :-1].reshape(-1, 4), clip[1:, 1:].reshape(-1, 4)
+    pairs = np.stack([first, second, third, first, third, fourth], axis=1).reshape(-1, 3, 4)
+    return flat_scene(pairs, (SIDE, SIDE))
+
+
+MESHES: Mapping[str, Callable[[int], ClipScene]] = {
+    "grid on pixel centres": lambda seed: uneven_grid(8, 2, seed),
+    "grid between them": lambda seed: uneven_grid(8, 1024, seed),
+    "fan on a pixel centre": lambda seed: fan(24, 2, seed),
+    "plane through the eye": lambda seed: through_the_eye(0.5, 8, seed),
+}
+"""Meshes whose triangles cover every pixel of the window exactly once, for a seed."""
+
+
+def audit(mesh: str, settings: Settings, seed: int = 0) -> Integers:
+    """Draw a mesh without gaps and count how often each pixel is covered.
+
+    Parameters
+    ----------
+    mesh : str
+        A name of `MESHES`.
+    settings : Settings
+    seed : int
+
+    Returns
+    -------
+    (H, W) int64
+        0: a crack, 1: right, 2 or more: drawn twice. Row 0 is the bottom row.
+
+    Raises
+    ------
+    ValueError
+        For a mesh that is not there, or settings that do not take it.
+
+    Examples
+    --------
+    >>> settings = Settings(fill="bounding-box", fill_rule="inclusive")
+    >>> cover = audit("grid on pixel centres", settings)
+    >>> int(cover.min()), int(cover.max()) > 1
+    (1, True)
+    """
+    if mesh not in MESHES:
+        raise ValueError(f"mesh must be one of {', '.join(MESHES)}, got {mesh}")
+    cover, _ = count_cover(MESHES[mesh](seed), settings)
+    return cover
+
+
+SHARED_EDGES = CoverageExperiment(
+    ExperimentInfo(
+        "shared-edges",
+        "Shared edges of a mesh",
+        "A mesh fills the window, its corners on a lattice: is every pixel drawn exactly once?",
+        (
+            Axis("steps", "Steps of the corners' lattice in a pixel", "", powers(0, 10), True),
+            Axis("cells", "Cells along a side", "", (4.0, 6.0, 8.0, 12.0, 16.0), True),
+        ),
+        (
+            "fill=scanline-lecture",
+            "fill_rule=exclusive",
+            "fill_rule=inclusive",
+            "coverage=float16",
+            "coverage=inverse",
+            "coverage=float32",
+            "coverage=float64",
+            "fill_rule=shared-edge",
+            "fill=spans",
+            "coverage=exact",
+        ),
+        "Exclusive edges leave cracks and inclusive ones are drawn twice wherever corners lie on pixel centres; "
+        "the shared-edge rule draws every pixel once, if an edge has the same value in both triangles.",
+    ),
+    lambda place, seed: uneven_grid(int(place[1]), int(place[0]), seed),
+    once_everywhere,
+)
+THROUGH_THE_EYE = CoverageExperiment(
+    ExperimentInfo(
+        "mesh-through-the-eye",
+        "A mesh that goes on behind the eye",
+        "A plane fills the window and reaches behind the eye, where w is negative: is every pixel drawn exactly once?",
+        (
+            Axis("tilt", "What w loses for one unit of y", "", tuple((np.arange(9) / 10).tolist())),
+            Axis("cells", "Cells along a side", "", (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0), True),
+        ),
+        (
+            "clipping=project-first",
+            "clipping=after-divide",
+            "clipping=sutherland-hodgman-lecture",
+            "clipping=sutherland-hodgman",
+            "clipping=homogeneous",
+            "coverage=float64",
+            "coverage=exact",
+        ),
+        "Projecting first mirrors corners with w < 0, and the wrong triangle is drawn; clipping in clip space, and "
+        "edge functions of homogeneous corners, draw every pixel once.",
+    ),
+    lambda place, seed: through_the_eye(place[0], int(place[1]), seed),
+    once_everywhere,
+)
+EXPERIMENTS = (SHARED_EDGES, THROUGH_THE_EYE)

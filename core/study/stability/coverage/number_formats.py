@@ -1,0 +1,184 @@
+"""What every number format makes of slivers, far corners, singular matrices and triangles smaller than a step."""
+
+import numpy as np
+
+from core.arrays import Floats
+from core.scene import ClipScene
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
+from core.study.stability.record import Axis, ExperimentInfo
+from core.study.workloads import clip_of_window, flat_scene, on_lattice, random_source
+
+SIZE = (64, 64)
+"""A power of two: window positions that are multiples of 1/256 pixel are exact in clip space."""
+W_RATIOS = (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0)
+FORMATS = (
+    "coverage=float16",
+    "coverage=fixed-24.8",
+    "coverage=float32",
+    "coverage=inverse",
+    "coverage=snapped",
+    "coverage=int64",
+    "coverage=float64",
+    "coverage=exact",
+)
+
+
+def scene_of_window(window: Floats, size: tuple[int, int] = SIZE) -> ClipScene:
+    """Return triangles with corners (T, 3, 2) in pixels, all at one depth, w = 1."""
+    level = np.ones(window.shape[:2])
+    return flat_scene(clip_of_window(window, size, 0.5 * level, level), size)
+
+
+def powers(first: int, last: int, step: int = 1) -> tuple[float, ...]:
+    """Return 2^first to 2^last."""
+    return tuple(2.0**exponent for exponent in range(first, last + 1, step))
+
+
+def sliver(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return a triangle ``width`` pixels high whose long side lies ``offset`` pixels below a row of pixel centres.
+
+    Notes
+    -----
+    The side has the slope 1/3 and passes under ten centres. It begins at the window's middle, where clip space has
+    its 0: there it holds 2^-50 pixel.
+    """
+    width, offset = place
+    start, end = np.array([0.5, 0.5]), np.array([27.5, 9.5])
+    clip = np.array([[*point, 0.0, 1.0] for point in (start / 32, end / 32, (start + end) / 64)])
+    clip[:, 1] -= offset / 32
+    clip[2, 1] += width / 32
+    return flat_scene(clip[None], SIZE)
+
+
+def far_corners(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return a triangle whose far corners lie ``distance`` pixels away; one edge passes through the window.
+
+    Notes
+    -----
+    The edge passes ``offset`` steps of 1/256 pixel below pixel centres, about in the diagonal. All corners are on the
+    lattice of 1/256 pixel, so that snapping changes nothing.
+    """
+    distance, steps = place
+    below = np.array([32.5, 32.5 - steps / 256])
+    far = distance * np.array([1.0, 0.75])
+    window = np.array([below - far, below + far, below + distance * np.array([-0.5, 1.0])])
+    return scene_of_window(on_lattice(window, 256)[None])
+
+
+def edge_on(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return a triangle almost seen edge-on: its corners' matrix is about ``distance`` from a singular one.
+
+    Notes
+    -----
+    It is ``distance`` pixels high, with a row of pixel centres at half its height; one corner has w = 1, another
+    w = ``ratio``, the third their mean.
+    """
+    distance, ratio = place
+    below = np.array([0.0, distance / 2])
+    start, end = np.array([4.5, 8.5]) - below, np.array([58.5, 44.5]) - below
+    window = np.array([start, end, (start + end) / 2 + 4 * below])
+    w = np.array([1.0, ratio, (1.0 + ratio) / 2])
+    return flat_scene(clip_of_window(window[None], SIZE, np.full((1, 3), 0.5), w[None]), SIZE)
+
+
+def crowded_mesh(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return a mesh whose grid lines crowd around the pixel centres, ``cell`` pixels apart: small cells and long ones.
+
+    Notes
+    -----
+    Every pixel belongs to exactly one triangle. ``shift`` moves the lines, in cells. Corners are moved by less than a
+    quarter of a cell, so that no triangle turns over.
+    """
+    cell, shift = place
+    side, reach = 4, 2
+    source = random_source(seed)
+    around = cell * (np.arange(-reach, reach + 1) + shift)
+    lines = np.concatenate([[-1.0], (0.5 + np.arange(side)[:, None] + around).ravel(), [side + 1.0]])
+    points = np.stack(np.meshgrid(lines, lines), axis=-1)
+    points[1:-1, 1:-1] += cell * on_lattice(source.uniform(-0.24, 0.24, (len(lines) - 2, len(lines) - 2, 2)))
+    first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
+    fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
+    pairs = np.stack([first, second, third, first, third, fourth], axis=1)
+    return scene_of_window(pairs.reshape(-1, 3, 2), (side, side))
+
+
+SLIVERS = CoverageExperiment(
+    ExperimentInfo(
+        "slivers",
+        "Slivers by width and offset",
+        "A long thin triangle has its lower side just below ten pixel centres: how thin may it be, and how close?",
+        (
+            Axis("width", "Height of the sliver", "pixels", powers(-24, 0, 3), True),
+            Axis("offset", "Distance of the centres from its side", "pixels", powers(-50, -2, 3), True),
+        ),
+        FORMATS,
+        "Where corners are snapped, slivers thinner than a step of 1/256 pixel are lost; float32 errs from "
+        "2^-17 pixel on and float64 from 2^-47; whole numbers of any length are right at every width and "
+        "offset.",
+    ),
+    sliver,
+)
+COORDINATES = CoverageExperiment(
+    ExperimentInfo(
+        "coordinates",
+        "Coordinates from 1 to 2^30 pixels",
+        "An edge passes through the window just below pixel centres; its ends move away: when is a pixel lost?",
+        (
+            Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
+            Axis(
+                "steps",
+                "Distance of the edge from the centres",
+                "1/256 pixel",
+                tuple(map(float, range(-4, 5))),
+            ),
+        ),
+        FORMATS,
+        "32 bits wrap around from 128 pixels on and 64 bits beyond 4 million; float32 errs from 2^17 pixels "
+        "on; float64 and whole numbers of any length are right up to 2^30.",
+    ),
+    far_corners,
+)
+SINGULAR = CoverageExperiment(
+    ExperimentInfo(
+        "singular-matrix",
+        "Triangles seen almost edge-on",
+        "The 3x3 matrix of the corners is nearly singular: do its inverse, its adjugate and whole numbers agree?",
+        (
+            Axis("distance", "Distance from a singular matrix", "pixels", powers(-54, 0, 3), True),
+            Axis("ratio", "w of the second corner over the first", "", W_RATIOS, True),
+        ),
+        ("coverage=float32", "coverage=inverse", "coverage=snapped", "coverage=float64", "coverage=exact"),
+        "Floats err where a triangle is flatter than their spacing, and snapped corners where it is flatter "
+        "than 1/256 pixel; whole numbers of any length are right at any distance.",
+    ),
+    edge_on,
+)
+SNAPPING = CoverageExperiment(
+    ExperimentInfo(
+        "snapping",
+        "Corners snapped or not",
+        "The grid lines of a mesh crowd around pixel centres, closer and closer: is every pixel drawn exactly once?",
+        (
+            Axis("cell", "Size of a cell", "pixels", powers(-20, -3, 1), True),
+            Axis(
+                "shift",
+                "Place of the lines",
+                "cells",
+                (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5),
+            ),
+        ),
+        (
+            "coverage=float32",
+            "coverage=snapped",
+            "coverage=int64",
+            "coverage=float64",
+            "coverage=exact",
+        ),
+        "Triangles of about a step of 1/256 pixel may turn over when they are snapped, and are drawn twice; "
+        "float32 errs below 2^-9 pixel, whatever the lattice; float64 and whole numbers draw every pixel "
+        "once.",
+    ),
+    crowded_mesh,
+    once_everywhere,
+)
+EXPERIMENTS = (SLIVERS, COORDINATES, SINGULAR, SNAPPING)

@@ -1,0 +1,187 @@
+"""The precision dial: one triangle and one pixel in every number format, from float16 to exact.
+
+For every format: the values of the three edge functions, the decision, the bits of the value nearest to 0, and the
+operation from which on the decision is another one: the first k operations are done in the format and the others
+without rounding, for every k.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from core.arrays import Flags, Floats
+from core.raster.bit_patterns import FIXED, bit_pattern
+from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
+from core.raster.number_format import NumberFormat
+from core.raster.snapping import place_corners
+from core.scene import ClipScene
+from core.study.exact.coverage import Corner, facing, homogeneous_corner
+from core.study.stability.coverage.covered_pixels import CoverageExperiment
+from core.study.stability.coverage.edge_steps import EdgeStep, edge_steps
+from core.study.stability.coverage.number_formats import FORMATS, powers, sliver
+from core.study.stability.record import Axis, ExperimentInfo
+
+INVERSE = "inverse"
+"""The format whose edges come from an elimination, not from products of two corners."""
+AREA = "sign of the doubled area"
+"""What turns the decision where all operations of the edge leave it right: the triangle is turned over, or lost."""
+ELIMINATION = "elimination"
+ANCHORED = "direction of the edge"
+OVERFLOW = "overflow"
+
+
+@dataclass(frozen=True)
+class DialReading:
+    """What one format makes of one pixel."""
+
+    coverage: str
+    """Name of the format, a method of the family ``coverage``."""
+    is_covered: bool
+    values: tuple[float, float, float]
+    """Edge functions at the pixel's centre, as float64; of ``inverse`` they are divided by the determinant."""
+    edge: int
+    """The edge that decides: where the decision is wrong, the one whose side is wrong; else the value nearest to 0."""
+    bits: str
+    """Bit pattern of that edge's value; empty: the format has no fixed length, or the number is not finite."""
+    exact_value: float
+    """The edge function in exact arithmetic, corners as they are given, as the nearest float64."""
+    is_right: bool
+    """Whether the decision is that of exact arithmetic."""
+    flipped_by: str
+    """The operation after which the decision is another one, see `EdgeStep`; empty where it is right."""
+    steps: tuple[EdgeStep, ...]
+    """All operations of that edge at this pixel; none where its coefficients are not made so."""
+
+
+def precision_dial(scene: ClipScene, pixel: tuple[int, int], triangle: int = 0) -> tuple[DialReading, ...]:
+    """Evaluate one triangle at one pixel in every number format.
+
+    Parameters
+    ----------
+    scene : ClipScene
+    pixel : (column, row)
+    triangle : int
+
+    Returns
+    -------
+    tuple of DialReading
+        From the weakest format to the exact one.
+
+    Raises
+    ------
+    ValueError
+        If there is no such triangle.
+    """
+    if not 0 <= triangle < len(scene.clip):
+        raise ValueError(f"triangle must be from 0 to {len(scene.clip) - 1}, got {triangle}")
+    case = _exact_case(scene, triangle, pixel)
+    return tuple(_read(method.partition("=")[2], case) for method in FORMATS)
+
+
+@dataclass(frozen=True, eq=False)
+class _Case:
+    """One triangle and one pixel, and what is right there."""
+
+    clip: Floats
+    """(1, 3, 4) float64."""
+    size: tuple[int, int]
+    pixel: tuple[int, int]
+    placed: list[Corner]
+    turn: int
+    values: tuple[Fraction, ...]
+    sides: Flags
+    """(3,) bool, inside each edge."""
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether the pixel belongs to the triangle."""
+        return self.turn != 0 and bool(self.sides.all())
+
+
+def _exact_case(scene: ClipScene, triangle: int, pixel: tuple[int, int]) -> _Case:
+    placed = [homogeneous_corner(corner, scene.size, False) for corner in scene.clip[triangle]]
+    turn = facing(placed)
+    x, y = (Fraction(2 * index + 1, 2) for index in pixel)
+    values, sides = [], []
+    for k in range(3):
+        (x1, y1, w1), (x2, y2, w2) = placed[k - 2], placed[k - 1]
+        a, b, c = turn * (y1 * w2 - w1 * y2), turn * (w1 * x2 - x1 * w2), turn * (x1 * y2 - y1 * x2)
+        values.append(a * x + b * y + c)
+        sides.append(values[k] > 0 or (values[k] == 0 and (a > 0 or (a == 0 and b > 0))))
+    return _Case(scene.clip[[triangle]], scene.size, pixel, placed, turn, tuple(values), np.array(sides))
+
+
+def _read(name: str, case: _Case) -> DialReading:
+    """Return what one format makes of the pixel."""
+    edges = set_up_edges(place_corners(case.clip, case.size, name), "shared-edge")
+    numbers = edges.numbers
+    x, y = (numbers.of_pixels(np.array([[index + 0.5]])) for index in case.pixel)
+    with np.errstate(over="ignore", invalid="ignore"):
+        held = edge_value(edges.a, edges.b, edges.c, x, y)
+    inside = is_inside(held, edges.owns_tie)[0]
+    values = numbers.shown_values(held)[0]
+    is_covered = bool(inside.all()) and bool(edges.doubled_area[0] != 0)
+    is_right = is_covered == case.is_covered
+    wrong = np.flatnonzero(inside != case.sides)
+    edge = int(wrong[0]) if len(wrong) and not is_right else int(np.argmin(np.nan_to_num(np.abs(values))))
+    steps = _steps(edges, edge, case)
+    return DialReading(
+        coverage=name,
+        is_covered=is_covered,
+        values=(float(values[0]), float(values[1]), float(values[2])),
+        edge=edge,
+        bits=_bits(float(values[edge]), numbers),
+        exact_value=float(case.values[edge]),
+        is_right=is_right,
+        flipped_by="" if is_right else _flipped_by(name, steps, bool(case.sides[edge])),
+        steps=steps,
+    )
+
+
+def _steps(edges: EdgeFunctions, edge: int, case: _Case) -> tuple[EdgeStep, ...]:
+    """Return the operations of one edge; none where it comes from elsewhere, or a number is infinite."""
+    numbers, corners = edges.numbers, edges.corners
+    is_anchored = numbers.corner_kind == "snapped" and not corners.is_projected.all()
+    if numbers.name == INVERSE or is_anchored or not np.isfinite(numbers.shown_ends(corners)).all():
+        return ()
+    try:
+        return edge_steps(corners, numbers, edge, case.placed, case.turn, case.pixel)
+    except OverflowError:
+        # Infinity is no fraction: the bits of the value say it.
+        return ()
+
+
+def _flipped_by(name: str, steps: tuple[EdgeStep, ...], side: bool) -> str:
+    """Return the operation after which the decision stays wrong, whatever else is exact."""
+    if name == INVERSE:
+        return ELIMINATION
+    if not steps:
+        return ANCHORED if name == "snapped" else OVERFLOW
+    turning = AREA
+    for step in reversed(steps):
+        if step.is_inside == side:
+            break
+        turning = step.operation
+    return turning
+
+
+def _bits(value: float, numbers: NumberFormat) -> str:
+    if not numbers.value_layout or (FIXED.fullmatch(numbers.value_layout) and not np.isfinite(value)):
+        return ""
+    return bit_pattern(value, numbers.value_layout)
+
+
+DIAL = CoverageExperiment(
+    ExperimentInfo(
+        "precision-dial",
+        "The precision dial",
+        "A pixel centre comes nearer and nearer to an edge: which format decides how long?",
+        (Axis("offset", "Distance of the centre from the edge", "pixels", powers(-50, -1), True),),
+        FORMATS,
+        "Each format decides as exact arithmetic until the distance falls below its own spacing: 1/256 pixel for "
+        "snapped corners, then float32, then float64; whole numbers of any length always do.",
+    ),
+    lambda place, seed: sliver((1.0, *place), seed),
+)
+EXPERIMENTS = (DIAL,)

@@ -1,0 +1,184 @@
+"""Z-fighting: two walls, one a little nearer than the other, in every depth format.
+
+The nearer wall has to be seen everywhere. Which one is nearer at a pixel is decided by ray casting, exactly.
+
+References
+----------
+N. Reed, *Depth precision visualized*, 2015.
+K. Akeley, J. Su, *Minimum triangle separation for correct z-buffer occlusion*, 2006.
+"""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Floats
+from core.pipeline import render
+from core.scene import Camera, Scene
+from core.settings import Settings
+from core.study.hidden_surfaces import visible_triangles
+from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, judge_order
+from core.study.stability.record import Axis, ExperimentInfo
+from core.study.workloads import layered_walls, random_source, wall_scene
+
+SIDE = 32
+"""Pixels on a side of the picture."""
+FAR = 1e5
+"""The far plane of the walls by distance; the near plane is at 1."""
+FORMATS = (
+    "depth=z-16",
+    "depth=z-24",
+    "depth=z-float32",
+    "depth=inverse-w",
+    "depth=logarithmic",
+    "depth=reversed-z",
+    "depth=fixed-38",
+    "visibility=ray-casting",
+)
+"""From the coarsest to the referee."""
+
+
+class HiddenCase(Case):
+    """A scene of opaque triangles; right is the nearest one at every pixel."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+
+    @cached_property
+    def nearest(self) -> NDArray[np.int32]:
+        """(H, W) int32, the triangle that ray casting sees."""
+        return visible_triangles(self.scene, Settings(fill="bounding-box"))
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Count the pixels that show the farther wall."""
+        return judge_order(
+            np.asarray(render(self.scene, settings).primitive != self.nearest), "the farther wall"
+        )
+
+
+def facing_walls(distance: float, gap: float, lean: float) -> Scene:
+    """Return two walls at ``distance`` before a perspective camera with planes at 1 and `FAR`, ``gap`` apart.
+
+    Notes
+    -----
+    They are turned by ``lean``, so that every column is at a depth of its own. The nearer wall is the farther one made
+    smaller about the eye: it is nearer along every ray.
+    """
+    farther = _leaning_wall(distance, lean, 0.6)
+    camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=1.0, far=FAR)
+    return _between(farther, farther * (1 - gap / distance), camera)
+
+
+def orthographic_walls(distance: float, gap: float, lean: float) -> Scene:
+    """Return two walls before an orthographic camera with planes at 0 and 1, ``gap`` apart."""
+    farther = _leaning_wall(1.0, 0.0, 1.2)
+    farther[:, 2] = -distance * (1 + lean * farther[:, 0])
+    camera = Camera(
+        np.zeros(3),
+        np.array([0.0, 0.0, -1.0]),
+        projection="orthographic",
+        view_height=2.0,
+        near=0.0,
+        far=1.0,
+    )
+    return _between(farther, farther + np.array([0.0, 0.0, gap]), camera)
+
+
+def _leaning_wall(distance: float, lean: float, reach: float) -> Floats:
+    """Return the corners (4, 3) of a wall that fills the view, its right side farther by the part ``lean``."""
+    x, y = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
+    d = distance * (1 + lean * x)
+    return np.stack([reach * x * d, reach * y * d, -d], axis=1)
+
+
+def _between(farther: Floats, nearer: Floats, camera: Camera) -> Scene:
+    """Return the nearer wall, drawn between the two halves of the farther one."""
+    halves = np.array([[0, 1, 2], [0, 2, 3]])
+    return Scene(layered_walls(farther, nearer, halves, np.array([True, False])), camera, (), (SIDE, SIDE))
+
+
+def make_by_distance(place: tuple[float, ...], seed: int) -> HiddenCase:
+    """Make two walls in perspective; the seed chooses how they lean."""
+    return HiddenCase(facing_walls(place[0], place[1], random_source(seed).uniform(0.1, 0.2)))
+
+
+def make_by_range(place: tuple[float, ...], seed: int) -> HiddenCase:
+    """Make two walls at all distances; nothing in them is random."""
+    del seed
+    return HiddenCase(wall_scene(place[0], place[1], SIDE))
+
+
+def make_orthographic(place: tuple[float, ...], seed: int) -> HiddenCase:
+    """Make two walls without perspective; the seed chooses how they lean."""
+    return HiddenCase(orthographic_walls(place[0], place[1], random_source(seed).uniform(0.1, 0.2)))
+
+
+def decades(first: int, last: int) -> tuple[float, ...]:
+    """Return 10^first to 10^last, two for each decade."""
+    return tuple(float(f"{10 ** (half / 2):.3g}") for half in range(2 * first, 2 * last + 1))
+
+
+BASE = Settings(shading="unlit", fill="bounding-box")
+"""What the depth formats share: nothing but depth matters."""
+
+BY_DISTANCE = CaseExperiment(
+    ExperimentInfo(
+        "z-fighting-distance",
+        "Z-fighting by gap and distance",
+        "Two walls with a gap between them, farther and farther away (near plane 1, far plane 100,000): from where on "
+        "does the farther one show through?",
+        (
+            Axis("distance", "Distance, near plane = 1", "", decades(1, 4), True),
+            Axis("gap", "Gap, near plane = 1", "", decades(-6, 0), True),
+        ),
+        FORMATS,
+        "Z needs a gap that grows with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
+        "and with float32, 2^-31 with 38 bits on planes. 1/w, the logarithm and reversed z need one that grows "
+        "with the distance only; ray casting needs none.",
+    ),
+    make_by_distance,
+    "depth",
+    BASE,
+)
+BY_RANGE = CaseExperiment(
+    ExperimentInfo(
+        "z-fighting-range",
+        "Z-fighting by gap and depth range",
+        "Two walls from the near plane to the far plane, the gap a part of the distance: what range does a depth "
+        "format bear?",
+        (
+            Axis("far", "Far plane over near plane", "", decades(1, 6), True),
+            Axis("gap", "Gap, as a part of the distance", "", decades(-7, -2), True),
+        ),
+        FORMATS,
+        "Z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap; 1/w, the logarithm and "
+        "reversed z hold for a gap of 10^-6 of the distance at any range up to 10^6, and 38 bits of z do so far.",
+    ),
+    make_by_range,
+    "depth",
+    BASE,
+)
+ORTHOGRAPHIC = CaseExperiment(
+    ExperimentInfo(
+        "orthographic-depth",
+        "Depth without perspective",
+        "Two walls before an orthographic camera: how small may the gap be, and does the format work at all?",
+        (
+            Axis(
+                "distance",
+                "Distance, as a part of the range",
+                "",
+                (0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.8),
+                True,
+            ),
+            Axis("gap", "Gap, as a part of the range", "", tuple(2.0**-k for k in range(30, 8, -2)), True),
+        ),
+        FORMATS,
+        "1/w and the logarithm refuse, as w is constant. 16 bits hold down to a gap of 2^-16 of the range; 24 "
+        "bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
+    ),
+    make_orthographic,
+    "depth",
+    BASE,
+)

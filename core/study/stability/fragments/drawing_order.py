@@ -1,0 +1,143 @@
+"""Hidden surfaces by the order of drawing: triangles that overlap in a circle, and layers in a wrong order.
+
+References
+----------
+M. Newell, R. Newell, T. Sancha, *A solution to the hidden surface problem*, 1972 (cycles have to be split).
+"""
+
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Floats, Integers
+from core.pipeline import render
+from core.settings import Settings
+from core.study.exact.values import exact_fragments, exact_visible
+from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, judge_order
+from core.study.stability.record import Axis, ExperimentInfo
+from core.study.workloads import clip_of_window, flat_scene, on_lattice, random_source
+
+SIDE = 64
+"""Pixels on a side of the picture: a power of two, so that places on the lattice are exact in clip space."""
+CROSSING = 0.35 * np.sqrt(3)
+"""Where a bar's axis meets those of the others, from its middle, in half sides of the picture times 0.9."""
+
+
+class OrderCase(Case):
+    """Triangles given in clip space; right is the nearest one at every pixel, by fractions."""
+
+    def __init__(self, clip: Floats) -> None:
+        self.scene = flat_scene(clip, (SIDE, SIDE))
+        self._clip = clip
+
+    @cached_property
+    def nearest(self) -> Integers:
+        """(H, W) int64, the triangle that is seen."""
+        return exact_visible(exact_fragments(self._clip, self.scene.size), self.scene.size)
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Count the pixels that show a triangle which is hidden."""
+        return judge_order(
+            np.asarray(render(self.scene, settings).primitive != self.nearest),
+            "a triangle that should be hidden",
+        )
+
+
+def circle_of_bars(overlap: float, lift: float) -> Floats:
+    """Return clip corners (3, 3, 4) of three bars, each slanting from the front down to behind.
+
+    Parameters
+    ----------
+    overlap : float
+        How far a bar's axis reaches beyond those of the others, in half lengths; far below 0 they do not meet.
+    lift : float
+        Each bar is farther by this part of a bar's own depth than the one before: lifted enough, one lies wholly
+        before the next, and there is no circle.
+    """
+    turn = 2 * np.pi / 3 * np.arange(3)
+    middle, reach = np.full(2, SIDE / 2), 0.45 * SIDE
+    along = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    length = (CROSSING + overlap) * reach
+    start = middle - length * along - 0.35 * reach * across
+    tip = middle + length * along - 0.35 * reach * across
+    half = 0.2 * reach * across
+    window = on_lattice(np.stack([start, tip - half, tip + half], axis=1))
+    slant = 0.12
+    depth = 0.3 + slant * (np.array([0.0, 1.0, 1.0]) + lift * np.arange(3)[:, None])
+    return clip_of_window(window, (SIDE, SIDE), depth, np.ones((3, 3)))
+
+
+def shuffled_layers(count: int, swaps: int, seed: int) -> Floats:
+    """Return clip corners (count, 3, 4) of triangles one behind the other, drawn from back to front but for swaps.
+
+    Notes
+    -----
+    A swap exchanges two neighbours in the order of drawing; the seed chooses which, and no swap undoes another.
+    """
+    source = random_source(seed)
+    turn = source.uniform(0, 2 * np.pi, count)
+    corners = turn[:, None] + 2 * np.pi / 3 * np.arange(3)
+    window = SIDE * (0.5 + 0.45 * np.stack([np.cos(corners), np.sin(corners)], axis=2))
+    order = np.arange(count)
+    for _ in range(swaps):
+        # Only neighbours that are still in order.
+        first = int(source.choice(np.flatnonzero(np.diff(order) > 0)))
+        order[[first, first + 1]] = order[[first + 1, first]]
+    depth = 0.9 - 0.8 * (order + 0.5) / count
+    return clip_of_window(
+        on_lattice(window), (SIDE, SIDE), np.repeat(depth[:, None], 3, axis=1), np.ones((count, 3))
+    )
+
+
+def make_circle(place: tuple[float, ...], seed: int) -> OrderCase:
+    """Make the three bars; nothing in them is random."""
+    del seed
+    return OrderCase(circle_of_bars(place[0], place[1]))
+
+
+def make_layers(place: tuple[float, ...], seed: int) -> OrderCase:
+    """Make the layers."""
+    count = int(place[0])
+    return OrderCase(shuffled_layers(count, min(int(place[1]), count * (count - 1) // 2), seed))
+
+
+CIRCLE = CaseExperiment(
+    ExperimentInfo(
+        "painters-cycle",
+        "Painter's algorithm on three bars in a circle",
+        "Each of three bars lies before the next one at one end: what if they overlap more, and what if one is lifted "
+        "off the next?",
+        (
+            Axis(
+                "overlap",
+                "Reach beyond the crossings, in half lengths",
+                "",
+                (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
+            ),
+            Axis("lift", "Lift, in depths of a bar", "", (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.1, 1.5)),
+        ),
+        ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
+        "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails as drawing "
+        "without a depth test does. Lifted by a whole depth, sorting is right; a z-buffer always is.",
+    ),
+    make_circle,
+    "depth",
+)
+LAYERS = CaseExperiment(
+    ExperimentInfo(
+        "drawing-order",
+        "Layers drawn in a wrong order",
+        "Triangles one behind the other are given from back to front, but for some swaps of neighbours: is the nearest "
+        "one seen?",
+        (
+            Axis("layers", "Layers", "", (2, 3, 4, 6, 8, 12, 16)),
+            Axis("swaps", "Swaps of neighbours", "", (0, 1, 2, 3, 4, 6, 8, 12)),
+        ),
+        ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
+        "Without a depth test every swap of two layers that are seen is wrong; sorted layers and a z-buffer hold "
+        "in any order.",
+    ),
+    make_layers,
+    "depth",
+)

@@ -1,0 +1,89 @@
+"""Triangles thinner than a pixel: which of them fall between the samples.
+
+References
+----------
+F. C. Crow, *The aliasing problem in computer-generated shaded images*, 1977 (small objects are lost).
+E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978 (exact area).
+"""
+
+import numpy as np
+
+from core.scene import ClipScene
+from core.settings import Settings
+from core.study.exact.areas import area_in_pixels
+from core.study.stability.experiment import Verdict
+from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, drawn_colors
+from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.workloads import clip_of_window
+
+SIZE = (16, 32)
+FOOT, TIP = 8.0, 1024.0
+"""How far below the picture's lower border the needle begins, and how far above it ends, in pixels."""
+SLANT = 1 / 32
+"""Pixels to the right with every row: a pixel over the whole picture."""
+TOLERANCE = 1 / 4
+"""Largest error of a pixel's cover that is taken as right: one sample of four."""
+
+
+class ThinCase(Case):
+    """A white needle, almost upright, from below the picture to a tip far above it: it is hardly wider below."""
+
+    def __init__(self, width: float, offset: float) -> None:
+        height = SIZE[1]
+        # All on the lattice of 1/256 pixel, so that snapping moves nothing.
+        left = 7.0 + offset
+        tip = left + width / 2 + SLANT * (TIP + FOOT)
+        window = np.array([[left, -FOOT], [left + width, -FOOT], [tip, TIP]])
+        window = np.rint(256 * window) / 256
+        level = np.ones((1, 3))
+        self.scene = ClipScene(
+            clip_of_window(window[None], SIZE, 0.5 * level, level), np.ones((1, 3, 4)), SIZE
+        )
+        row, column = np.mgrid[0:height, 0 : SIZE[0]]
+        self.wanted = area_in_pixels(window, column.ravel(), row.ravel()).reshape(row.shape)
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Compare how much of each pixel is covered with the exact area; a row without any cover is a hole."""
+        shown = drawn_colors(self.scene, settings)[..., 3]
+        error = np.abs(shown - self.wanted)
+        largest = float(error.max())
+        is_lost = (shown.sum(axis=1) == 0) & (self.wanted.sum(axis=1) > 0)
+        lost = int(np.count_nonzero(is_lost))
+        remark = f"the needle is lost in {lost} rows of {SIZE[1]}; cover is off by {largest:.3g} of a pixel at most"
+        wrong = (error > TOLERANCE) | (is_lost[:, None] & (self.wanted > 0))
+        if lost:
+            outcome = Outcome.HOLE
+        else:
+            outcome = Outcome.RIGHT if largest <= TOLERANCE else Outcome.WRONG_PICTURE
+        return Judgement(Verdict(outcome, largest, remark), wrong)
+
+
+def make_thin(place: tuple[float, ...], seed: int) -> ThinCase:
+    """Make the needle; nothing in it is random."""
+    del seed
+    return ThinCase(place[0], place[1])
+
+
+THIN = CaseExperiment(
+    ExperimentInfo(
+        "thin-triangles",
+        "Needles between the samples",
+        "A needle becomes thinner and moves across a pixel: is it seen in every row, and how well is its area met?",
+        (
+            Axis("width", "Width", "pixels", tuple(2.0**k for k in range(-6, 3)), True),
+            Axis("offset", "Offset in the pixel", "pixels", tuple(k / 8 for k in range(8))),
+        ),
+        (
+            "antialiasing=none",
+            "antialiasing=msaa-4",
+            "antialiasing=ssaa-4",
+            "antialiasing=ssaa-16",
+            "antialiasing=area",
+        ),
+        "Rows of a needle are lost where it is narrower than the columns of samples are apart: 1 pixel with one "
+        "sample, 1/2 with four on a grid (ssaa-4), 1/4 with four that are turned (msaa-4) and with sixteen; exact "
+        "area loses none.",
+    ),
+    make_thin,
+    "resolve",
+)

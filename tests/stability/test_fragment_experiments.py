@@ -1,0 +1,81 @@
+"""What holds for every experiment on fragments: sentences, repeatable runs, openings at a wrong pixel."""
+
+import numpy as np
+import pytest
+
+from core.pipeline import render
+from core.settings import Settings
+from core.study.family import settings_of
+from core.study.stability import Axis, Outcome, experiments, stress
+from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
+
+NAMES = [experiment.info.name for experiment in FRAGMENT_EXPERIMENTS]
+
+
+def random_place(axes: tuple[Axis, ...], seed: int) -> tuple[float, ...]:
+    source = np.random.default_rng(seed)
+    return tuple(float(source.choice(axis.values)) for axis in axes)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_runs_can_be_repeated_and_say_what_came(name: str) -> None:
+    experiment = experiments.get(name)
+    place = random_place(experiment.info.axes, 1)
+    for method in experiment.info.methods:
+        verdict = experiment.run(method, place, 1)
+        assert verdict.remark
+        again = experiment.run(method, place, 1)
+        assert (verdict.outcome, verdict.remark) == (again.outcome, again.remark)
+        assert np.isnan(verdict.severity) if verdict.outcome == Outcome.REFUSED else verdict.severity >= 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_weak_methods_fail_somewhere_and_the_last_holds_there(name: str) -> None:
+    info = experiments.get(name).info
+    ends = tuple(
+        Axis(axis.name, axis.title, axis.unit, (axis.values[0], axis.values[-1]), axis.is_logarithmic)
+        for axis in info.axes
+    )
+    maps = stress(name, axes=ends).maps
+    assert [each.method for each in maps] == list(info.methods)
+    failed = maps[0].outcome != Outcome.RIGHT
+    assert failed.any()
+    assert (maps[-1].outcome[failed] == Outcome.RIGHT).any()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_openings_are_the_case_at_a_pixel_that_is_wrong(name: str) -> None:
+    experiment = experiments.get(name)
+    info = experiment.info
+    for seed in range(10, 12):
+        place = random_place(info.axes, seed)
+        for method in info.methods:
+            verdict = experiment.run(method, place, seed)
+            opening = experiment.opening(method, place, seed)
+            if verdict.outcome == Outcome.REFUSED:
+                assert opening is None
+                continue
+            assert opening is not None
+            assert opening.settings == settings_of(opening.settings, method)
+            assert (opening.pixel is None) == (verdict.outcome == Outcome.RIGHT)
+            if opening.pixel is not None:
+                column, row = opening.pixel
+                assert 0 <= column < opening.scene.size[0]
+                assert 0 <= row < opening.scene.size[1]
+        # The stepper draws it as it is.
+        if opening is not None:
+            assert render(opening.scene, opening.settings).color.shape[:2] == opening.scene.size[::-1]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_claims_and_questions_are_sentences(name: str) -> None:
+    info = experiments.get(name).info
+    assert info.claim.endswith(".")
+    assert info.question[-1] in ".?"
+    assert 1 <= len(info.axes) <= 2
+    assert len(set(info.methods)) == len(info.methods)
+    for method in info.methods:
+        settings_of(Settings(), method)
+    for axis in info.axes:
+        assert list(axis.values) == sorted(axis.values)
+        assert not axis.is_logarithmic or axis.values[0] > 0
