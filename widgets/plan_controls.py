@@ -4,7 +4,6 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QProgressBar,
     QPushButton,
     QSizePolicy,
     QSpinBox,
@@ -12,10 +11,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.elided_label import ElidedLabel
 from widgets.flow_layout import FlowLayout
 from widgets.labelled import labelled
 from widgets.message_bar import Progress
+from widgets.run_controls import RunControls
 
 MOST_COLOR = 255
 MOST_PIXELS = 999_999
@@ -52,20 +51,19 @@ class PlanControls(QWidget):
             "Rounds", "How often everything is timed, in turns: more take longer", MOST_ROUNDS, 3
         )
         self.rounds_box.setMinimum(1)
-        self.look_button = self._button("Look", "Look at the scene, choose, and measure what was chosen (F5)")
-        self.cancel_button = self._button("Cancel", "Stop; what was found before stays (Escape)")
+        self.running = RunControls(
+            "Look",
+            "Look at the scene, choose, and measure what was chosen (F5)",
+            "Stop; what was found before stays (Escape)",
+            self,
+        )
+        self.look_button, self.cancel_button = self.running.start_button, self.running.cancel_button
         self.apply_button = self._button(
             "Apply", "Draw and step the scene with what was chosen (Ctrl+Return); undo takes it back"
         )
         self.chart_button = self._button(
             "On the chart", "See the choice among all others: Whole pipeline, on the Compare page"
         )
-        self.progress = QProgressBar(self)
-        self.progress.setTextVisible(False)
-        self.progress.setFixedSize(120, 8)
-        self.doing = ElidedLabel(self)
-        self.doing.setProperty("role", "muted")
-        self.doing.setFixedWidth(280)
         self._lay_out()
         self.kind_box.activated.connect(self._show_kind)
         self.look_button.clicked.connect(self.looking_requested)
@@ -98,8 +96,8 @@ class PlanControls(QWidget):
         flow.addWidget(labelled("Rounds", self.rounds_box))
         for widget in (self.look_button, self.cancel_button, self.apply_button, self.chart_button):
             flow.addWidget(widget)
-        flow.addWidget(self.progress)
-        flow.addWidget(self.doing)
+        flow.addWidget(self.running.progress)
+        flow.addWidget(self.running.doing)
         row.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
@@ -132,16 +130,5 @@ class PlanControls(QWidget):
 
     def show_progress(self, progress: Progress | None) -> None:
         """Show how far the look has come; ``None``: nobody is looking."""
-        is_running = progress is not None
-        had_focus = self.look_button.hasFocus() or self.cancel_button.hasFocus()
-        for widget in (self.cancel_button, self.progress, self.doing):
-            widget.setVisible(is_running)
-        self.look_button.setVisible(not is_running)
-        if had_focus:  # One takes the place of the other, for the keyboard too.
-            (self.cancel_button if is_running else self.look_button).setFocus()
-        if progress is not None:
-            self.progress.setRange(0, progress.total)
-            self.progress.setValue(progress.done)
-            self.progress.setAccessibleName(progress.text)
-            self.doing.setText(progress.text)
+        self.running.show_progress(progress)
         self._keep_height()

@@ -30,9 +30,12 @@ class RunControls:
     def show_progress(self, progress: Progress | None) -> None:
         """Show how far the work has come; ``None``: nothing runs."""
         is_running = progress is not None
+        had_focus = self.start_button.hasFocus() or self.cancel_button.hasFocus()
         for widget in (self.cancel_button, self.progress, self.doing):
             widget.setVisible(is_running)
         self.start_button.setVisible(not is_running)
+        if had_focus:  # One takes the place of the other, for the keyboard too.
+            (self.cancel_button if is_running else self.start_button).setFocus()
         if progress is not None:
             self.progress.setRange(0, progress.total)
             self.progress.setValue(progress.done)

@@ -116,9 +116,16 @@ def color_pictures(result: NDArray[Any], reference: NDArray[Any]) -> Pictures:
 
 
 def premultiplied(color: Singles | Floats, settings: Settings) -> Floats:
-    """Return colours (..., 4) float64 times their alpha, whatever the blend method keeps."""
+    """Return colours (..., 4) float64 times their alpha, whatever the blend method keeps.
+
+    Notes
+    -----
+    The mean of samples with alpha 1 and of a background that is transparent black is times its mean alpha already:
+    times alpha once more, outlines would be too dark. Opaque pictures of translucent fragments with samples stay as
+    they are, for the same reason: what their samples were is not known any more.
+    """
     values = color.astype(np.float64)
-    if settings.blend == "opaque":
+    if settings.blend == "opaque" and settings.antialiasing == "none":
         values[..., :3] *= values[..., 3:]
     return values
 

@@ -24,7 +24,7 @@ from core.study import (
 from core.study import speed_accuracy as module
 from core.study.family import settings_of
 from core.study.frame_task import check_pixel_tests
-from core.study.whole_picture import scaled, standard_scene
+from core.study.whole_picture import SAMPLED_COLOR, PictureTask, scaled, standard_scene
 from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
@@ -215,6 +215,18 @@ def test_pipeline_measures_the_scene_and_settings_that_are_given() -> None:
     assert "line=dda" not in points
     shown = pictures(study, points["shading=unlit"], scene)
     assert shown.result.shape == (*scene.size[::-1], 4)
+
+
+def test_outlines_with_samples_are_as_bright_whatever_the_blending_keeps() -> None:
+    scene = scaled(standard_scene(), 0.25)
+    for name in ("msaa-4", "ssaa-16"):
+        base = Settings(antialiasing=name)
+        task = PictureTask(scene, base)
+        opaque, over = (
+            task.errors(settings, task.start(settings)())[SAMPLED_COLOR.name]
+            for settings in (base, replace(base, blend="over"))
+        )
+        assert opaque == over
 
 
 def test_a_scene_is_refused_where_the_family_makes_its_own() -> None:
