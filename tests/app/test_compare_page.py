@@ -155,10 +155,17 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
 
 
 def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
-    page.studies.choice.rounds = 90
+    drawn: list[int] = []
+
+    def cancel_at_the_first_point(_: object) -> None:
+        if not drawn:
+            drawn.append(len(page.scatter.places()))
+            page.studies.cancel()
+
+    page.desk.point_measured.connect(cancel_at_the_first_point)
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: len(page.scatter.places()) > 0, timeout=60000)
-    page.studies.cancel()
+    qtbot.waitUntil(lambda: bool(drawn), timeout=60000)
+    assert drawn == [1]
     assert page.scatter.places() == []
     assert page.studies.result is None
 
