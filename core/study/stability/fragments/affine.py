@@ -79,7 +79,7 @@ class StripCase(AnyTriangles):
         return Judgement(Verdict(outcome, largest, remark), error > HALF_TEXEL)
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements that u is within half a texel of what it should be."""
+        """Return statements that, where ``wrong`` (H, W) bool, u is within half a texel of what it should be."""
         _, wanted = self._shown_and_wanted(settings)
         return pixels_text(wrong, wanted, f"abs(frame.attributes[row, column, 0] - wanted) <= {HALF_TEXEL}")
 

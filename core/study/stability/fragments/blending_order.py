@@ -72,7 +72,7 @@ class LayersCase(AnyTriangles):
         return judge_colors(shown, np.where(np.isnan(wanted), shown, wanted), TOLERANCE)
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements that wrong pixels have the colour of the layers from back to front."""
+        """Return statements that ``wrong`` pixels, (H, W) bool, have the colour of the layers from back to front."""
         check = f"255 * np.abs(frame.color[row, column, :3] - wanted).max() <= {TOLERANCE}"
         return pixels_text(wrong, self.wanted(settings.blend == "additive"), check)
 

@@ -59,5 +59,5 @@ class NearestCase(AnyTriangles):
         return judge_order(wrong, "a triangle that should be hidden")
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements that wrong pixels show the nearest triangle."""
+        """Return statements that ``wrong`` pixels, (H, W) bool, show the nearest triangle."""
         return pixels_text(wrong, self.nearest, "frame.primitive[row, column] == wanted")

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
@@ -92,7 +92,7 @@ def scene_text(scene: ClipScene) -> str:
     )
 
 
-def pixels_text(wrong: Flags, wanted: Floats, check: str) -> str:
+def pixels_text(wrong: Flags, wanted: Floats | Integers, check: str) -> str:
     """Return statements that check every wrong pixel against what it should show.
 
     Parameters

@@ -66,7 +66,7 @@ class ThinCase(AnyTriangles):
         return Judgement(Verdict(outcome, largest, remark), wrong)
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements about the cover of all pixels, and the rows that have to have some."""
+        """Return statements about the cover of all pixels (H, W), and the rows that have to have some."""
         rows = np.flatnonzero(self.wanted.sum(axis=1) > 0).tolist()
         return (
             f"cover = frame.color[..., 3]\n"
@@ -81,7 +81,7 @@ def counter_clockwise_window(scene: ClipScene) -> Floats:
     window = (clip[:, :2] / clip[:, 3:] + 1) / 2 * scene.size
     window = np.rint(256 * window) / 256
     (x1, y1), (x2, y2) = window[1:] - window[0]
-    return window[::-1] if x1 * y2 < y1 * x2 else window
+    return np.asarray(window[::-1] if x1 * y2 < y1 * x2 else window)
 
 
 def needle(width: float, offset: float) -> ClipScene:
