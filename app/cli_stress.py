@@ -14,7 +14,7 @@ from app.cli_study import seed_from_text
 from app.shrunk_files import export_shrunk
 from core.study import machine
 from core.study.stability import Experiment, Outcome, experiments, stress
-from core.study.stability.shrink import Shrinkable, shrink_cell
+from core.study.stability.shrink import Shrinkable, shrink_cell, why_not_shrinkable
 
 DESCRIPTION = (
     """Run every method of an experiment over a grid of parameters, and print what came of every run."""
@@ -94,7 +94,7 @@ def _check_method(experiment: Experiment, method: str) -> None:
     if method not in info.methods:
         raise ValueError(f"--shrink takes a method of {info.name}: {', '.join(info.methods)}; got {method}")
     if not isinstance(experiment, Shrinkable):
-        raise ValueError(f"cells of {info.name} are no triangles that can be made smaller")
+        raise ValueError(why_not_shrinkable(experiment))
 
 
 def run_shrink(experiment: Experiment, method: str, seed: int, folder: Path | None) -> int:

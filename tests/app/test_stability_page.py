@@ -231,6 +231,25 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
     assert page.maps.canvas.chosen is None
 
 
+def test_a_cell_of_depth_is_shrunk_and_one_of_normals_says_why_not(page: StabilityPage, qtbot: QtBot) -> None:
+    for name, method in (("painters-cycle", "visibility=painters"), ("opposite-normals", "shading=flat")):
+        page.runs.show_experiment(name)
+        page.runs.choice.resolution = "coarse"
+        found = next(each for each in run(page, qtbot).maps if each.method == method)
+        row, column = np.argwhere(found.outcome > Outcome.RIGHT)[0].tolist()
+        click(page, CellPlace(method, column, row))
+        wait_for_case(page, qtbot)
+        QTest.keyClick(page.window(), Qt.Key.Key_S)
+        if name == "painters-cycle":
+            qtbot.waitUntil(lambda: page.opened.shrunk is not None, timeout=60000)
+            assert page.opened.shrunk.shrunk.scene.size == (1, 1)
+            QTest.keyClick(page.window(), Qt.Key.Key_Escape)
+    assert page.opened.shrunk is None
+    assert status(page).startswith(
+        "Cells of opposite-normals cannot be made smaller: what is right belongs to"
+    )
+
+
 def test_a_failing_cell_is_shrunk_saved_and_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, tmp_path: Path
 ) -> None:

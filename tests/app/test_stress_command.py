@@ -84,6 +84,7 @@ def test_the_list_names_every_experiment() -> None:
         (["slivers", "-o", "no such folder"], "there is no folder no such folder"),
         (["slivers", "--shrink", "coverage=decimal"], "--shrink takes a method of slivers: coverage=float16"),
         (["line-drift", "--shrink", "line=dda"], "cells of line-drift are no triangles"),
+        (["minification", "--shrink", "texture_filter=nearest"], "right belongs to the mean over all pixels"),
         (["slivers", "--seed", "x"], "must be a whole number from 0"),
     ],
 )

@@ -7,7 +7,7 @@ import pytest
 
 from core.fragments.corrected_affine import largest_affine_error
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.affine import HALF_TEXEL, StripCase
+from core.study.stability.fragments.affine import HALF_TEXEL, StripCase, leaning_strip
 
 AFFINE = experiments.get("affine-w-ratio")
 PLACES = [
@@ -59,7 +59,8 @@ def test_affine_is_right_where_w_is_one() -> None:
 
 
 def test_the_reference_is_the_formula_of_the_strip() -> None:
-    case = StripCase(4.0, 16)
-    for column, wanted in enumerate(case.wanted):
+    case = StripCase(leaning_strip(4.0, 16))
+    assert case.wanted.shape == (2, 4, 16)
+    for column, wanted in enumerate(case.wanted.transpose(2, 0, 1)):
         t = Fraction(2 * column + 1, 32)
-        assert wanted == float(t / (4 - 3 * t))
+        assert (wanted == float(t / (4 - 3 * t))).all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.blending_order import ORDERS, LayersCase
+from core.study.stability.fragments.blending_order import ORDERS, LayersCase, layered_glass
 from core.study.stability.fragments.drawing_order import shuffled_layers
 
 CIRCLE = experiments.get("painters-cycle")
@@ -79,8 +79,8 @@ def test_the_first_orders_are_from_back_to_front() -> None:
 
 
 def test_glass_of_alpha_a_half_lets_half_through() -> None:
-    first, second = LayersCase((0,), 0.5), LayersCase((0, 1), 0.5)
+    first, second = (LayersCase(layered_glass(order, 0.5)) for order in ((0,), (0, 1)))
     color = np.array([0.0, 0.168, 0.445]), np.array([0.791, 0.347, 0.0])
-    assert first.wanted(False) == pytest.approx(0.5 * color[0] + 0.125)
-    assert second.wanted(False) == pytest.approx(0.5 * color[1] + 0.25 * color[0] + 0.0625)
-    assert second.wanted(True) == pytest.approx(0.5 * color[1] + 0.5 * color[0] + 0.25)
+    assert first.wanted(False)[1, 2] == pytest.approx(0.5 * color[0] + 0.125)
+    assert second.wanted(False)[1, 2] == pytest.approx(0.5 * color[1] + 0.25 * color[0] + 0.0625)
+    assert second.wanted(True)[1, 2] == pytest.approx(0.5 * color[1] + 0.5 * color[0] + 0.25)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.thin_triangles import ThinCase
+from core.study.stability.fragments.thin_triangles import ThinCase, needle
 
 MINIFICATION = experiments.get("minification")
 ALIASING = experiments.get("shading-aliasing")
@@ -80,7 +80,7 @@ def test_needles_are_lost_between_samples(offset: float) -> None:
 
 
 def test_the_reference_has_the_area_of_the_needle() -> None:
-    case = ThinCase(0.5, 0.25)
+    case = ThinCase(needle(0.5, 0.25))
     # Half a pixel wide at y = -8, nothing at y = 1024: from y = 0 to 32 it is a trapezium.
     widths = [0.5 * (1024 - y) / 1032 for y in (0, 32)]
     assert case.wanted.sum() == pytest.approx(32 * sum(widths) / 2)

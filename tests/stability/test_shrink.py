@@ -93,6 +93,9 @@ def test_only_what_fails_can_be_shrunk() -> None:
     with pytest.raises(ValueError, match="no triangles that can be made smaller"):
         shrink_cell("line-drift", "line=dda", (64.0, 0.5))
     assert not isinstance(experiments.get("line-drift"), Shrinkable)
+    sums = experiments.get("inverse-slopes")
+    with pytest.raises(ValueError, match="what is right belongs to a triangle whose upper side is level"):
+        shrink_cell(sums, sums.info.methods[0], (64.0, 0.5))
 
 
 def test_runs_are_bounded_and_can_be_cancelled() -> None:

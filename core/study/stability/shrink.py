@@ -11,7 +11,7 @@ A. Zeller, R. Hildebrandt, *Simplifying and isolating failure-inducing input*, 2
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -45,6 +45,22 @@ class Shrinkable(Protocol):
 
     def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
         """Return the first pixel that is wrong, if it is about pixels."""
+
+
+@runtime_checkable
+class Bound(Protocol):
+    """An experiment whose truth belongs to its own scenes."""
+
+    bound_to: str
+    """What it belongs to, in words."""
+
+
+def why_not_shrinkable(experiment: Experiment) -> str:
+    """Return in a sentence why cells of an experiment that is not `Shrinkable` stay as large as they are."""
+    name = experiment.info.name
+    if isinstance(experiment, Bound) and experiment.bound_to:
+        return f"cells of {name} cannot be made smaller: what is right belongs to {experiment.bound_to}"
+    return f"cells of {name} are no triangles that can be made smaller"
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +119,7 @@ def shrink_cell(
             f"method of {name} must be one of {', '.join(experiment.info.methods)}, got {method}"
         )
     if not isinstance(experiment, Shrinkable):
-        raise ValueError(f"cells of {name} are no triangles that can be made smaller")
+        raise ValueError(why_not_shrinkable(experiment))
     scene, settings = experiment.case(method, place, seed)
     small, verdict, run_count = shrink(scene, settings, experiment.judge, most_runs, is_cancelled)
     sentence = f"{method} at {_shown_count(small)}: {verdict.remark}."
@@ -163,30 +179,34 @@ class _Triangles:
     size: tuple[int, int]
     colors: Floats
     """(T, 3, K) float64."""
+    background: Floats
+    """(4,) float64, what the picture is cleared to."""
 
     @classmethod
     def of(cls, scene: ClipScene) -> "_Triangles":
         """Take a scene apart."""
         vertices, corners = np.unique(scene.clip.reshape(-1, 4), axis=0, return_inverse=True)
         assert scene.attributes is not None
-        return cls(vertices, corners.reshape(-1, 3).astype(np.int64), scene.size, scene.attributes)
+        return cls(
+            vertices, corners.reshape(-1, 3).astype(np.int64), scene.size, scene.attributes, scene.background
+        )
 
     def scene(self) -> ClipScene:
         """Put the scene together."""
-        return ClipScene(self.vertices[self.corners], self.colors, self.size, shared=self.corners)
+        clip = self.vertices[self.corners]
+        return ClipScene(clip, self.colors, self.size, background=self.background, shared=self.corners)
 
     def keep(self, index: Integers) -> "_Triangles":
         """Return the triangles ``index`` (Q,) alone, with the vertices that they have."""
         used, corners = np.unique(self.corners[index], return_inverse=True)
-        return _Triangles(
-            self.vertices[used], corners.reshape(-1, 3).astype(np.int64), self.size, self.colors[index]
-        )
+        corners = corners.reshape(-1, 3).astype(np.int64)
+        return replace(self, vertices=self.vertices[used], corners=corners, colors=self.colors[index])
 
     def moved(self, vertex: int, axis: int, value: float) -> "_Triangles":
         """Return the same with one coordinate changed."""
         vertices = self.vertices.copy()
         vertices[vertex, axis] = value
-        return _Triangles(vertices, self.corners, self.size, self.colors)
+        return replace(self, vertices=vertices)
 
 
 Simplify = Callable[[_Triangles], Iterator[_Triangles]]
@@ -260,8 +280,8 @@ def _with_smaller_picture(triangles: _Triangles) -> Iterator[_Triangles]:
             vertices = triangles.vertices.copy()
             w = vertices[:, 3]
             vertices[:, axis] = ((vertices[:, axis] + w) * side - 2 * first * w) / kept - w
-            yield _Triangles(vertices, triangles.corners, size, triangles.colors)
-        yield _Triangles(triangles.vertices, triangles.corners, size, triangles.colors)
+            yield replace(triangles, vertices=vertices, size=size)
+        yield replace(triangles, size=size)
 
 
 def _with_simpler_corners(triangles: _Triangles) -> Iterator[_Triangles]:

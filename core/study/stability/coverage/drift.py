@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import floor
+from typing import ClassVar
 
 import numpy as np
 
@@ -91,6 +92,8 @@ class SlopeSumExperiment:
     """Spans of a triangle with a level side; wrong is a span that its own rule does not give in rational numbers."""
 
     info: ExperimentInfo
+    bound_to: ClassVar[str] = "a triangle whose upper side is level: the rows below it are compared"
+    """Why nothing of it can be left out."""
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Fill the triangle of one place and compare its spans."""

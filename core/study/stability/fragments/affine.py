@@ -5,16 +5,24 @@ References
 J. Blinn, *Hyperbolic interpolation*, 1992.
 """
 
+from functools import cached_property
+
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Flags, Floats
 from core.fragments.corrected_affine import largest_affine_error
 from core.pipeline import render
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_values
 from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement
+from core.study.stability.fragments.cases import Judgement
+from core.study.stability.fragments.shrinkable_cases import (
+    AnyTriangles,
+    ShrinkableCases,
+    check_in_view_volume,
+    pixels_text,
+)
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
 
 ROWS = 4
@@ -23,22 +31,45 @@ HALF_TEXEL = 1 / 512
 """Half a texel of a texture of 256: a coordinate that strays less takes the same texel, about."""
 
 
-class StripCase(Case):
-    """A strip that fills the picture and leads away to the right, w from 1 to ``w_ratio``, u from 0 to 1."""
+class StripCase(AnyTriangles):
+    """Triangles that lead away, u their first value; right is u with perspective, by fractions.
 
-    def __init__(self, w_ratio: float, width: int) -> None:
-        self.scene = leaning_strip(w_ratio, width)
-        self.bound = float(largest_affine_error(np.array([w_ratio]))[0])
-        column, row = np.arange(width), np.zeros(width, np.int64)
+    Raises
+    ------
+    ValueError
+        If a triangle is cut by a plane of depth: its pieces have other ratios of w.
+    """
+
+    def __init__(self, scene: ClipScene) -> None:
+        check_in_view_volume(scene)
+        self.scene = scene
+        w = scene.clip[..., 3]
+        self.bound = float(largest_affine_error(w.max(axis=1) / w.min(axis=1)).max())
+
+    @cached_property
+    def wanted(self) -> Floats:
+        """(T, H, W) float64, u of every triangle at every pixel, whether it covers it or not."""
+        width, height = self.scene.size
+        row, column = (index.ravel() for index in np.mgrid[0:height, 0:width])
         attributes = self.scene.attributes
         assert attributes is not None
-        # u is one linear function over w in both triangles, so the first one's values hold in the whole row.
-        self.wanted = exact_values(self.scene.clip[0], attributes[0], self.scene.size, column, row)[:, 0]
+        u = [
+            exact_values(corners, values[:, :1], self.scene.size, column, row)
+            for corners, values in zip(self.scene.clip, attributes, strict=True)
+        ]
+        return np.stack(u).reshape(-1, height, width)
+
+    def _shown_and_wanted(self, settings: Settings) -> tuple[Floats, Floats]:
+        """Return u as it is drawn and as it should be, (H, W) float64 each; the same where nothing is drawn."""
+        frame = render(self.scene, settings)
+        shown = frame.attributes[..., 0].astype(np.float64)
+        of_seen = np.take_along_axis(self.wanted, np.maximum(frame.primitive, 0)[None], axis=0)[0]
+        return shown, np.where(frame.primitive >= 0, of_seen, shown)
 
     def judge(self, settings: Settings) -> Judgement:
         """Return the largest error as a part of the edge, and what it may be without any correction."""
-        shown = render(self.scene, settings).attributes[..., 0].astype(np.float64)
-        error = np.abs(shown - self.wanted)
+        shown, wanted = self._shown_and_wanted(settings)
+        error = np.abs(shown - wanted)
         largest = float(error.max())
         remark = (
             f"u strays by {largest:.4g} of the edge; without perspective by (sqrt r - 1)/(sqrt r + 1) = "
@@ -46,6 +77,11 @@ class StripCase(Case):
         )
         outcome = Outcome.RIGHT if largest <= HALF_TEXEL else Outcome.WRONG_PICTURE
         return Judgement(Verdict(outcome, largest, remark), error > HALF_TEXEL)
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that, where ``wrong`` (H, W) bool, u is within half a texel of what it should be."""
+        _, wanted = self._shown_and_wanted(settings)
+        return pixels_text(wrong, wanted, f"abs(frame.attributes[row, column, 0] - wanted) <= {HALF_TEXEL}")
 
 
 def leaning_strip(w_ratio: float, width: int) -> ClipScene:
@@ -61,10 +97,10 @@ def leaning_strip(w_ratio: float, width: int) -> ClipScene:
 def make_strip(place: tuple[float, ...], seed: int) -> StripCase:
     """Make the strip; nothing in it is random."""
     del seed
-    return StripCase(place[0], int(place[1]))
+    return StripCase(leaning_strip(place[0], int(place[1])))
 
 
-AFFINE = CaseExperiment(
+AFFINE = ShrinkableCases(
     ExperimentInfo(
         "affine-w-ratio",
         "Affine interpolation by the ratio of w",
@@ -93,4 +129,5 @@ AFFINE = CaseExperiment(
     ),
     make_strip,
     "interpolate",
+    case_of=StripCase,
 )

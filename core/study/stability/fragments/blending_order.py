@@ -10,15 +10,12 @@ from itertools import permutations
 
 import numpy as np
 
+from core.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.stability.fragments.cases import (
-    Case,
-    CaseExperiment,
-    Judgement,
-    drawn_colors,
-    judge_colors,
-)
+from core.study.exact.values import exact_fragments
+from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
+from core.study.stability.fragments.shrinkable_cases import AnyTriangles, ShrinkableCases, pixels_text
 from core.study.stability.record import Axis, ExperimentInfo
 from core.study.workloads import COLORS
 
@@ -34,36 +31,61 @@ ORDERS = {
 """Every order of two and of three layers; 0 is the farthest layer, and the first order is from back to front."""
 
 
-class LayersCase(Case):
-    """Layers that fill the picture, drawn in a given order."""
+class LayersCase(AnyTriangles):
+    """Triangles of one colour each; right is the colour from back to front, whatever the order of drawing."""
 
-    def __init__(self, order: tuple[int, ...], alpha: float) -> None:
-        count = len(order)
-        self._alpha = Fraction(alpha)
-        self._colors = [tuple(Fraction(float(value)) for value in color[:3]) for color in COLORS[:count]]
-        x, y = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
-        index = np.array([[0, 1, 2], [0, 2, 3]])
-        layers = [
-            np.stack([x, y, np.full(4, 0.5 - 0.4 * layer), np.ones(4)], axis=1)[index] for layer in order
-        ]
-        shades = [np.broadcast_to([*COLORS[layer, :3], alpha], (2, 3, 4)) for layer in order]
-        self.scene = ClipScene(
-            np.concatenate(layers), np.concatenate(shades), (SIDE, SIDE), background=np.array(BACKGROUND)
-        )
+    def __init__(self, scene: ClipScene) -> None:
+        self.scene = scene
+        self._fragments = exact_fragments(scene.clip, scene.size)
 
-    def wanted(self, adds: bool) -> tuple[float, ...]:
-        """Return the colour (3) by fractions: what the layers let through, from back to front; or the sum of light."""
-        color = [Fraction(value) for value in BACKGROUND[:3]]
-        for layer in self._colors:
-            through = Fraction(1) if adds else 1 - self._alpha
-            color = [self._alpha * own + through * behind for own, behind in zip(layer, color, strict=True)]
+    def wanted(self, adds: bool) -> Floats:
+        """Return the colours (H, W, 3) by fractions: what the layers let through, or the sum of light.
+
+        Notes
+        -----
+        NaN where two layers are as deep: neither is before the other, and nothing is right.
+        """
+        width, height = self.scene.size
+        fragments, colors = self._fragments, np.empty((height, width, 3))
+        for row, column in np.ndindex(height, width):
+            here = np.flatnonzero((fragments.row == row) & (fragments.column == column))
+            here = here[np.argsort(-fragments.depth[here], kind="stable")]
+            is_tie = bool((np.diff(fragments.depth[here]) == 0).any())
+            layers = fragments.triangle[here].tolist()
+            colors[row, column] = np.nan if is_tie else self._through(tuple(layers), adds)
+        return colors
+
+    def _through(self, layers: tuple[int, ...], adds: bool) -> tuple[float, ...]:
+        """Return the colour (3) of triangles from back to front before the background."""
+        assert self.scene.attributes is not None
+        color = [Fraction(float(value)) for value in self.scene.background[:3]]
+        for layer in layers:
+            *light, alpha = (Fraction(float(value)) for value in self.scene.attributes[layer, 0])
+            through = Fraction(1) if adds else 1 - alpha
+            color = [alpha * own + through * behind for own, behind in zip(light, color, strict=True)]
         return tuple(float(value) for value in color)
 
     def judge(self, settings: Settings) -> Judgement:
         """Compare the colour with that of glass, or of light where light is added."""
         shown = drawn_colors(self.scene, settings)[..., :3]
-        wanted = np.broadcast_to(self.wanted(settings.blend == "additive"), shown.shape)
-        return judge_colors(shown, wanted, TOLERANCE)
+        wanted = self.wanted(settings.blend == "additive")
+        return judge_colors(shown, np.where(np.isnan(wanted), shown, wanted), TOLERANCE)
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that ``wrong`` pixels, (H, W) bool, have the colour of the layers from back to front."""
+        check = f"255 * np.abs(frame.color[row, column, :3] - wanted).max() <= {TOLERANCE}"
+        return pixels_text(wrong, self.wanted(settings.blend == "additive"), check)
+
+
+def layered_glass(order: tuple[int, ...], alpha: float) -> ClipScene:
+    """Return layers that fill the picture, drawn in a given order: 0 is the farthest."""
+    x, y = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
+    index = np.array([[0, 1, 2], [0, 2, 3]])
+    layers = [np.stack([x, y, np.full(4, 0.5 - 0.4 * layer), np.ones(4)], axis=1)[index] for layer in order]
+    shades = [np.broadcast_to([*COLORS[layer, :3], alpha], (2, 3, 4)) for layer in order]
+    return ClipScene(
+        np.concatenate(layers), np.concatenate(shades), (SIDE, SIDE), background=np.array(BACKGROUND)
+    )
 
 
 def make_layers(place: tuple[float, ...], seed: int) -> LayersCase:
@@ -71,10 +93,10 @@ def make_layers(place: tuple[float, ...], seed: int) -> LayersCase:
     del seed
     number = int(place[0])
     order = ORDERS[2][number] if number < 2 else ORDERS[3][number - 2]
-    return LayersCase(order, place[1])
+    return LayersCase(layered_glass(order, place[1]))
 
 
-BLENDING = CaseExperiment(
+BLENDING = ShrinkableCases(
     ExperimentInfo(
         "blending-order",
         "Blending by the order of drawing",
@@ -101,4 +123,5 @@ BLENDING = CaseExperiment(
     ),
     make_layers,
     "blend",
+    case_of=LayersCase,
 )

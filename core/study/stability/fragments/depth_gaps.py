@@ -18,7 +18,9 @@ from core.pipeline import render
 from core.scene import Camera, Scene
 from core.settings import Settings
 from core.study.hidden_surfaces import visible_triangles
-from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, judge_order
+from core.study.stability.fragments.cases import Case, Judgement, judge_order
+from core.study.stability.fragments.nearest import NearestCase
+from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.record import Axis, ExperimentInfo
 from core.study.workloads import layered_walls, random_source, wall_scene
 
@@ -122,7 +124,7 @@ def decades(first: int, last: int) -> tuple[float, ...]:
 BASE = Settings(shading="unlit", fill="bounding-box")
 """What the depth formats share: nothing but depth matters."""
 
-BY_DISTANCE = CaseExperiment(
+BY_DISTANCE = ShrinkableCases(
     ExperimentInfo(
         "z-fighting-distance",
         "Z-fighting by gap and distance",
@@ -140,8 +142,9 @@ BY_DISTANCE = CaseExperiment(
     make_by_distance,
     "depth",
     BASE,
+    case_of=NearestCase,
 )
-BY_RANGE = CaseExperiment(
+BY_RANGE = ShrinkableCases(
     ExperimentInfo(
         "z-fighting-range",
         "Z-fighting by gap and depth range",
@@ -158,8 +161,9 @@ BY_RANGE = CaseExperiment(
     make_by_range,
     "depth",
     BASE,
+    case_of=NearestCase,
 )
-ORTHOGRAPHIC = CaseExperiment(
+ORTHOGRAPHIC = ShrinkableCases(
     ExperimentInfo(
         "orthographic-depth",
         "Depth without perspective",
@@ -181,4 +185,5 @@ ORTHOGRAPHIC = CaseExperiment(
     make_orthographic,
     "depth",
     BASE,
+    case_of=NearestCase,
 )

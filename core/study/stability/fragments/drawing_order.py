@@ -5,15 +5,11 @@ References
 M. Newell, R. Newell, T. Sancha, *A solution to the hidden surface problem*, 1972 (cycles have to be split).
 """
 
-from functools import cached_property
-
 import numpy as np
 
-from core.arrays import Floats, Integers
-from core.pipeline import render
-from core.settings import Settings
-from core.study.exact.values import exact_fragments, exact_visible
-from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, judge_order
+from core.arrays import Floats
+from core.study.stability.fragments.nearest import NearestCase
+from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.record import Axis, ExperimentInfo
 from core.study.workloads import clip_of_window, flat_scene, on_lattice, random_source
 
@@ -21,26 +17,6 @@ SIDE = 64
 """Pixels on a side of the picture: a power of two, so that places on the lattice are exact in clip space."""
 CROSSING = 0.35 * np.sqrt(3)
 """Where a bar's axis meets those of the others, from its middle, in half sides of the picture times 0.9."""
-
-
-class OrderCase(Case):
-    """Triangles given in clip space; right is the nearest one at every pixel, by fractions."""
-
-    def __init__(self, clip: Floats) -> None:
-        self.scene = flat_scene(clip, (SIDE, SIDE))
-        self._clip = clip
-
-    @cached_property
-    def nearest(self) -> Integers:
-        """(H, W) int64, the triangle that is seen."""
-        return exact_visible(exact_fragments(self._clip, self.scene.size), self.scene.size)
-
-    def judge(self, settings: Settings) -> Judgement:
-        """Count the pixels that show a triangle which is hidden."""
-        return judge_order(
-            np.asarray(render(self.scene, settings).primitive != self.nearest),
-            "a triangle that should be hidden",
-        )
 
 
 def circle_of_bars(overlap: float, lift: float) -> Floats:
@@ -90,19 +66,20 @@ def shuffled_layers(count: int, swaps: int, seed: int) -> Floats:
     )
 
 
-def make_circle(place: tuple[float, ...], seed: int) -> OrderCase:
+def make_circle(place: tuple[float, ...], seed: int) -> NearestCase:
     """Make the three bars; nothing in them is random."""
     del seed
-    return OrderCase(circle_of_bars(place[0], place[1]))
+    return NearestCase(flat_scene(circle_of_bars(place[0], place[1]), (SIDE, SIDE)))
 
 
-def make_layers(place: tuple[float, ...], seed: int) -> OrderCase:
+def make_layers(place: tuple[float, ...], seed: int) -> NearestCase:
     """Make the layers."""
     count = int(place[0])
-    return OrderCase(shuffled_layers(count, min(int(place[1]), count * (count - 1) // 2), seed))
+    clip = shuffled_layers(count, min(int(place[1]), count * (count - 1) // 2), seed)
+    return NearestCase(flat_scene(clip, (SIDE, SIDE)))
 
 
-CIRCLE = CaseExperiment(
+CIRCLE = ShrinkableCases(
     ExperimentInfo(
         "painters-cycle",
         "Painter's algorithm on three bars in a circle",
@@ -123,8 +100,9 @@ CIRCLE = CaseExperiment(
     ),
     make_circle,
     "depth",
+    case_of=NearestCase,
 )
-LAYERS = CaseExperiment(
+LAYERS = ShrinkableCases(
     ExperimentInfo(
         "drawing-order",
         "Layers drawn in a wrong order",
@@ -140,4 +118,5 @@ LAYERS = CaseExperiment(
     ),
     make_layers,
     "depth",
+    case_of=NearestCase,
 )

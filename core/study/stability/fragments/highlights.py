@@ -76,4 +76,5 @@ HIGHLIGHT = CaseExperiment(
     ),
     make_highlight,
     "shade",
+    bound_to="the sphere that the triangles stand for, and its highlight",
 )

@@ -100,4 +100,5 @@ NORMALS = CaseExperiment(
     ),
     make_normals,
     "shade",
+    bound_to="the whole strip, along which normals should turn evenly",
 )

@@ -29,6 +29,8 @@ TURN = np.radians(17.0)
 TOLERANCE = 16.0
 """Mean colour error, in 1/255, that is taken as right."""
 DENSITIES = Axis("density", "Texels for a pixel", "", (1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32), True)
+BOUND_TO = "the mean over all pixels of the textured square, and single pixels of it may be off"
+"""Why nothing of it can be left out."""
 ANGLES = Axis("angle", "Angle of the surface", "degrees", (0, 15, 30, 45, 60, 70, 80, 85))
 
 
@@ -85,6 +87,7 @@ MINIFICATION = CaseExperiment(
     ),
     make_texture_case,
     "shade",
+    bound_to=BOUND_TO,
 )
 SHADING_ALIASING = CaseExperiment(
     ExperimentInfo(
@@ -106,4 +109,5 @@ SHADING_ALIASING = CaseExperiment(
     make_texture_case,
     "shade",
     Settings(texture_filter="nearest"),
+    bound_to=BOUND_TO,
 )

@@ -8,11 +8,17 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978 (exact area).
 
 import numpy as np
 
+from core.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.areas import area_in_pixels
 from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, drawn_colors
+from core.study.stability.fragments.cases import Judgement, drawn_colors
+from core.study.stability.fragments.shrinkable_cases import (
+    AnyTriangles,
+    ShrinkableCases,
+    check_in_view_volume,
+)
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
 from core.study.workloads import clip_of_window
 
@@ -25,21 +31,23 @@ TOLERANCE = 1 / 4
 """Largest error of a pixel's cover that is taken as right: one sample of four."""
 
 
-class ThinCase(Case):
-    """A white needle, almost upright, from below the picture to a tip far above it: it is hardly wider below."""
+class ThinCase(AnyTriangles):
+    """One white triangle; right is the exact area of it in every pixel, with its corners on the lattice.
 
-    def __init__(self, width: float, offset: float) -> None:
-        height = SIZE[1]
-        # All on the lattice of 1/256 pixel, so that snapping moves nothing.
-        left = 7.0 + offset
-        tip = left + width / 2 + SLANT * (TIP + FOOT)
-        window = np.array([[left, -FOOT], [left + width, -FOOT], [tip, TIP]])
-        window = np.rint(256 * window) / 256
-        level = np.ones((1, 3))
-        self.scene = ClipScene(
-            clip_of_window(window[None], SIZE, 0.5 * level, level), np.ones((1, 3, 4)), SIZE
-        )
-        row, column = np.mgrid[0:height, 0 : SIZE[0]]
+    Raises
+    ------
+    ValueError
+        If there are several triangles, which may cover the same part of a pixel, or it is cut by a plane of depth.
+    """
+
+    def __init__(self, scene: ClipScene) -> None:
+        if len(scene.clip) != 1:
+            raise ValueError(f"one triangle is wanted, got {len(scene.clip)}")
+        check_in_view_volume(scene)
+        self.scene = scene
+        width, height = scene.size
+        row, column = np.mgrid[0:height, 0:width]
+        window = counter_clockwise_window(scene)
         self.wanted = area_in_pixels(window, column.ravel(), row.ravel()).reshape(row.shape)
 
     def judge(self, settings: Settings) -> Judgement:
@@ -49,7 +57,7 @@ class ThinCase(Case):
         largest = float(error.max())
         is_lost = (shown.sum(axis=1) == 0) & (self.wanted.sum(axis=1) > 0)
         lost = int(np.count_nonzero(is_lost))
-        remark = f"the needle is lost in {lost} rows of {SIZE[1]}; cover is off by {largest:.3g} of a pixel at most"
+        remark = f"the needle is lost in {lost} rows of {len(shown)}; cover is off by {largest:.3g} of a pixel at most"
         wrong = (error > TOLERANCE) | (is_lost[:, None] & (self.wanted > 0))
         if lost:
             outcome = Outcome.HOLE
@@ -57,14 +65,43 @@ class ThinCase(Case):
             outcome = Outcome.RIGHT if largest <= TOLERANCE else Outcome.WRONG_PICTURE
         return Judgement(Verdict(outcome, largest, remark), wrong)
 
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements about the cover of all pixels (H, W), and the rows that have to have some."""
+        rows = np.flatnonzero(self.wanted.sum(axis=1) > 0).tolist()
+        return (
+            f"cover = frame.color[..., 3]\n"
+            f"assert np.abs(cover - {self.wanted.tolist()}).max() <= {TOLERANCE}\n"
+            f"assert all(cover[row].any() for row in {rows})"
+        )
+
+
+def counter_clockwise_window(scene: ClipScene) -> Floats:
+    """Return the corners (3, 2) of the first triangle in pixels, on the lattice of 1/256, counter-clockwise."""
+    clip = scene.clip[0]
+    window = (clip[:, :2] / clip[:, 3:] + 1) / 2 * scene.size
+    window = np.rint(256 * window) / 256
+    (x1, y1), (x2, y2) = window[1:] - window[0]
+    return np.asarray(window[::-1] if x1 * y2 < y1 * x2 else window)
+
+
+def needle(width: float, offset: float) -> ClipScene:
+    """Return a white needle, almost upright, from below the picture to a tip far above it: hardly wider below."""
+    # All on the lattice of 1/256 pixel, so that snapping moves nothing.
+    left = 7.0 + offset
+    tip = left + width / 2 + SLANT * (TIP + FOOT)
+    window = np.array([[left, -FOOT], [left + width, -FOOT], [tip, TIP]])
+    window = np.rint(256 * window) / 256
+    level = np.ones((1, 3))
+    return ClipScene(clip_of_window(window[None], SIZE, 0.5 * level, level), np.ones((1, 3, 4)), SIZE)
+
 
 def make_thin(place: tuple[float, ...], seed: int) -> ThinCase:
     """Make the needle; nothing in it is random."""
     del seed
-    return ThinCase(place[0], place[1])
+    return ThinCase(needle(place[0], place[1]))
 
 
-THIN = CaseExperiment(
+THIN = ShrinkableCases(
     ExperimentInfo(
         "thin-triangles",
         "Needles between the samples",
@@ -86,4 +123,5 @@ THIN = CaseExperiment(
     ),
     make_thin,
     "resolve",
+    case_of=ThinCase,
 )

@@ -1,0 +1,126 @@
+"""The shrinker on what pixels show: a few triangles on one or two pixels are left, and the test of them fails."""
+
+import numpy as np
+import pytest
+
+from core import ClipScene, Settings
+from core.study.stability import Outcome, experiments
+from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
+from core.study.stability.fragments.blending_order import LayersCase, layered_glass
+from core.study.stability.fragments.nearest import NearestCase
+from core.study.stability.fragments.shrinkable_cases import ShrinkableCases, in_clip_space
+from core.study.stability.fragments.thin_triangles import ThinCase, needle
+from core.study.stability.shrink import Shrinkable, shrink_cell, why_not_shrinkable
+from core.study.workloads import flat_scene
+
+CASES = [
+    ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), 1, "interpolation", "perspective"),
+    ("z-fighting-distance", "depth=z-16", (100.0, 0.01), 2, "visibility", "ray-casting"),
+    ("z-fighting-distance", "depth=inverse-w", (31.6, 1e-6), 2, "visibility", "ray-casting"),
+    ("z-fighting-range", "depth=z-24", (1000.0, 1e-6), 2, "visibility", "ray-casting"),
+    ("orthographic-depth", "depth=z-16", (0.01, 2.0**-30), 2, "visibility", "ray-casting"),
+    ("painters-cycle", "visibility=painters", (0.3, 0.0), 2, "visibility", "z-buffer"),
+    ("drawing-order", "visibility=last-drawn", (4.0, 2.0), 2, "visibility", "painters"),
+    ("blending-order", "visibility=last-drawn blend=over", (4.0, 0.5), 2, "visibility", "painters"),
+    ("blending-order", "visibility=last-drawn blend=opaque", (0.0, 0.5), 1, "blend", "over"),
+    ("thin-triangles", "antialiasing=none", (0.25, 0.0), 1, "antialiasing", "area"),
+    ("thin-triangles", "antialiasing=msaa-4", (2.0**-6, 0.0), 1, "antialiasing", "area"),
+]
+"""Experiment, method, place, the most triangles that are left, and what makes it right: a family and its method."""
+BOUND = ("lost-highlight", "opposite-normals", "minification", "shading-aliasing")
+
+
+@pytest.mark.parametrize(("name", "method", "place", "most", "family", "right"), CASES)
+def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_the_method_is_right(
+    name: str, method: str, place: tuple, most: int, family: str, right: str
+) -> None:
+    experiment = experiments.get(name)
+    shrunk = shrink_cell(name, method, place)
+    assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
+    assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
+    assert len(shrunk.scene.clip) <= most
+    assert np.prod(shrunk.scene.size) <= 2
+    column, row = shrunk.pixel
+    assert 0 <= column < shrunk.scene.size[0]
+    assert 0 <= row < shrunk.scene.size[1]
+    with pytest.raises(AssertionError):
+        run_test(shrunk.test)
+    given = f'{family}="{getattr(shrunk.settings, family)}"'
+    chosen = f'{family}="{right}"'
+    text = shrunk.test
+    run_test(
+        text.replace(given, chosen) if given in text else text.replace("Settings(", f"Settings({chosen}, ")
+    )
+
+
+def run_test(text: str) -> None:
+    names: dict[str, object] = {}
+    exec(compile(text, "a shrunk test", "exec"), names)
+    (test,) = [value for name, value in names.items() if name.startswith("test_")]
+    test()
+
+
+def test_every_experiment_can_be_shrunk_or_says_what_its_truth_belongs_to() -> None:
+    for experiment in FRAGMENT_EXPERIMENTS:
+        name = experiment.info.name
+        assert isinstance(experiment, Shrinkable) == (name not in BOUND), name
+        if name in BOUND:
+            with pytest.raises(
+                ValueError, match=f"cells of {name} cannot be made smaller: what is right belongs"
+            ):
+                shrink_cell(name, experiment.info.methods[0], (0.0, 0.0))
+            assert experiment.bound_to in why_not_shrinkable(experiment)
+
+
+@pytest.mark.parametrize("experiment", [e for e in FRAGMENT_EXPERIMENTS if isinstance(e, ShrinkableCases)])
+def test_the_truth_in_clip_space_is_that_of_the_cell(experiment: ShrinkableCases) -> None:
+    place = tuple(axis.values[len(axis.values) // 2] for axis in experiment.info.axes)
+    for method in experiment.info.methods:
+        cell = experiment.run(method, place, 0)
+        if cell.outcome != Outcome.REFUSED:
+            assert experiment.judge(*experiment.case(method, place, 0)).outcome == cell.outcome, method
+
+
+def test_of_triangles_that_are_as_near_either_may_be_seen() -> None:
+    triangle = np.array([[-1.0, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]])
+    level = flat_scene(np.stack([triangle, triangle]), (2, 2))
+    last = Settings(visibility="last-drawn")
+    assert NearestCase(level).judge(last).verdict.outcome == Outcome.RIGHT
+    behind = triangle + np.array([0, 0, 0.5, 0])
+    assert NearestCase(flat_scene(np.stack([triangle, behind]), (2, 2))).judge(last).wrong.all()
+
+
+def test_of_formats_that_store_w_only_what_is_nearer_by_w_and_z_counts() -> None:
+    near = np.array([[-2.0, -2, -1, 2], [6, -2, -1, 2], [-2, 6, -1, 2]])
+    far = np.array([[-1.0, -1, 0.5, 1], [3, -1, 0.5, 1], [-1, 3, 0.5, 1]])
+    scene = flat_scene(np.stack([near, far]), (1, 1))
+    assert NearestCase(scene).judge(Settings(depth="inverse-w")).verdict.outcome == Outcome.RIGHT
+    assert NearestCase(scene).judge(Settings(visibility="last-drawn")).wrong.all()
+
+
+def test_layers_that_are_as_deep_have_no_right_colour() -> None:
+    glass = layered_glass((0, 1), 0.5)
+    clip = glass.clip.copy()
+    clip[..., 2] = 0.0
+    level = ClipScene(clip, glass.attributes, glass.size, background=glass.background)
+    assert np.isnan(LayersCase(level).wanted(False)).all()
+
+
+def test_triangles_that_no_truth_is_known_for_are_refused() -> None:
+    white = needle(0.5, 0.25)
+    with pytest.raises(ValueError, match="one triangle is wanted, got 2"):
+        ThinCase(ClipScene(np.repeat(white.clip, 2, axis=0), size=white.size))
+    behind = white.clip.copy()
+    behind[0, 1, 3] = -1.0
+    with pytest.raises(ValueError, match="between the near and the far plane, triangle 0 is not"):
+        ThinCase(ClipScene(behind, size=white.size))
+    turned = ThinCase(ClipScene(white.clip[:, ::-1], np.ones((1, 3, 4)), white.size))
+    assert (turned.wanted == ThinCase(white).wanted).all()
+
+
+def test_a_scene_with_a_camera_keeps_its_triangles_in_clip_space() -> None:
+    experiment = experiments.get("z-fighting-range")
+    scene, _ = experiment.case("depth=z-16", (1000.0, 1e-4), 0)
+    assert in_clip_space(scene) is scene
+    assert scene.clip.shape == (len(scene.clip), 3, 4)
+    assert (scene.clip[..., 3] > 0).all()
