@@ -8,6 +8,7 @@ from core.study.planner.color_ranges import ColorRanges, w_ratio
 from core.study.planner.light_ranges import cones
 from core.study.planner.records import Fact
 from core.study.planner.surfaces import format_margin, surfaces
+from core.study.planner.texture_ranges import step_text
 from core.study.planner.touched import Touched
 
 
@@ -43,8 +44,8 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
     ]
     lod = colors.lod[seen.is_candidate]
     if np.isfinite(lod).any():
-        texels = float(np.exp2(lod[np.isfinite(lod)]).max())
-        facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{texels:.3g} texels"))
+        longest = float(lod[np.isfinite(lod)].max())
+        facts.append(Fact("texels", "Longest step of a pixel in a texture", step_text(longest)))
     if "normal" in geometry.primitives.layout:
         normal = geometry.primitives.varyings[..., geometry.primitives.layout["normal"]]
         radius = cones(normal.swapaxes(0, 1)).radius[primitive]

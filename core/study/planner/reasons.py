@@ -6,6 +6,7 @@ from core.settings import Settings
 from core.study.planner.color_ranges import ColorRanges, w_ratio
 from core.study.planner.records import Tolerance
 from core.study.planner.surface_choice import SurfaceChoice
+from core.study.planner.texture_ranges import step_text
 from core.study.planner.touched import Touched
 from core.study.planner.value_choice import ValueChoice
 
@@ -105,9 +106,7 @@ def value_reasons(
     texture = "There is no texture to be filtered"
     if "uv" in touched.geometry.primitives.layout:
         texture = (
-            f"A step of one sample is {2.0**lod:.3g} texels at most"
-            if np.isfinite(lod)
-            else "Some steps are endless"
+            f"A step of one sample is {step_text(lod)}" if np.isfinite(lod) else "Some steps are endless"
         )
     lit = "normal" in touched.geometry.primitives.layout
     return {

@@ -15,6 +15,15 @@ from core.fragments.textures import texture_colors
 from core.scene import Texture
 
 _kept: WeakKeyDictionary[Texture, "TextureRanges"] = WeakKeyDictionary()
+LONGEST_LEVEL = 14.0
+"""Level of detail from which on a step is not told in numbers: it is longer than any texture that is worth telling."""
+
+
+def step_text(level: float) -> str:
+    """Return how long a step of 2^level texels is at most; bounds at grazing pixels are far longer than a texture."""
+    if level > LONGEST_LEVEL:
+        return f"not known to be shorter than {2**LONGEST_LEVEL:,.0f} texels"
+    return f"{2.0**level:.3g} texels at most"
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from core.study.planner.light_ranges import Reflectances, light_range
 from core.study.planner.orders import overlap
 from core.study.planner.surfaces import format_margin, surfaces
 from core.study.planner.tessellation import sagitta, sphere_edges, tessellations
-from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
+from core.study.planner.texture_ranges import magnified_range, minified_range, range_around, step_text
 from core.study.planner.touched import components, touch
 from core.study.planner.value_bounds import shading_error, share_of_range
 from core.study.workloads import checkerboard, overlapping_triangles, sphere_mesh, sphere_scene, textured_quad
@@ -215,3 +215,8 @@ def test_an_empty_picture_needs_nothing() -> None:
     assert plan(scene, Tolerance.exact()).settings.antialiasing == "none"
     outside = textured_quad(8, 1.0, 1.0, texture)
     assert plan(outside, Tolerance.exact()).settings.texture_filter == "nearest"
+
+
+def test_a_bound_that_is_far_longer_than_a_texture_is_not_told_in_numbers() -> None:
+    assert step_text(1.0) == "2 texels at most"
+    assert step_text(30.0) == "not known to be shorter than 16,384 texels"
