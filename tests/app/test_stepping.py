@@ -167,10 +167,14 @@ def test_the_rail_shows_the_frames_of_the_3d_view_while_it_is_seen(window: MainW
     assert "of the traced picture" in traced
     window.page.show_view("scene")
     qtbot.waitUntil(lambda: "of the last frame of the 3D view" in raster_tip())
-    drawn = window.page.views.scene_presenter.drawn
-    assert drawn is not None
-    count = drawn.figures.stages["raster"]
-    assert f"{count.incoming:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
+
+    def tells_of_the_last_frame() -> bool:
+        drawn = window.page.views.scene_presenter.drawn
+        assert drawn is not None
+        count = drawn.figures.stages["raster"]
+        return f"{count.incoming:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
+
+    qtbot.waitUntil(tells_of_the_last_frame)  # a second frame may have come meanwhile
     shares = [button.entry().share for button in window.page.rail.buttons()]
     assert 0 < sum(share or 0.0 for share in shares) <= 1
     window.page.show_view("pixels")
