@@ -19,10 +19,15 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.methods import method
-from core.raster.line_records import LineRun, Segments, enumerate_steps, major_first, visible_range
-
-STEP_LIMIT = 2**16
-"""Most steps that the float version, which cannot begin in the middle of a line, takes along one segment."""
+from core.raster.line_records import (
+    STEP_LIMIT,
+    LineRun,
+    Segments,
+    enumerate_steps,
+    limited_steps,
+    major_first,
+    visible_range,
+)
 
 Listed = list[tuple[int, int, float]]
 """Column, row and decision of each pixel, from a listing."""
@@ -147,14 +152,7 @@ def bresenham_float(segments: Segments, last_pixel: bool) -> LineRun:
     first, last = visible_range(
         segments, is_steep, u, u_step, v.astype(float), v_step * slope, length + last_pixel
     )
-    last = np.where(first < last, last, first)
-    longest = int(np.max(np.where(first < last, last, 0), initial=0))
-    if longest > STEP_LIMIT:
-        segment = int(np.argmax(np.where(first < last, last, 0)))
-        raise ValueError(
-            f"bresenham-float takes at most {STEP_LIMIT} steps, got {longest} up to the end of the raster "
-            f"(segment {segment}): clip it first"
-        )
+    last, longest = limited_steps("bresenham-float", first, last)
     owner, i = enumerate_steps(first, last)
     climbed, decision = _float_errors(first, last, slope, longest)
 

@@ -19,9 +19,11 @@ from core.arrays import Flags, Floats, Integers, Singles
 from core.methods import method
 from core.raster.line_records import (
     MINOR_MARGIN,
+    STEP_LIMIT,
     LineRun,
     Segments,
     enumerate_steps,
+    limited_steps,
     major_first,
     round_half_up,
     visible_range,
@@ -34,8 +36,6 @@ Listed = list[tuple[int, int, float]]
 """Column, row and minor coordinate of each pixel, from a listing."""
 
 
-STEP_LIMIT = 2**16
-"""Most steps that the DDA in float32 takes along one segment: its drift is bounded, and so is the work."""
 FLOAT32_ROUNDING = 2.0**-23
 """Most that one sum in float32 is off by, as a share of it, with room for the sums before it."""
 
@@ -194,14 +194,7 @@ def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
         columns.count,
         margin,
     )
-    last = np.where(first < last, last, first)
-    longest = np.where(first < last, last, 0)
-    if longest.max(initial=0) > STEP_LIMIT:
-        segment = int(np.argmax(longest))
-        raise ValueError(
-            f"dda-float32 takes at most {STEP_LIMIT} steps, got {int(longest[segment])} up to the end of the raster "
-            f"(segment {segment}): clip it first"
-        )
+    last, _ = limited_steps("dda-float32", first, last)
     owner, k = enumerate_steps(first, last)
     sums, sums_before = _running_sums(first, last, v, v_step)
     return _run(columns, owner, k, sums, sums_before)

@@ -17,6 +17,8 @@ from core.scene import SIZE_LIMIT
 
 COORDINATE_LIMIT = 2.0**20
 """Farthest end of a segment, in pixels from the window's origin: all integer decisions then fit 64 bits."""
+STEP_LIMIT = 2**16
+"""Most steps of the methods whose numbers are added up one after the other, each rounded from the one before."""
 PIXEL_CENTERS = {"half": 0.5, "integer": 0.0}
 """Where the centre of pixel (0, 0) lies, for each value of the setting ``pixel_center``."""
 BLENDING = "blending"
@@ -164,6 +166,24 @@ def round_half_up(values: Any) -> Any:
     """
     below = np.floor(values)
     return (below + (values - below >= 0.5)).astype(np.int64)
+
+
+def limited_steps(method: str, first: Integers, last: Integers) -> tuple[Integers, int]:
+    """Return where the steps first <= k < last, (L,) int64 each, end, not before they begin, and the largest end.
+
+    Raises
+    ------
+    ValueError
+        If one of them is beyond `STEP_LIMIT`: ``method`` adds step by step from 0.
+    """
+    end = np.where(first < last, last, 0)
+    longest = int(end.max(initial=0))
+    if longest > STEP_LIMIT:
+        raise ValueError(
+            f"{method} takes at most {STEP_LIMIT} steps, got {longest} up to the end of the raster "
+            f"(segment {int(np.argmax(end))}): clip it first"
+        )
+    return np.maximum(first, last), longest
 
 
 def enumerate_steps(first: Integers, last: Integers) -> tuple[Integers, Integers]:
