@@ -85,7 +85,7 @@ class StudyPresenter(QObject):
         desk.point_measured.connect(self._take_point)
         desk.measured.connect(self._take_result)
         desk.measuring_failed.connect(self._fail)
-        desk.measuring_ended.connect(self._end)
+        desk.measuring_ended.connect(self._finish)
         for chart in self._charts:
             chart.series_hovered.connect(self._point_at)
             chart.series_left.connect(self._point_away)
@@ -342,11 +342,8 @@ class StudyPresenter(QObject):
         self.refused.emit(f"It could not be measured: {error} What was measured before is as it was.")
 
     @Slot()
-    def _end(self) -> None:
-        """Go back to what was measured before, unless a result or a reason follows."""
-        self._finish()
-
     def _finish(self) -> None:
+        """Go back to what was measured before, unless a result or a reason follows."""
         self._running, self._partial = "", None
         self._controls.show_progress(None)
         self.refresh()

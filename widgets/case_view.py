@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import (
     QLabel,
-    QPushButton,
     QScrollArea,
     QSplitter,
     QTabWidget,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -19,8 +17,8 @@ from widgets.dial_table import DialRow, DialTable
 from widgets.flow_layout import FlowLayout
 from widgets.grid_buffer import GridBuffer
 from widgets.linked_grids import LinkedGrids
+from widgets.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
 
-Pixel = tuple[int, int]
 WORDS = ("Picture", "Times covered")
 
 
@@ -72,19 +70,18 @@ class CaseView(QWidget):
         self.values.setWordWrap(True)
         self.formats = DialTable(self)
         self.tabs = QTabWidget(self)
-        self.step_button = self._button(
+        self.step_button = button_with_tip(
             "Open in the stepper",
             "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)",
+            self,
         )
-        self.shrink_button = self._button(
-            "Shrink", "Make the scene as small as it can be and still fail in the same way (S)"
+        self.shrink_button = button_with_tip(
+            "Shrink", "Make the scene as small as it can be and still fail in the same way (S)", self
         )
-        self.save_button = self._button("Save case…", "Save the small case as a scene, or as a Python test")
-        self.close_button = QToolButton(self)
-        self.close_button.setText("✕")
-        self.close_button.setProperty("flat", True)
-        self.close_button.setAccessibleName("Close the case")
-        self.close_button.setToolTip("Close the case (Escape)")
+        self.save_button = button_with_tip(
+            "Save case…", "Save the small case as a scene, or as a Python test", self
+        )
+        self.close_button = closing_button("the case", self)
         self.step_button.clicked.connect(self.step_requested)
         self.shrink_button.clicked.connect(self.shrink_requested)
         self.save_button.clicked.connect(self.save_requested)
@@ -93,11 +90,6 @@ class CaseView(QWidget):
         self.linked.pixel_left.connect(self._leave)
         self.linked.pixel_clicked.connect(self._pin_pixel)
         self._lay_out()
-
-    def _button(self, text: str, tip: str) -> QPushButton:
-        button = QPushButton(text, self)
-        button.setToolTip(tip)
-        return button
 
     def _lay_out(self) -> None:
         self.tabs.setDocumentMode(True)
@@ -176,8 +168,7 @@ class CaseView(QWidget):
         if buffers is None or pixel is None:
             self.values.setText("" if buffers is None else "Point at a pixel to read its values.")
             return
-        read = ", ".join(f"{buffer.label} {buffer.text_at(*pixel)}" for buffer in buffers)
-        self.values.setText(f"pixel ({pixel[0]}, {pixel[1]}): {read}")
+        self.values.setText(reading_at(pixel, buffers))
 
     @Slot(int, int)
     def _hover_pixel(self, column: int, row: int) -> None:

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from widgets.elided_label import ElidedLabel
 from widgets.grid_buffer import GridBuffer
 from widgets.linked_grids import LinkedGrids
+from widgets.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
 
-Pixel = tuple[int, int]
 WORDS = ("Picture", "Reference", "Difference")
 
 
@@ -43,20 +43,18 @@ class StudyPictures(QWidget):
         self.linked = LinkedGrids(WORDS, self)
         self.values = QLabel(self)
         self.values.setProperty("role", "muted")
-        self.step_button = self._button(
+        self.step_button = button_with_tip(
             "Open in the stepper",
             "Step this run, at the pinned pixel or where it is wrong first (Ctrl+Return)",
+            self,
         )
-        self.divergence_button = self._button(
+        self.divergence_button = button_with_tip(
             "Step to first divergence",
             "Step both runs, A | B, where they first part ways (Ctrl+Shift+Return)",
+            self,
         )
-        self.copy_button = self._button("Copy picture", "Put the three pictures on the clipboard")
-        self.close_button = QToolButton(self)
-        self.close_button.setText("✕")
-        self.close_button.setProperty("flat", True)
-        self.close_button.setAccessibleName("Close the pictures")
-        self.close_button.setToolTip("Close the pictures (Escape)")
+        self.copy_button = button_with_tip("Copy picture", "Put the three pictures on the clipboard", self)
+        self.close_button = closing_button("the pictures", self)
         self.step_button.clicked.connect(self.step_requested)
         self.divergence_button.clicked.connect(self.divergence_requested)
         self.copy_button.clicked.connect(self.copy_requested)
@@ -65,11 +63,6 @@ class StudyPictures(QWidget):
         self.linked.pixel_left.connect(self._leave)
         self.linked.pixel_clicked.connect(self._pin_pixel)
         self._lay_out()
-
-    def _button(self, text: str, tip: str) -> QPushButton:
-        button = QPushButton(text, self)
-        button.setToolTip(tip)
-        return button
 
     def _lay_out(self) -> None:
         top = QHBoxLayout()
@@ -129,8 +122,7 @@ class StudyPictures(QWidget):
         elif pixel is None:
             self.values.setText("Point at a pixel to read its values; click to pin it.")
         else:
-            read = ", ".join(f"{buffer.label} {buffer.text_at(*pixel)}" for buffer in record.buffers)
-            self.values.setText(f"pixel ({pixel[0]}, {pixel[1]}): {read}")
+            self.values.setText(reading_at(pixel, record.buffers))
 
     @Slot(int, int)
     def _hover_pixel(self, column: int, row: int) -> None:
