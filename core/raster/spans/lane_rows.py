@@ -61,7 +61,8 @@ def lane_rows(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> LaneRo
     arena = Arena()
     lanes = lanes_of_edges(edges, raster, owners, arena)
     height, first_row = height_of_lanes(lanes), lanes.first_row.astype(np.int64)
-    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, (Carried(first_row.copy(), 1),), arena)
+    carried = (Carried(np.arange(len(first_row)), 0), Carried(first_row.copy(), 1))
+    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
 
     # A triangle's rows stand behind those of all triangles drawn before it.
     count = np.zeros(len(edges), np.int64)

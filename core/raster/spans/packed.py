@@ -19,7 +19,7 @@ from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import Lanes, TieOwners
-from core.raster.spans.rows import Carried, Spans, walk_rows
+from core.raster.spans.rows import Carried, bounds_of_rows, longest_first
 
 FEW = 96
 """Spans: below this the rest of them is written out pixel by pixel, since a pass costs as much as for thousands."""
@@ -61,19 +61,17 @@ def word_spans(
     columns = raster.shape[1]
     pixel *= columns
     pixel += raster.place_of_origin
-    spans = walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(word, up)), arena)
-    return _at_first_pixel(spans, across, arena)
+    carried = (Carried(pixel, columns), Carried(word, up), Carried(across, 0))
+    (pixel, word, step), start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
 
-
-def _at_first_pixel(spans: Spans, across: Integers, arena: Arena) -> WordSpans:
-    """Move the carried values from column 0 to the first pixel of every span; ``across`` (L,) is that of the lanes."""
-    pixel, word = spans.carried
-    step, part = (arena(name, len(spans), dtype=np.int64) for name in ("span_step", "span_part"))
-    pixel += spans.start
-    across.take(spans.lane, out=step, mode="clip")
-    np.multiply(step, spans.start, out=part)
-    word += part
-    return WordSpans(pixel, word, step, spans.longer)
+    # From column 0 to the first pixel of every row.
+    column = arena("row_column", len(start), dtype=np.int64)
+    np.copyto(column, start)
+    pixel += column
+    column *= step
+    word += column
+    (pixel, word, step), longer = longest_first(length, (pixel, word, step), arena)
+    return WordSpans(pixel, word, step, longer)
 
 
 def each_pass(spans: WordSpans) -> Iterator[tuple[Integers, Integers]]:

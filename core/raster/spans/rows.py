@@ -28,9 +28,9 @@ class Carried:
     """Integers of L lanes that change by a fixed step from row to row."""
 
     first: Integers
-    """(L,) int64, value at the lane's first row; used up."""
+    """(L,) int64, value at the lane's first row; used up where it changes."""
     up: Integers | int
-    """(L,) int64 or one number for all, change per row."""
+    """(L,) int64 or one number for all, change per row; 0: none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +59,10 @@ def walk_rows(
     lanes: Lanes, raster: Raster, owners: TieOwners, carried: Sequence[Carried], arena: Arena
 ) -> Spans:
     """Return the spans of all lanes, longest first, with the carried values of their rows; see `bounds_of_rows`."""
-    rows, start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
-    return _longest_first(rows[0], start, length, rows[1:], arena)
+    lane = Carried(np.arange(len(lanes.triangle)), 0)
+    (of_lane, *values), start, length = bounds_of_rows(lanes, raster, owners, (lane, *carried), arena)
+    columns, longer = longest_first(length, (of_lane, start.astype(np.int64), *values), arena)
+    return Spans(columns[0], columns[1], columns[2:], longer)
 
 
 def bounds_of_rows(
@@ -70,8 +72,8 @@ def bounds_of_rows(
 
     Returns
     -------
-    rows : list of (R,) arrays
-        The lane, int32, and every carried value, int64.
+    rows : list of (R,) int64
+        Every carried value.
     start, length : (R,) int32
         First column and number of pixels (below 1: none).
 
@@ -84,21 +86,18 @@ def bounds_of_rows(
     groups = _groups(lanes.taller)
     total = sum(count * levels for count, levels in groups)
     left, right = arena("left", total), arena("right", total)
-    lane = arena("row_lane", total, dtype=np.int32)
     values = [arena(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
-    number = np.arange(len(lanes.triangle), dtype=np.int32)
     done = row = 0
     for count, levels in groups:
-        at = slice(done, done + count * levels)
+        end = done + count * levels
         shape = (levels, count)
-        _cross(lanes, row, levels, count, left[at].reshape(shape), right[at].reshape(shape), arena)
-        lane[at].reshape(shape)[:] = number[:count]
+        _cross(lanes, row, levels, count, left[done:end].reshape(shape), right[done:end].reshape(shape), arena)
         for value, carry in zip(values, carried, strict=True):
-            _carry(carry, levels, count, value[at].reshape(shape))
-        done += count * levels
+            _carry(carry, levels, count, value[done:end].reshape(shape))
+        done = end
         row += levels
     start, length = _bound_columns(left, right, lanes.reaches_out, raster, owners, arena)
-    return [lane, *values], start, length
+    return values, start, length
 
 
 def _groups(taller: list[int]) -> list[tuple[int, int]]:
@@ -142,13 +141,15 @@ def _cross(
 def _carry(carry: Carried, levels: int, count: int, values: Integers) -> None:
     """Write the carried values (levels, count) of the next rows, and move them on."""
     first, up = carry.first[:count], carry.up if isinstance(carry.up, int) else carry.up[:count]
-    if levels == 1:
-        values[0] = first
+    if levels == 1 or (isinstance(up, int) and not up):
+        values[:] = first
     elif isinstance(up, int):
         np.add(first, (np.arange(levels) * up)[:, None], out=values)
     else:
         np.multiply(up, np.arange(levels)[:, None], out=values)
         values += first
+    if isinstance(up, int) and not up:
+        return
     first += up if levels == 1 else up * levels
 
 
@@ -170,22 +171,29 @@ def _bound_columns(
     return start, length
 
 
-def _longest_first(
-    lane: Integers, start: Integers, length: Integers, values: list[Integers], arena: Arena
-) -> Spans:
-    """Return spans in order of their length (R,) int32, without empty ones."""
+def longest_first(
+    length: Integers, columns: Sequence[Integers], arena: Arena
+) -> tuple[list[Integers], list[int]]:
+    """Put rows in order of their length, the longest first, without empty ones.
+
+    Parameters
+    ----------
+    length : (R,) int32
+        Used up.
+    columns : sequence of (R,) int64
+        What is known of the rows.
+    arena : Arena
+
+    Returns
+    -------
+    columns : list of (S,) int64
+    longer : list of int
+        Element k: how many have more than k pixels.
+    """
     np.maximum(length, 0, out=length)
     order, longer = largest_first(length, arena("missing_pixels", 2 * len(length), dtype=np.uint8))
-    count = len(order)
-
-    single = arena("sorted_single", count, dtype=np.int32)
-    columns = []
-    for name, given in (("span_lane", lane), ("span_start", start)):
-        given.take(order, out=single, mode="clip")
-        columns.append(arena(name, count, dtype=np.int64))
-        np.copyto(columns[-1], single)
-    carried = []
-    for number, given in enumerate(values):
-        carried.append(arena(f"span_carried_{number}", count, dtype=np.int64))
-        given.take(order, out=carried[-1], mode="clip")
-    return Spans(columns[0], columns[1], carried, longer)
+    placed = []
+    for number, given in enumerate(columns):
+        placed.append(arena(f"span_column_{number}", len(order), dtype=np.int64))
+        given.take(order, out=placed[-1], mode="clip")
+    return placed, longer
