@@ -56,7 +56,7 @@ _FIELD = 21
 _SUBTEXELS = 256
 _HALF = sum(1 << (low + fraction - 1) for low, fraction in FIELDS)
 """Half a byte in each field: cutting off the fraction rounds."""
-_FARTHEST = 2.0**30
+FARTHEST = 2.0**30
 """Positions in 1/256 of a texel that 32-bit numbers hold with room to spare."""
 
 
@@ -168,6 +168,17 @@ def linear_error(contrast: float) -> float:
     return contrast * 2 / _SUBTEXELS + 1 / (LEVELS - 1)
 
 
+@dataclass(frozen=True)
+class SubtexelAxis:
+    """How a texture coordinate becomes a position in 1/256 of a texel, whose whole part is taken.
+
+    For means positions count from the centre of the first texel, half a unit on: rounding down is to the nearest.
+    """
+
+    scale: float
+    offset: float
+
+
 class PackedSampler:
     """Looks coordinates up in a packable texture, in memory of its own.
 
@@ -184,19 +195,17 @@ class PackedSampler:
     def __init__(self, texture: Texture, texture_filter: str, wrap: str, level_bytes: Bytes | None) -> None:
         self._packed = (pack_bytes if level_bytes is None else pack_levels)(texture, wrap)
         self._is_bilinear = texture_filter == "bilinear"
+        offset = 0.5 - _SUBTEXELS / 2 if self._is_bilinear else 0.0
+        columns, rows = self._packed.columns.size, self._packed.rows.size
+        self.axes = (SubtexelAxis(columns * _SUBTEXELS, offset), SubtexelAxis(rows * _SUBTEXELS, offset))
+        """Of u and of v."""
         self._is_clamped = wrap == "clamp"
         self._byte_words: list[Words] = []
         if level_bytes is not None:
             self._byte_words = [level_bytes.astype(np.uint32) << np.uint32(8 * place) for place in range(3)]
         self._memory = {
             np.dtype(kind): np.empty((count, BLOCK), kind)
-            for kind, count in (
-                (np.float64, 1),
-                (np.float32, 1),
-                (np.int32, 5),
-                (np.int64, 4),
-                (np.uint32, 1),
-            )
+            for kind, count in ((np.int32, 5), (np.int64, 4), (np.uint32, 1))
         }
 
     def write_words(self, u: Coordinates, v: Coordinates, words: Words) -> None:
@@ -209,22 +218,43 @@ class PackedSampler:
         words : (F,) uint32 array
             Is written.
         """
-        for start in range(0, len(u), BLOCK):
+        x, y = (
+            axis.scale * self._brought_near(coordinate, axis) + axis.offset
+            for coordinate, axis in zip((u, v), self.axes, strict=True)
+        )
+        self.write_words_at(x, y, words)
+
+    def write_words_at(self, x: Coordinates, y: Coordinates, words: Words) -> None:
+        """Write the colours at positions in units of 1/256 of a texel.
+
+        Parameters
+        ----------
+        x, y : (F,) float32 or float64 arrays
+            ``scale * coordinate + offset`` of `axes`, none of them beyond `FARTHEST`; used up.
+        words : (F,) uint32 array
+            Is written.
+        """
+        for start in range(0, len(x), BLOCK):
             part = slice(start, start + BLOCK)
-            self._write_bytes(self._means(u[part], v[part]), words[part])
+            column, row = self._rows(np.int32, len(x[part]))[:2]
+            for position, subtexel in ((x[part], column), (y[part], row)):
+                np.floor(position, out=position)
+                np.copyto(subtexel, position, casting="unsafe")
+            self._write_bytes(self._means(column, row), words[part])
 
     def _rows(self, kind: Any, count: int) -> NDArray[Any]:
         """Return the memory for numbers of a type, cut to ``count``."""
         return self._memory[np.dtype(kind)][:, :count]
 
-    def _means(self, u: Coordinates, v: Coordinates) -> Integers:
-        """Return the means of the texels around (F,) coordinates, or the texels they lie in, times 256, as words."""
-        column, row, across, up, place = self._rows(np.int32, len(u))
+    def _means(self, column: Wholes, row: Wholes) -> Integers:
+        """Return the means of the texels around positions (F,) in 256ths, or the texels they lie in, as words.
+
+        Words are those of texels times 256; the positions are used up.
+        """
+        across, up, place = self._rows(np.int32, len(column))[2:]
         mean: Integers
-        index, mean, part, factor = self._rows(np.int64, len(u))
+        index, mean, part, factor = self._rows(np.int64, len(column))
         packed = self._packed
-        self._find_subtexels(u, packed.columns.size, column)
-        self._find_subtexels(v, packed.rows.size, row)
         if self._is_bilinear:
             np.bitwise_and(column, _SUBTEXELS - 1, out=across)
             np.bitwise_and(row, _SUBTEXELS - 1, out=up)
@@ -254,26 +284,14 @@ class PackedSampler:
         mean += part
         return mean
 
-    def _find_subtexels(self, coordinate: Coordinates, size: int, subtexel: Wholes) -> None:
-        """Write (F,) coordinates of an axis in 1/256 of a texel, rounded down.
-
-        For means they count from the centre of the first texel, half a unit on: rounding down is to the nearest.
-        """
-        limit = _FARTHEST / (size * _SUBTEXELS)
-        if not (coordinate.min() >= -limit and coordinate.max() <= limit):
-            coordinate = self._brought_near(coordinate, limit)
-        (position,) = self._rows(coordinate.dtype, len(coordinate))
-        np.multiply(coordinate, size * _SUBTEXELS, out=position)
-        if self._is_bilinear:
-            position += 0.5 - _SUBTEXELS / 2
-        np.floor(position, out=position)
-        np.copyto(subtexel, position, casting="unsafe")
-
-    def _brought_near(self, coordinate: Coordinates, limit: float) -> Coordinates:
-        """Return (F,) coordinates of which those beyond ``limit`` are moved to where the texels are the same.
+    def _brought_near(self, coordinate: Coordinates, axis: SubtexelAxis) -> Coordinates:
+        """Return (F,) coordinates of which those too far away are moved to where the texels are the same.
 
         That is a whole number of periods nearer, or to the border of the texture. NaN is 0.
         """
+        limit = FARTHEST / axis.scale
+        if coordinate.min(initial=0) >= -limit and coordinate.max(initial=0) <= limit:
+            return coordinate
         defined = np.nan_to_num(coordinate, nan=0.0)
         near = np.clip(defined, -1, 2) if self._is_clamped else np.remainder(defined, 2)
         return np.where(np.abs(defined) <= limit, defined, near)

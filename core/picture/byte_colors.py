@@ -25,7 +25,7 @@ from core.picture.byte_errors import (
 )
 from core.picture.byte_words import FIELDS, unpack
 from core.picture.job import Job, Words, blocks
-from core.raster.spans.bands import Band
+from core.raster.spans.bands import Strip
 from core.surface import shade_fragments
 
 TOLERANCE = 0.95
@@ -67,8 +67,8 @@ class ByteColors:
         ]
         return integer_planes(self.x, self.y, self.center, fields)
 
-    def block(self, job: Job, triangle: int, band: Band) -> Words:
-        """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block.
+    def block(self, job: Job, triangle: int, band: Strip) -> Words:
+        """Return the pixels (R, C) uint32 of one triangle at all pixels of a strip.
 
         Notes
         -----
@@ -83,7 +83,10 @@ class ByteColors:
             ramp += np.rint(x * (self.across[channel, triangle] * unit)).astype(np.int64) << shift
             start = (self.corner[channel, triangle] + 0.5) * unit
             of_row += np.rint(y * (self.up[channel, triangle] * unit) + start).astype(np.int64) << shift
-        word = np.add(ramp, of_row[:, None], out=job.arena("color_block", len(y), len(x), dtype=np.int64))
+        shape = (len(y), band.width)
+        word = np.add(
+            band.spread(ramp), of_row[:, None], out=job.arena("color_block", *shape, dtype=np.int64)
+        )
         return unpack(word.reshape(-1), job.arena).reshape(word.shape)
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:

@@ -10,8 +10,12 @@ from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.byte_words import OPAQUE, pack_level
 from core.picture.job import BLOCK, Job, Words
+from core.primitives import CornerValues
 from core.scene import ClipScene, Scene
 from core.surface import shade_fragments
+
+FEW = 64
+"""Triangles that are looked at first: mostly they tell."""
 
 
 def palette(job: Job) -> Floats | None:
@@ -26,15 +30,23 @@ def palette(job: Job) -> Floats | None:
     if job.has_texture or (isinstance(scene, Scene) and job.settings.shading == "phong"):
         return None
     values = geometry.primitives.values
-    first, second, third = values.index
-    given = values.rows.take(first, axis=0)
-    if not (isinstance(scene, ClipScene) and geometry.clipped is None and _is_flat(scene)):
-        for other in (second, third):
-            if not (np.array_equal(first, other) or np.array_equal(given, values.rows.take(other, axis=0))):
-                return None
+    is_known = isinstance(scene, ClipScene) and geometry.clipped is None and _is_flat(scene)
+    if not is_known and not all(_corners_agree(values, part) for part in (slice(FEW), slice(None))):
+        return None
+    given = values.rows.take(values.index[0], axis=0)
     mesh = geometry.primitives.mesh
     color: Floats = shade_fragments(scene, job.settings, values.layout, mesh, given).color
     return color
+
+
+def _corners_agree(values: CornerValues, part: slice) -> bool:
+    """Return whether the corners of every triangle of a part have the same values."""
+    first, *others = (index[part] for index in values.index)
+    given = values.rows.take(first, axis=0)
+    return all(
+        np.array_equal(first, other) or np.array_equal(given, values.rows.take(other, axis=0))
+        for other in others
+    )
 
 
 @lru_cache(maxsize=4)

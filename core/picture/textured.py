@@ -6,12 +6,13 @@ For a picture whose bytes are linear, of triangles so few and large that a band 
 
 import numpy as np
 
+from core.arrays import Singles
 from core.fragments.interpolation import value_plane
-from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_levels
+from core.fragments.packed_texture import FARTHEST, PackedSampler, has_bytes, is_packable, linear_levels
 from core.framebuffer.display import encode_linear
 from core.framebuffer.nearest import NearestFragments
 from core.picture.job import Job, Words
-from core.raster.spans.bands import Band, bands
+from core.raster.spans.bands import Band, Strip, bands
 from core.scene import AnyScene, ClipScene, Texture
 
 MOST = 64
@@ -29,25 +30,39 @@ class TextureColors:
         geometry = job.geometry
         values = geometry.primitives.values
         uv = values.rows[:, values.layout["uv"]]
-        corner_values = (uv[:, axis].take(values.index).T for axis in range(2))
-        self._planes = [geometry.inverse_w_plane, *(value_plane(geometry.planes, of) for of in corner_values)]
         levels = None if has_bytes(texture) else encode_linear(linear_levels())
         self._sampler = PackedSampler(texture, job.settings.texture_filter, job.settings.wrap, levels)
+        inverse_w = geometry.inverse_w_plane
+        self._planes = [inverse_w]
+        """Of 1 / w, and of the positions in the texture divided by w."""
+        for number, axis in enumerate(self._sampler.axes):
+            plane = value_plane(geometry.planes, uv[:, number].take(values.index).T)
+            a, b, c = (
+                axis.scale * of + axis.offset * of_w for of, of_w in zip(plane, inverse_w, strict=True)
+            )
+            self._planes.append((a, b, c))
 
-    def block(self, job: Job, triangle: int, band: Band) -> Words:
+    def block(self, job: Job, triangle: int, band: Band | Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
         x, y = job.raster.along(band.column), job.raster.along(band.row)
-        shape = (len(y), len(x))
+        shape = (len(y), band.width)
         inverse_w, u, v = (job.arena(f"texture_{name}", *shape, dtype=np.float32) for name in ("w", "u", "v"))
         for values, (a, b, c) in zip((inverse_w, u, v), self._planes, strict=True):
             ramp, of_row = a[triangle] * x, b[triangle] * y + c[triangle]
-            np.add(ramp.astype(np.float32), of_row.astype(np.float32)[:, None], out=values)
+            np.add(band.spread(ramp.astype(np.float32)), of_row.astype(np.float32)[:, None], out=values)
         with np.errstate(divide="ignore", invalid="ignore"):
+            is_near = _is_positive(inverse_w)
             np.divide(np.float32(1), inverse_w, out=inverse_w)
-            u *= inverse_w
-            v *= inverse_w
+            for position in (u, v):
+                position *= inverse_w
+                is_near = is_near and _largest_at_ends(position) <= FARTHEST
         pixels: Words = job.arena("texture_pixels", *shape, dtype=np.uint32)
-        self._sampler.write_words(u.reshape(-1), v.reshape(-1), pixels.reshape(-1))
+        u, v, flat = u.reshape(-1), v.reshape(-1), pixels.reshape(-1)
+        if is_near:
+            self._sampler.write_words_at(u, v, flat)
+        else:
+            across, up = self._sampler.axes
+            self._sampler.write_words((u - across.offset) / across.scale, (v - up.offset) / up.scale, flat)
         return pixels
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
@@ -60,6 +75,21 @@ class TextureColors:
                 if is_seen.any():
                     np.copyto(image[band.rows, band.columns], self.block(job, triangle, band), where=is_seen)
         return int(np.count_nonzero(number))
+
+
+def _is_positive(inverse_w: Singles) -> bool:
+    """Return whether 1 / w (R, C), linear along every row, is positive everywhere."""
+    return bool((_ends(inverse_w) > 0).all())
+
+
+def _largest_at_ends(position: Singles) -> float:
+    """Return the largest size of positions (R, C), which grow or fall all along a row where w is positive."""
+    return float(np.abs(_ends(position)).max())
+
+
+def _ends(values: Singles) -> Singles:
+    """Return the first and the last value of all rows (R, C)."""
+    return values[:, :: max(values.shape[1] - 1, 1)]
 
 
 def texture_colors(job: Job) -> TextureColors | None:

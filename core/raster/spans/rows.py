@@ -91,7 +91,9 @@ def bounds_of_rows(
     for count, levels in groups:
         end = done + count * levels
         shape = (levels, count)
-        _cross(lanes, row, levels, count, left[done:end].reshape(shape), right[done:end].reshape(shape), arena)
+        _cross(
+            lanes, row, levels, count, left[done:end].reshape(shape), right[done:end].reshape(shape), arena
+        )
         for value, carry in zip(values, carried, strict=True):
             _carry(carry, levels, count, value[done:end].reshape(shape))
         done = end

@@ -97,6 +97,18 @@ def test_words_hold_red_lowest_and_are_opaque():
     assert hex(words[0]) == "0xff0080ff"
 
 
+@pytest.mark.parametrize("texture_filter", ["bilinear", "nearest"])
+@pytest.mark.parametrize("wrap", WRAPS)
+def test_positions_are_counted_in_256ths_of_a_texel(texture_filter, wrap):
+    texture, (u, v) = random_texture((16, 4)), places(4096).T
+    sampler = PackedSampler(texture, texture_filter, wrap, SRGB)
+    by_coordinate, by_position = np.zeros((2, len(u)), np.uint32)
+    sampler.write_words(u, v, by_coordinate)
+    half = 127.5 if texture_filter == "bilinear" else 0
+    sampler.write_words_at(u * 16 * 256 - half, v * 4 * 256 - half, by_position)
+    assert np.array_equal(by_coordinate, by_position)
+
+
 @given(
     u=st.floats(-4, 4, width=16),
     v=st.floats(-4, 4, width=16),
