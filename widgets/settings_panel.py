@@ -91,11 +91,15 @@ class SettingsPanel(QWidget):
     def show_settings(self, settings: Sequence[Setting]) -> None:
         """Show families and their present choices; rows are kept while the families stay."""
         settings = tuple(settings)
-        if [s.family for s in settings] != [s.family for s in self._settings] or self._body is None:
+        shown = {setting.family: setting for setting in self._settings}
+        if list(shown) != [setting.family for setting in settings] or self._body is None:
             self._build(settings)
+            shown.clear()
         self._settings = settings
         for setting in settings:
-            self._fill(setting)
+            # A choice that was refused is still what the control shows.
+            if setting != shown.get(setting.family) or self._shown_value(setting.family) != setting.current:
+                self._fill(setting)
 
     def combo(self, family: str) -> QComboBox:
         """Return the control of a family."""
@@ -139,6 +143,9 @@ class SettingsPanel(QWidget):
             self._labels[setting.family] = label
             row += 1
         self._layout.insertWidget(0, body)
+
+    def _shown_value(self, family: str) -> str:
+        return str(self._combos[family].currentData(Qt.ItemDataRole.UserRole))
 
     def _fill(self, setting: Setting) -> None:
         combo = self._combos[setting.family]

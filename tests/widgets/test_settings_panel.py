@@ -46,6 +46,22 @@ def test_setting_by_code_emits_nothing(panel) -> None:
     assert seen == []
 
 
+def test_a_choice_that_was_refused_goes_back_to_the_present_one(qtbot, panel) -> None:
+    combo = panel.combo("fill")
+    combo.setFocus()
+    qtbot.keyClick(combo, Qt.Key.Key_Up)
+    assert combo.currentText() == "Spans"
+    panel.show_settings(settings())
+    assert combo.currentText() == "Blocks"
+
+
+def test_what_has_not_changed_is_not_made_anew(panel) -> None:
+    fill, line = panel.combo("fill").model(), panel.combo("line").model()
+    panel.show_settings(settings(line_refusal=""))
+    assert panel.combo("fill").model() is fill
+    assert panel.combo("line").model() is not line
+
+
 def test_what_cannot_be_chosen_is_off_and_says_why(qtbot, panel) -> None:
     model = panel.combo("fill").model()
     item = model.item(2)
