@@ -19,7 +19,6 @@ from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import StressCancelledError
 from core.study.stability.coverage.precision_dial import DialReading
-from core.study.stability.shrink import Shrinkable, why_not_shrinkable
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
@@ -195,21 +194,11 @@ class StabilityCasePresenter(QObject):
         """Make the case small."""
         found = self._found
         if found is None or not case_record(found).can_shrink:
-            self.message_sent.emit(self._why_not_smaller())
+            self.message_sent.emit("Only a cell that fails can be made smaller.")
             return
         stage = "raster" if found.opening is None else found.opening.stage
-        self._view.show_waiting(
-            "Shrinking …", "Leaving out triangles, pixels and digits as long as it fails."
-        )
+        self._view.show_waiting("Shrinking …", "Leaving out parts, pixels and digits as long as it fails.")
         self._desk.shrink(found.order, stage)
-
-    def _why_not_smaller(self) -> str:
-        """Return in a sentence why the chosen cell cannot be made small."""
-        found = self._found
-        if found is None or isinstance(found.order.experiment, Shrinkable):
-            return "Only a cell that fails can be made smaller."
-        reason = why_not_shrinkable(found.order.experiment)
-        return f"{reason[0].upper()}{reason[1:]}."
 
     @Slot(object)
     def _show_shrunk(self, shrunk: ShrunkFound) -> None:

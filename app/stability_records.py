@@ -18,7 +18,6 @@ from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
 from core.study.stability.coverage.precision_dial import DialReading
-from core.study.stability.shrink import Shrinkable
 from widgets.atlas_records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
 from widgets.case_view import CaseRecord
 from widgets.dial_table import DialRow
@@ -132,7 +131,7 @@ def case_record(found: CaseFound) -> CaseRecord:
         pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
         has_formats=found.opening is not None and has_formats(found.opening),
         can_step=found.opening is not None,
-        can_shrink=is_failure and isinstance(found.order.experiment, Shrinkable),
+        can_shrink=is_failure,
     )
 
 
