@@ -36,6 +36,10 @@ class Experiment(Protocol):
         """Return what opens in the stepper to look at that very run; ``None``: the stepper has no such stage."""
 
     @property
+    def stage(self) -> str:
+        """Where the stepper opens, a name of ``core.frame.STAGES``."""
+
+    @property
     def kind(self) -> Kind[Any]:
         """What its cases are made of, and how they get smaller."""
 

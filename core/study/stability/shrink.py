@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.record import Opening
 from core.study.stability.case_text import case_text
 from core.study.stability.experiment import Experiment, Verdict, experiments
 from core.study.stability.smaller.search import Search
@@ -32,12 +33,19 @@ class Shrunk:
     verdict: Verdict
     sentence: str
     """What the method does to it."""
+    stage: str
+    """Where it opens in the stepper, a name of ``core.frame.STAGES``."""
     pixel: tuple[int, int] | None
     """Column and row of the first pixel that is wrong; ``None``: it is about no pixel."""
     run_count: int
     """Runs that it took."""
     test: str
     """The text of a Python file with one test, which fails as long as the method does."""
+
+    @property
+    def opening(self) -> Opening:
+        """What opens in the stepper."""
+        return Opening(self.scene, self.settings, self.stage, self.pixel)
 
 
 def shrink_cell(
@@ -87,4 +95,4 @@ def shrink_cell(
     title = "_".join([name, *(part.partition("=")[2] for part in method.split())])
     test = case_text(title, sentence, experiment.test_body(small, settings))
     pixel = experiment.wrong_pixel(small, settings)
-    return Shrunk(small, settings, verdict, sentence, pixel, search.run_count, test)
+    return Shrunk(small, settings, verdict, sentence, experiment.stage, pixel, search.run_count, test)

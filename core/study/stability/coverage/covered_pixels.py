@@ -61,6 +61,7 @@ class CoverageExperiment:
     wanted: Wanted = as_given
     base: Settings = EVERY_PIXEL
     """What the methods share."""
+    stage: ClassVar[str] = "raster"
     kind: ClassVar[Kind[Triangles]] = TRIANGLES
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
@@ -72,7 +73,7 @@ class CoverageExperiment:
         """Return the triangles, at the first pixel that goes wrong."""
         scene, settings = _scene(self, place, seed), settings_of(self.base, method)
         pixel = first_wrong_pixel(scene, settings, self.wanted(scene, settings))
-        return Opening(scene, settings, "raster", pixel)
+        return Opening(scene, settings, self.stage, pixel)
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the triangles of one place, and how one method draws them."""

@@ -31,6 +31,7 @@ class SlopeSumExperiment:
     """Spans of a triangle; wrong is a pixel that its own rule does not give in rational numbers."""
 
     info: ExperimentInfo
+    stage: ClassVar[str] = "raster"
     kind: ClassVar[Kind[Triangles]] = TRIANGLES
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
@@ -40,7 +41,7 @@ class SlopeSumExperiment:
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
         """Return the triangle, at the first pixel that is wrong."""
         scene, settings = level_triangle(place), settings_of(Settings(), method)
-        return Opening(scene, settings, "raster", self.wrong_pixel(scene, settings))
+        return Opening(scene, settings, self.stage, self.wrong_pixel(scene, settings))
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the triangle of one place, and how it is filled."""

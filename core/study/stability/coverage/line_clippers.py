@@ -46,6 +46,7 @@ class LineClipExperiment:
     info: ExperimentInfo
     segment: Callable[[tuple[float, ...]], Floats]
     """The segment (2, 2) in pixels at a place of the axes."""
+    stage: ClassVar[str] = "raster"
     kind: ClassVar[Kind[Segment]] = SEGMENTS
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
@@ -57,7 +58,9 @@ class LineClipExperiment:
         segment = self.segment(place)
         if (segment[0] == segment[1]).all():
             return None
-        return Opening(outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), "raster")
+        return Opening(
+            outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), self.stage
+        )
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the segment of one place as an edge of a triangle, and the clipper's settings."""

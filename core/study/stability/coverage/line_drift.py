@@ -31,6 +31,7 @@ class LineDriftExperiment:
     """One long line between pixel centres; wrong is a step that does not take a nearest pixel."""
 
     info: ExperimentInfo
+    stage: ClassVar[str] = "raster"
     kind: ClassVar[Kind[Segment]] = SEGMENTS
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
@@ -45,7 +46,7 @@ class LineDriftExperiment:
         pixel = first_wrong_step(ends, line, size) or (int(ends[0, 0]), int(ends[0, 1]))
         # Powers of two, so that the ends are the same numbers in clip space.
         near = size_around(np.array(pixel, float))
-        return Opening(outline_scene(ends, near), settings_of_line(line), "raster", pixel)
+        return Opening(outline_scene(ends, near), settings_of_line(line), self.stage, pixel)
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the line of one place as an edge of an outlined triangle."""
