@@ -152,7 +152,7 @@ def shrunk_record(found: ShrunkFound) -> CaseRecord:
     opening = found.shrunk.opening
     runs = counted(found.shrunk.run_count, "run")
     return CaseRecord(
-        heading=f"Smallest case of {found.order.place.key} in {found.order.experiment.info.title.lower()}",
+        heading=f"{found.order.experiment.info.title}: smallest case of {found.order.place.key}",
         verdict=f"{found.shrunk.sentence} It took {runs}.{'' if found.frame is not None else _too_large(opening)}",
         buffers=None if found.frame is None else case_buffers(found.frame),
         pixel=opening.pixel if found.frame is not None else None,

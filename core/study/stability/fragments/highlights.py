@@ -81,7 +81,7 @@ class HighlightCase(AnyCase):
         return Judgement(Verdict(Outcome.WRONG_PICTURE, missing, remark), dark)
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements that one of the pixels on the highlight is about as bright as the sphere there."""
+        """Return statements that a pixel on the highlight, ``wrong`` (H, W) or not, is as bright as the sphere."""
         del wrong
         _, where = self._shown_and_where(settings)
         least = float(self._wanted[where].max()) - TOLERANCE * self._specular

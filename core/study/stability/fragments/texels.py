@@ -76,7 +76,7 @@ class TextureCase(AnyCase):
         return judge_colors(shown, self.wanted, TOLERANCE, whole, of_mean=True)
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
-        """Return statements that the error in the mean over all pixels that count is small."""
+        """Return statements that the mean error over all pixels that count, ``wrong`` (H, W) bool or not, is small."""
         del wrong
         _, whole = self._shown_and_whole(settings)
         pixels = listed_pixels(whole, self.wanted)
