@@ -14,7 +14,7 @@ from app.cli_study import seed_from_text
 from app.shrunk_files import export_shrunk
 from core.study import machine
 from core.study.stability import Experiment, Outcome, experiments, stress
-from core.study.stability.shrink import Shrinkable, shrink_cell, why_not_shrinkable
+from core.study.stability.shrink import shrink_cell
 
 DESCRIPTION = (
     """Run every method of an experiment over a grid of parameters, and print what came of every run."""
@@ -26,8 +26,8 @@ EXAMPLES = """examples:
   rasterscope stress slivers --shrink coverage=float32 -o results
 
 -o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes
-its triangles as few, short and small as they can be and still fail, and prints a test; with -o the test (.py) and the
-scene (.rasterscope) are written too.
+its triangles (its segment, its lit mesh) as few, short and small as they can be and still fail, and prints a test; with
+-o the test (.py) and the scene (.rasterscope) are written too.
 """
 
 
@@ -89,12 +89,10 @@ def list_text() -> list[str]:
 
 
 def _check_method(experiment: Experiment, method: str) -> None:
-    """Refuse, with a sentence, a method that the experiment does not run, or triangles that it does not have."""
+    """Refuse, with a sentence, a method that the experiment does not run."""
     info = experiment.info
     if method not in info.methods:
         raise ValueError(f"--shrink takes a method of {info.name}: {', '.join(info.methods)}; got {method}")
-    if not isinstance(experiment, Shrinkable):
-        raise ValueError(why_not_shrinkable(experiment))
 
 
 def run_shrink(experiment: Experiment, method: str, seed: int, folder: Path | None) -> int:

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from app.document import open_document
 from app.file_writing import whole_file
+from app.opening_document import document_at
 from app.state_files import EXTENSION, State, save_state
 from core.study.stability.shrink import Shrunk
 
@@ -27,8 +27,8 @@ def save_shrunk(path: Path, shrunk: Shrunk, title: str) -> None:
         with whole_file(path) as file:
             file.write(shrunk.test.encode())
     elif path.suffix == EXTENSION:
-        document = open_document(shrunk.scene, title, settings=shrunk.settings)
-        save_state(path, State(document, pin=shrunk.pixel))
+        opening = shrunk.opening
+        save_state(path, State(document_at(opening, title), opening.stage, pin=opening.pixel))
     else:
         raise ValueError(f"the file must end in {EXTENSION} or {TEST_ENDING}, got {path.name}")
 

@@ -19,7 +19,6 @@ from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import StressCancelledError
 from core.study.stability.coverage.precision_dial import DialReading
-from core.study.stability.shrink import Shrinkable, why_not_shrinkable
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
@@ -155,7 +154,7 @@ class StabilityCasePresenter(QObject):
         """Look at a pixel in every number format, where the case is triangles in clip space."""
         if self._found is None:
             return
-        opening = self._found.opening if self._shrunk is None else self._shrunk.opening
+        opening = self._found.opening if self._shrunk is None else self._shrunk.shrunk.opening
         if opening is not None and has_formats(opening) and isinstance(opening.scene, ClipScene):
             self._desk.read_dial(opening.scene, (column, row))
 
@@ -180,7 +179,7 @@ class StabilityCasePresenter(QObject):
         opening: Opening | None = self._found.opening
         title = f"{self._found.order.experiment.info.title}: {self._found.order.place.key}"
         if self._shrunk is not None:
-            opening, title = self._shrunk.opening, f"{title}, smallest case"
+            opening, title = self._shrunk.shrunk.opening, f"{title}, smallest case"
         if opening is None:
             self.message_sent.emit("This run cannot be stepped: it is not a stage of the pipeline.")
             return
@@ -195,21 +194,10 @@ class StabilityCasePresenter(QObject):
         """Make the case small."""
         found = self._found
         if found is None or not case_record(found).can_shrink:
-            self.message_sent.emit(self._why_not_smaller())
+            self.message_sent.emit("Only a cell that fails can be made smaller.")
             return
-        stage = "raster" if found.opening is None else found.opening.stage
-        self._view.show_waiting(
-            "Shrinking …", "Leaving out triangles, pixels and digits as long as it fails."
-        )
-        self._desk.shrink(found.order, stage)
-
-    def _why_not_smaller(self) -> str:
-        """Return in a sentence why the chosen cell cannot be made small."""
-        found = self._found
-        if found is None or isinstance(found.order.experiment, Shrinkable):
-            return "Only a cell that fails can be made smaller."
-        reason = why_not_shrinkable(found.order.experiment)
-        return f"{reason[0].upper()}{reason[1:]}."
+        self._view.show_waiting("Shrinking …", "Leaving out parts, pixels and digits as long as it fails.")
+        self._desk.shrink(found.order)
 
     @Slot(object)
     def _show_shrunk(self, shrunk: ShrunkFound) -> None:

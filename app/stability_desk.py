@@ -67,7 +67,6 @@ class ShrunkFound:
 
     order: CaseOrder
     shrunk: Shrunk
-    opening: Opening
     frame: Frame | None
 
 
@@ -180,16 +179,15 @@ class StabilityDesk(QObject):
         self._shrinking.cancel()
         self._looking.start(work)
 
-    def shrink(self, order: CaseOrder, stage: str) -> None:
-        """Make one cell small; ``stage`` is where it is to be opened."""
+    def shrink(self, order: CaseOrder) -> None:
+        """Make one cell small."""
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> ShrunkFound:
             method = order.place.key
             shrunk = shrink_cell(
                 order.experiment, method, order.values, order.seed, is_cancelled=is_cancelled
             )
-            opening = Opening(shrunk.scene, shrunk.settings, stage, shrunk.pixel)
-            return ShrunkFound(order, shrunk, opening, drawn(shrunk.scene, shrunk.settings))
+            return ShrunkFound(order, shrunk, drawn(shrunk.scene, shrunk.settings))
 
         self._shrinking.start(work)
 

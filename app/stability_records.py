@@ -18,7 +18,6 @@ from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
 from core.study.stability.coverage.precision_dial import DialReading
-from core.study.stability.shrink import Shrinkable
 from widgets.atlas_records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
 from widgets.case_view import CaseRecord
 from widgets.dial_table import DialRow
@@ -132,7 +131,7 @@ def case_record(found: CaseFound) -> CaseRecord:
         pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
         has_formats=found.opening is not None and has_formats(found.opening),
         can_step=found.opening is not None,
-        can_shrink=is_failure and isinstance(found.order.experiment, Shrinkable),
+        can_shrink=is_failure,
     )
 
 
@@ -140,18 +139,24 @@ def _missing_picture(found: CaseFound) -> str:
     """Return why no picture is shown, where one is opened in the stepper."""
     if found.frame is not None or found.opening is None or found.verdict.outcome is Outcome.REFUSED:
         return ""
-    width, height = found.opening.scene.size
+    return _too_large(found.opening)
+
+
+def _too_large(opening: Opening) -> str:
+    width, height = opening.scene.size
     return f" Its picture has {width:,} × {height:,} pixels: open it in the stepper to see the part that matters."
 
 
 def shrunk_record(found: ShrunkFound) -> CaseRecord:
     """Return what is shown of a cell that has been made small."""
+    opening = found.shrunk.opening
+    runs = counted(found.shrunk.run_count, "run")
     return CaseRecord(
-        heading=f"Smallest case of {found.order.place.key} in {found.order.experiment.info.title.lower()}",
-        verdict=f"{found.shrunk.sentence} It took {counted(found.shrunk.run_count, 'run')}.",
+        heading=f"{found.order.experiment.info.title}: smallest case of {found.order.place.key}",
+        verdict=f"{found.shrunk.sentence} It took {runs}.{'' if found.frame is not None else _too_large(opening)}",
         buffers=None if found.frame is None else case_buffers(found.frame),
-        pixel=found.shrunk.pixel if found.frame is not None else None,
-        has_formats=has_formats(found.opening),
+        pixel=opening.pixel if found.frame is not None else None,
+        has_formats=has_formats(opening),
         can_step=True,
         can_save=True,
     )

@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app import __version__
 from app.document import TEACHING_LIMIT, TRACED_TOGETHER
+from app.opening_document import part_around
 from app.pages import StepRequest
-from app.step_opening import part_around
 from app.workers import Job, Progress
 from core.scene import AnyScene
 from core.settings import Settings

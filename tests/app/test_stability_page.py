@@ -231,23 +231,38 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
     assert page.maps.canvas.chosen is None
 
 
-def test_a_cell_of_depth_is_shrunk_and_one_of_normals_says_why_not(page: StabilityPage, qtbot: QtBot) -> None:
-    for name, method in (("painters-cycle", "visibility=painters"), ("opposite-normals", "shading=flat")):
-        page.runs.show_experiment(name)
-        page.runs.choice.resolution = "coarse"
-        found = next(each for each in run(page, qtbot).maps if each.method == method)
-        row, column = np.argwhere(found.outcome > Outcome.RIGHT)[0].tolist()
-        click(page, CellPlace(method, column, row))
-        wait_for_case(page, qtbot)
-        QTest.keyClick(page.window(), Qt.Key.Key_S)
-        if name == "painters-cycle":
-            qtbot.waitUntil(lambda: page.opened.shrunk is not None, timeout=60000)
-            assert page.opened.shrunk.shrunk.scene.size == (1, 1)
-            QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert page.opened.shrunk is None
-    assert status(page).startswith(
-        "Cells of opposite-normals cannot be made smaller: what is right belongs to"
-    )
+@pytest.mark.parametrize(
+    ("name", "method", "stage"),
+    [
+        ("painters-cycle", "visibility=painters", "depth"),
+        ("opposite-normals", "shading=flat", "shade"),
+        ("minification", "texture_filter=nearest", "shade"),
+        ("line-drift", "line=dda-float32", "raster"),
+        ("parallel-segments", "line_clipping=cyrus-beck-lecture", "raster"),
+    ],
+)
+def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
+    window: MainWindow, page: StabilityPage, qtbot: QtBot, name: str, method: str, stage: str
+) -> None:
+    page.runs.show_experiment(name)
+    page.runs.choice.resolution = "coarse"
+    found = next(each for each in run(page, qtbot).maps if each.method == method)
+    failing = np.argwhere((found.outcome != Outcome.RIGHT) & (found.outcome != Outcome.REFUSED))
+    row, column = failing[0].tolist()
+    click(page, CellPlace(method, column, row))
+    wait_for_case(page, qtbot)
+    QTest.keyClick(window, Qt.Key.Key_S)
+    qtbot.waitUntil(lambda: page.opened.shrunk is not None, timeout=60000)
+    assert page.opened.shrunk is not None
+    shrunk = page.opened.shrunk.shrunk
+    assert shrunk.sentence in page.case.verdict.text()
+    assert page.case.step_button.isEnabled()
+    with qtbot.waitSignal(window.opening.opened, timeout=60000):
+        QTest.keyClick(window, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    document = window.session.document
+    assert document.scene.size == shrunk.scene.size
+    assert document.settings == shrunk.settings
+    assert window.session.cursor.stage == stage
 
 
 def test_a_failing_cell_is_shrunk_saved_and_opened(

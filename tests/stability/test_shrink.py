@@ -6,7 +6,12 @@ import pytest
 import core
 from core import ClipScene, Settings
 from core.study.stability import Outcome, StressCancelledError, Verdict, experiments
-from core.study.stability.shrink import Shrinkable, digit_count, shrink, shrink_cell, simpler_numbers
+from core.study.stability.shrink import shrink_cell
+from core.study.stability.smaller.numbers import digit_count, simpler_numbers
+from core.study.stability.smaller.search import Search
+from core.study.stability.smaller.segments import SEGMENTS, Segment, first_edge, simpler_coordinates
+from core.study.stability.smaller.triangles import TRIANGLES
+from tests.stability.shrunk_tests import run_test
 
 CASES = [
     ("slivers", "coverage=snapped", (2.0**-12, 2.0**-14)),
@@ -28,8 +33,9 @@ def test_what_is_left_fails_in_the_same_way_and_is_no_larger(name: str, method: 
     assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
     assert len(shrunk.scene.clip) <= len(before.clip)
     assert np.prod(shrunk.scene.size) <= np.prod(before.size)
-    digits = [sum(digit_count(value) for value in scene.clip.ravel()) for scene in (shrunk.scene, before)]
-    assert digits[0] <= digits[1]
+    if experiment.kind is TRIANGLES:
+        digits = [sum(digit_count(value) for value in scene.clip.ravel()) for scene in (shrunk.scene, before)]
+        assert digits[0] <= digits[1]
     assert shrunk.sentence.startswith(method)
     again = shrink_cell(name, method, place)
     assert (again.scene.clip == shrunk.scene.clip).all()
@@ -59,13 +65,6 @@ def test_the_test_fails_now_and_holds_for_a_method_that_is_right(
         run_test(text.replace("Settings(", f'Settings({family}="{right}", '))
 
 
-def run_test(text: str) -> None:
-    names: dict[str, object] = {}
-    exec(compile(text, "a shrunk test", "exec"), names)
-    (test,) = [value for name, value in names.items() if name.startswith("test_")]
-    test()
-
-
 def test_a_mesh_shrinks_to_two_triangles_on_one_pixel() -> None:
     shrunk = shrink_cell("shared-edges", "fill_rule=inclusive", (1.0, 8.0))
     assert len(shrunk.scene.clip) == 2
@@ -90,12 +89,6 @@ def test_only_what_fails_can_be_shrunk() -> None:
         shrink_cell("slivers", "coverage=exact", (0.5, 0.25))
     with pytest.raises(ValueError, match="method of slivers must be one of"):
         shrink_cell("slivers", "coverage=decimal", (0.5, 0.25))
-    with pytest.raises(ValueError, match="no triangles that can be made smaller"):
-        shrink_cell("line-drift", "line=dda", (64.0, 0.5))
-    assert not isinstance(experiments.get("line-drift"), Shrinkable)
-    sums = experiments.get("inverse-slopes")
-    with pytest.raises(ValueError, match="what is right belongs to a triangle whose upper side is level"):
-        shrink_cell(sums, sums.info.methods[0], (64.0, 0.5))
 
 
 def test_runs_are_bounded_and_can_be_cancelled() -> None:
@@ -115,15 +108,43 @@ def test_candidates_that_are_no_scene_are_passed_over() -> None:
         return inner.judge(scene, settings)
 
     scene, settings = inner.case("coverage=snapped", (2.0**-12, 2.0**-14), 0)
-    found, verdict, _ = shrink(ClipScene(2 * scene.clip, size=scene.size), settings, judge)
+    search = Search(TRIANGLES, settings, judge, 3000, None)
+    found, verdict = search.smallest(ClipScene(2 * scene.clip, size=scene.size))
     assert verdict.outcome == Outcome.HOLE
-    assert not (found.clip[..., 3] == 1).any()
+    assert not (found.vertices[:, 3] == 1).any()
 
 
 def test_numbers_get_simpler_from_the_simplest_on() -> None:
     assert list(simpler_numbers(0.4375, 0.0, digit_count(0.4375))) == [0.0, 0.4, 0.44, 0.438]
     assert list(simpler_numbers(0.0, 0.0, 0)) == []
     assert list(simpler_numbers(2.0, 1.0, 1)) == [1.0]
+
+
+def test_coordinates_get_simpler_in_the_middle_of_a_pixel_too() -> None:
+    found = list(simpler_coordinates(8192.5))
+    assert found[:3] == [0.0, 0.5, 1.0]
+    assert 8000.5 in found
+    assert 8192.0 in found
+    assert all(abs(candidate) < 1e4 for candidate in found)
+    # Of as many digits, what has more noughts is simpler; of as many noughts nothing is.
+    assert list(simpler_coordinates(10.0)) == [0.0, 1.0]
+
+
+def test_a_segment_is_the_first_edge_of_a_triangle_that_is_seen() -> None:
+    ends = np.array([[2.5, 3.5], [9.5, 5.5]])
+    scene = SEGMENTS.put_together(Segment(ends, (16, 8)))
+    assert np.array_equal(first_edge(scene), ends)
+    assert SEGMENTS.take_apart(scene).size == (16, 8)
+    # The third corner lies in the picture, and beside the segment, wherever that is.
+    for ends in ([[0.0, 1.0], [16.0, 1.0]], [[4.0, 0.0], [4.0, 8.0]], [[-2.0, -0.5], [6.0, 1.5]]):
+        (third,) = SEGMENTS.put_together(Segment(np.array(ends), (16, 8))).clip[:, 2, :2]
+        assert (np.abs(third) < 1).all()
+        first, second = 2 * np.array(ends) / (16, 8) - 1
+        assert np.cross([*(second - first), 0], [*(third - first), 0])[2] != 0
+    with pytest.raises(ValueError, match="exact in clip space"):
+        SEGMENTS.put_together(Segment(np.array([[0.1, 1.0], [0.3, 2.0]]), (1, 1)))
+    with pytest.raises(ValueError, match="as a triangle in clip space, got a scene of meshes"):
+        SEGMENTS.take_apart(experiments.get("lost-highlight").case("shading=flat", (4.0, 4.0), 0)[0])
 
 
 def test_the_names_of_a_test_are_those_of_core() -> None:

@@ -8,10 +8,12 @@ from core.study.stability import Outcome, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.fragments.blending_order import LayersCase, layered_glass
 from core.study.stability.fragments.nearest import NearestCase
-from core.study.stability.fragments.shrinkable_cases import ShrinkableCases, in_clip_space
+from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.fragments.thin_triangles import ThinCase, needle
-from core.study.stability.shrink import Shrinkable, shrink_cell, why_not_shrinkable
+from core.study.stability.shrink import shrink_cell
+from core.study.stability.smaller.triangles import in_clip_space
 from core.study.workloads import flat_scene
+from tests.stability.shrunk_tests import run_test
 
 CASES = [
     ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), 1, "interpolation", "perspective"),
@@ -27,7 +29,6 @@ CASES = [
     ("thin-triangles", "antialiasing=msaa-4", (2.0**-6, 0.0), 1, "antialiasing", "area"),
 ]
 """Experiment, method, place, the most triangles that are left, and what makes it right: a family and its method."""
-BOUND = ("lost-highlight", "opposite-normals", "minification", "shading-aliasing")
 
 
 @pytest.mark.parametrize(("name", "method", "place", "most", "family", "right"), CASES)
@@ -53,27 +54,8 @@ def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_t
     )
 
 
-def run_test(text: str) -> None:
-    names: dict[str, object] = {}
-    exec(compile(text, "a shrunk test", "exec"), names)
-    (test,) = [value for name, value in names.items() if name.startswith("test_")]
-    test()
-
-
-def test_every_experiment_can_be_shrunk_or_says_what_its_truth_belongs_to() -> None:
-    for experiment in FRAGMENT_EXPERIMENTS:
-        name = experiment.info.name
-        assert isinstance(experiment, Shrinkable) == (name not in BOUND), name
-        if name in BOUND:
-            with pytest.raises(
-                ValueError, match=f"cells of {name} cannot be made smaller: what is right belongs"
-            ):
-                shrink_cell(name, experiment.info.methods[0], (0.0, 0.0))
-            assert experiment.bound_to in why_not_shrinkable(experiment)
-
-
-@pytest.mark.parametrize("experiment", [e for e in FRAGMENT_EXPERIMENTS if isinstance(e, ShrinkableCases)])
-def test_the_truth_in_clip_space_is_that_of_the_cell(experiment: ShrinkableCases) -> None:
+@pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.info.name)
+def test_the_truth_of_any_such_scene_is_that_of_the_cell(experiment: ShrinkableCases) -> None:
     place = tuple(axis.values[len(axis.values) // 2] for axis in experiment.info.axes)
     for method in experiment.info.methods:
         cell = experiment.run(method, place, 0)
@@ -104,6 +86,14 @@ def test_layers_that_are_as_deep_have_no_right_colour() -> None:
     clip[..., 2] = 0.0
     level = ClipScene(clip, glass.attributes, glass.size, background=glass.background)
     assert np.isnan(LayersCase(level).wanted(False)).all()
+
+
+def test_layers_have_one_colour() -> None:
+    glass = layered_glass((0, 1), 0.5)
+    colors = glass.attributes.copy()
+    colors[0, 1, 0] = 0.5
+    with pytest.raises(ValueError, match="every triangle must have one colour"):
+        LayersCase(ClipScene(glass.clip, colors, glass.size))
 
 
 def test_triangles_that_no_truth_is_known_for_are_refused() -> None:

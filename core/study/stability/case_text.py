@@ -1,11 +1,26 @@
 """A failing case as a Python test: triangles, settings and what is right."""
 
+import re
 from textwrap import wrap
 
 from core.arrays import Floats, Integers
 from core.settings import Settings
 
 LINE_LENGTH = 100
+NAMES = (
+    "Camera",
+    "ClipScene",
+    "DirectionalLight",
+    "Material",
+    "Mesh",
+    "Scene",
+    "Settings",
+    "Texture",
+    "clip_lines",
+    "draw_lines",
+    "render",
+)
+"""Names of ``core`` that a test may call."""
 
 
 def case_text(title: str, sentence: str, body: str) -> str:
@@ -20,7 +35,7 @@ def case_text(title: str, sentence: str, body: str) -> str:
     body : str
         Its statements; they may use ``np`` and the names of ``core``.
     """
-    names = [name for name in ("ClipScene", "Settings", "clip_lines", "render") if f"{name}(" in body]
+    names = [name for name in NAMES if re.search(rf"\b{name}\(", body)]
     imports = ["import numpy as np", ""] if "np." in body else []
     name = "".join(character if character.isalnum() else "_" for character in title)
     remarks = [f"    # {line}" for line in wrap(sentence, LINE_LENGTH)]

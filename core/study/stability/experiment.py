@@ -2,10 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
+from core.scene import AnyScene
+from core.settings import Settings
 from core.study.record import Opening
 from core.study.stability.record import ExperimentInfo, Outcome
+from core.study.stability.smaller.kind import Kind
 
 
 @dataclass(frozen=True)
@@ -20,7 +23,7 @@ class Verdict:
 
 
 class Experiment(Protocol):
-    """What is varied and what should hold."""
+    """What is varied and what should hold; any case of it can be run by itself, so that it can be made smaller."""
 
     @property
     def info(self) -> ExperimentInfo:
@@ -31,6 +34,26 @@ class Experiment(Protocol):
 
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
         """Return what opens in the stepper to look at that very run; ``None``: the stepper has no such stage."""
+
+    @property
+    def stage(self) -> str:
+        """Where the stepper opens, a name of ``core.frame.STAGES``."""
+
+    @property
+    def kind(self) -> Kind[Any]:
+        """What its cases are made of, and how they get smaller."""
+
+    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[AnyScene, Settings]:
+        """Return the scene of one cell, and how the method draws it."""
+
+    def judge(self, scene: Any, settings: Settings) -> Verdict:
+        """Run any scene of that kind: what is right follows from the scene; ValueError where nobody knows."""
+
+    def test_body(self, scene: Any, settings: Settings) -> str:
+        """Return the statements of a test that holds once the method is right for the scene."""
+
+    def wrong_pixel(self, scene: Any, settings: Settings) -> tuple[int, int] | None:
+        """Return the first pixel that is wrong, if it is about pixels."""
 
 
 class ExperimentTable:

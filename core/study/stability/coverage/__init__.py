@@ -3,7 +3,9 @@
 from core.study.stability.coverage import (
     clipping,
     drift,
+    inverse_slopes,
     line_clippers,
+    line_drift,
     meshes,
     number_formats,
     precision_dial,
@@ -15,6 +17,8 @@ COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (
     *number_formats.EXPERIMENTS,
     *meshes.EXPERIMENTS,
     *drift.EXPERIMENTS,
+    *line_drift.EXPERIMENTS,
+    *inverse_slopes.EXPERIMENTS,
     *clipping.EXPERIMENTS,
     *line_clippers.EXPERIMENTS,
 )

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from core.study.record import Opening
 from core.study.stability.case_text import clip_text, cover_text, settings_text
 from core.study.stability.experiment import Verdict
 from core.study.stability.record import ExperimentInfo, Outcome
+from core.study.stability.smaller.kind import Kind
+from core.study.stability.smaller.triangles import TRIANGLES, Triangles
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""
@@ -58,6 +61,8 @@ class CoverageExperiment:
     wanted: Wanted = as_given
     base: Settings = EVERY_PIXEL
     """What the methods share."""
+    stage: ClassVar[str] = "raster"
+    kind: ClassVar[Kind[Triangles]] = TRIANGLES
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Draw the triangles of one place with one method."""
@@ -68,7 +73,7 @@ class CoverageExperiment:
         """Return the triangles, at the first pixel that goes wrong."""
         scene, settings = _scene(self, place, seed), settings_of(self.base, method)
         pixel = first_wrong_pixel(scene, settings, self.wanted(scene, settings))
-        return Opening(scene, settings, "raster", pixel)
+        return Opening(scene, settings, self.stage, pixel)
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the triangles of one place, and how one method draws them."""

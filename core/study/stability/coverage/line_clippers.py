@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import ClassVar
 
 import numpy as np
 
 from core.arrays import Floats
 from core.geometry.line_clipping import clip_lines
-from core.raster.snapping import window_position
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.segments import Ends, clipped_ends
@@ -16,6 +16,9 @@ from core.study.family import settings_of
 from core.study.record import Opening
 from core.study.stability.experiment import Verdict
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.smaller import segments
+from core.study.stability.smaller.kind import Kind
+from core.study.stability.smaller.segments import SEGMENTS, Segment, first_edge
 from core.study.workloads import on_lattice, outline_scene
 
 SIDE = 64
@@ -43,6 +46,8 @@ class LineClipExperiment:
     info: ExperimentInfo
     segment: Callable[[tuple[float, ...]], Floats]
     """The segment (2, 2) in pixels at a place of the axes."""
+    stage: ClassVar[str] = "raster"
+    kind: ClassVar[Kind[Segment]] = SEGMENTS
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Clip the segment of one place."""
@@ -53,11 +58,14 @@ class LineClipExperiment:
         segment = self.segment(place)
         if (segment[0] == segment[1]).all():
             return None
-        return Opening(outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), "raster")
+        return Opening(
+            outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), self.stage
+        )
 
     def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
         """Return the segment of one place as an edge of a triangle, and the clipper's settings."""
-        return outline_scene(self.segment(place), (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method)
+        scene = segments.put_together(Segment(self.segment(place), (SIDE, SIDE)))
+        return scene, settings_of(WIREFRAME, method)
 
     def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
         """Clip the first edge of a triangle to the raster."""
@@ -81,14 +89,6 @@ class LineClipExperiment:
     def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
         """Return no pixel: it is about the ends of a segment."""
         return None
-
-
-def first_edge(scene: ClipScene) -> Floats:
-    """Return the first edge (2, 2) of the first triangle in pixels; ValueError where it lies behind the eye."""
-    ends = window_position(scene.clip[0, :2], scene.size)
-    if not np.isfinite(ends).all():
-        raise ValueError("the first edge must lie in front of the eye")
-    return ends
 
 
 def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:

@@ -18,12 +18,13 @@ from core.study.exact.values import exact_values
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Judgement
 from core.study.stability.fragments.shrinkable_cases import (
-    AnyTriangles,
+    AnyCase,
     ShrinkableCases,
     check_in_view_volume,
     pixels_text,
 )
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.smaller.triangles import VALUED_TRIANGLES
 
 ROWS = 4
 """Rows of the picture: all of them are alike."""
@@ -31,7 +32,7 @@ HALF_TEXEL = 1 / 512
 """Half a texel of a texture of 256: a coordinate that strays less takes the same texel, about."""
 
 
-class StripCase(AnyTriangles):
+class StripCase(AnyCase):
     """Triangles that lead away, u their first value; right is u with perspective, by fractions.
 
     Raises
@@ -39,6 +40,8 @@ class StripCase(AnyTriangles):
     ValueError
         If a triangle is cut by a plane of depth: its pieces have other ratios of w.
     """
+
+    scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
         check_in_view_volume(scene)
@@ -130,4 +133,5 @@ AFFINE = ShrinkableCases(
     make_strip,
     "interpolate",
     case_of=StripCase,
+    kind=VALUED_TRIANGLES,
 )

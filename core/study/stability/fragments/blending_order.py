@@ -15,8 +15,9 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_fragments
 from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
-from core.study.stability.fragments.shrinkable_cases import AnyTriangles, ShrinkableCases, pixels_text
+from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
 from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.smaller.triangles import VALUED_TRIANGLES
 from core.study.workloads import COLORS
 
 SIDE = 4
@@ -31,10 +32,21 @@ ORDERS = {
 """Every order of two and of three layers; 0 is the farthest layer, and the first order is from back to front."""
 
 
-class LayersCase(AnyTriangles):
-    """Triangles of one colour each; right is the colour from back to front, whatever the order of drawing."""
+class LayersCase(AnyCase):
+    """Triangles of one colour each; right is the colour from back to front, whatever the order of drawing.
+
+    Raises
+    ------
+    ValueError
+        If a triangle has several colours.
+    """
+
+    scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
+        assert scene.attributes is not None
+        if (scene.attributes != scene.attributes[:, :1]).any():
+            raise ValueError("every triangle must have one colour, got several")
         self.scene = scene
         self._fragments = exact_fragments(scene.clip, scene.size)
 
@@ -124,4 +136,5 @@ BLENDING = ShrinkableCases(
     make_layers,
     "blend",
     case_of=LayersCase,
+    kind=VALUED_TRIANGLES,
 )

@@ -54,8 +54,6 @@ class CaseExperiment:
     """Where the stepper opens."""
     base: Settings = field(default_factory=Settings)
     """What the methods share."""
-    bound_to: str = field(default="", kw_only=True)
-    """What its truth belongs to, of which nothing can be left out; ``""``: it is found for any triangles."""
 
     def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
         """Draw the scene of one place with one method, and judge it."""

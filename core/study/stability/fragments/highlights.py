@@ -9,57 +9,118 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.scene import Material
+from core.arrays import Flags, Floats
+from core.pipeline import render
+from core.scene import Material, Scene
 from core.settings import Settings
 from core.study.exact.sphere import sphere_picture
 from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Case, CaseExperiment, Judgement, drawn_colors
+from core.study.stability.fragments.cases import Judgement
+from core.study.stability.fragments.lit_cases import faces_the_eye, mesh_and_normals
+from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.smaller.meshes import LIT_MESHES
 from core.study.workloads import random_source, sphere_scene
 
 SIDE = 96
 """Pixels on a side of the picture."""
-SPECULAR = 0.5
 TOLERANCE = 0.1
 """The part of the highlight that may be missing."""
+SLACK = 1 / 16
+"""How far a corner may lie off the sphere: its normal is still that of the sphere in its direction."""
 
 
-class HighlightCase(Case):
-    """A sphere of triangles; right is as bright a highlight as the sphere itself has, at its place."""
+class HighlightCase(AnyCase):
+    """Triangles with corners on a sphere; right is as bright a highlight as the sphere itself has where they are seen.
 
-    def __init__(self, rings: int, shininess: float, seed: int) -> None:
-        scene = sphere_scene(rings, SIDE)
-        material = Material(ambient=0.12, diffuse=0.4, specular=SPECULAR, shininess=shininess)
-        matte = replace(material, specular=0.0)
-        # The eye is moved a little, so that no vertex is at the highlight by design.
-        shift = random_source(seed).uniform(-0.1, 0.1, 3)
-        camera = replace(scene.camera, eye=scene.camera.eye + shift)
-        mesh = scene.meshes[0]
-        self.scene = replace(scene, camera=camera, meshes=(replace(mesh, material=material),))
-        seen, lit = sphere_picture(self.scene, 1.0)
-        _, diffuse = sphere_picture(replace(self.scene, meshes=(replace(mesh, material=matte),)), 1.0)
+    Raises
+    ------
+    ValueError
+        If the mesh is no part of the sphere of radius 1 around the origin.
+    """
+
+    scene: Scene
+
+    def __init__(self, scene: Scene) -> None:
+        mesh, normals = mesh_and_normals(scene)
+        away = np.abs(np.linalg.norm(mesh.positions, axis=1) - 1)
+        if not np.array_equal(mesh.positions, normals) or away.max() > SLACK:
+            raise ValueError(
+                f"the corners must lie on the sphere of radius 1, got one {away.max():.3g} off it"
+            )
+        if mesh.material.specular == 0:
+            raise ValueError("the sphere must shine, got one without a highlight")
+        self.scene = scene
+        self._specular = mesh.material.specular
+        self._is_front = faces_the_eye(scene)
+        matte = replace(mesh, material=replace(mesh.material, specular=0.0))
+        seen, lit = sphere_picture(scene, 1.0)
+        _, diffuse = sphere_picture(replace(scene, meshes=(matte,)), 1.0)
         # All is white: one channel tells.
         self._wanted = lit[..., 0]
         highlight = self._wanted - diffuse[..., 0]
-        self._where = seen & (highlight > highlight[seen].max() / 2)
+        self._where = seen & (highlight > highlight[seen].max(initial=0.0) / 2)
+
+    def _shown_and_where(self, settings: Settings) -> tuple[Floats, Flags]:
+        """Return what is drawn, (H, W) float64, and where it should be bright, (H, W) bool."""
+        frame = render(self.scene, settings)
+        is_front = (frame.primitive >= 0) & self._is_front[np.maximum(frame.primitive, 0)]
+        where = np.asarray(self._where & is_front)
+        if not where.any():
+            raise ValueError("the highlight must be seen on a triangle, got triangles beside it")
+        return frame.color[..., 0].astype(np.float64), where
 
     def judge(self, settings: Settings) -> Judgement:
         """Return which part of the highlight is missing at its brightest pixel."""
-        shown = drawn_colors(self.scene, settings)[..., 0]
-        missing = max(float(self._wanted[self._where].max() - shown[self._where].max()) / SPECULAR, 0.0)
-        remark = f"{100 * missing:.3g} % of the highlight is missing, over {int(self._where.sum())} pixels"
+        shown, where = self._shown_and_where(settings)
+        missing = max(float(self._wanted[where].max() - shown[where].max()) / self._specular, 0.0)
+        remark = f"{100 * missing:.3g} % of the highlight is missing, over {int(where.sum())} pixels"
         if missing <= TOLERANCE:
-            return Judgement(Verdict(Outcome.RIGHT, missing, remark), np.zeros(self._where.shape, bool))
-        dark = self._where & (self._wanted - shown > TOLERANCE * SPECULAR)
+            return Judgement(Verdict(Outcome.RIGHT, missing, remark), np.zeros(where.shape, bool))
+        dark = where & (self._wanted - shown > TOLERANCE * self._specular)
         return Judgement(Verdict(Outcome.WRONG_PICTURE, missing, remark), dark)
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that a pixel on the highlight, ``wrong`` (H, W) or not, is as bright as the sphere."""
+        del wrong
+        _, where = self._shown_and_where(settings)
+        least = float(self._wanted[where].max()) - TOLERANCE * self._specular
+        rows, columns = np.nonzero(where)
+        pixels = list(zip(columns.tolist(), rows.tolist(), strict=True))
+        return (
+            f"pixels = {pixels}\nassert max(frame.color[row, column, 0] for column, row in pixels) >= {least}"
+        )
+
+
+def highlight_case(scene: Scene) -> HighlightCase:
+    """Return what is right for part of a sphere, of which so much has to be left that light per pixel keeps it.
+
+    Raises
+    ------
+    ValueError
+        If Phong loses the highlight too: then the triangles are too coarse for the sphere where they are looked at.
+    """
+    case = HighlightCase(scene)
+    if case.judge(Settings(shading="phong")).verdict.outcome != Outcome.RIGHT:
+        raise ValueError("the triangles must be fine enough for light per pixel, got coarser ones")
+    return case
+
+
+def shining_sphere(rings: int, shininess: float, seed: int) -> Scene:
+    """Return a white sphere, shining; the eye is moved a little, so that no vertex is at the highlight by design."""
+    scene = sphere_scene(rings, SIDE)
+    material = Material(ambient=0.12, diffuse=0.4, specular=0.5, shininess=shininess)
+    shift = random_source(seed).uniform(-0.1, 0.1, 3)
+    camera = replace(scene.camera, eye=scene.camera.eye + shift)
+    return replace(scene, camera=camera, meshes=(replace(scene.meshes[0], material=material),))
 
 
 def make_highlight(place: tuple[float, ...], seed: int) -> HighlightCase:
     """Make the sphere; the seed moves the eye a little."""
-    return HighlightCase(int(place[0]), place[1], seed)
+    return HighlightCase(shining_sphere(int(place[0]), place[1], seed))
 
 
-HIGHLIGHT = CaseExperiment(
+HIGHLIGHT = ShrinkableCases(
     ExperimentInfo(
         "lost-highlight",
         "Gouraud's lost highlight",
@@ -76,5 +137,6 @@ HIGHLIGHT = CaseExperiment(
     ),
     make_highlight,
     "shade",
-    bound_to="the sphere that the triangles stand for, and its highlight",
+    case_of=highlight_case,
+    kind=LIT_MESHES,
 )

@@ -11,11 +11,13 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_fragments, exact_visible
 from core.study.stability.fragments.cases import Judgement, judge_order
-from core.study.stability.fragments.shrinkable_cases import AnyTriangles, pixels_text
+from core.study.stability.fragments.shrinkable_cases import AnyCase, pixels_text
 
 
-class NearestCase(AnyTriangles):
+class NearestCase(AnyCase):
     """Triangles given in clip space; right is the nearest one at every pixel. Of two as near, either is right."""
+
+    scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
         self.scene = scene

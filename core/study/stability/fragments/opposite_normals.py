@@ -8,18 +8,18 @@ K. Shoemake, *Animating rotation with quaternion curves*, 1985 (turning evenly a
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Flags, Floats, Integers
 from core.fragments.lighting import light_surface
+from core.pipeline import render
 from core.scene import Camera, DirectionalLight, Material, Mesh, Scene
 from core.settings import Settings
-from core.study.stability.fragments.cases import (
-    Case,
-    CaseExperiment,
-    Judgement,
-    drawn_colors,
-    judge_colors,
-)
+from core.study.exact.values import exact_values
+from core.study.stability.fragments.cases import Judgement, judge_colors
+from core.study.stability.fragments.lit_cases import clip_corners, faces_the_eye, mesh_and_normals
+from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
 from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.smaller.meshes import LIT_MESHES
+from core.surface import viewpoint
 
 SIZE = (65, 3)
 """An odd number of columns: the centre of the middle one is where opposite normals interpolate to 0."""
@@ -29,43 +29,80 @@ TOLERANCE = 8.0
 LIGHT = DirectionalLight(np.array([0.3, -0.2, -1.0]))
 
 
-class NormalsCase(Case):
-    """A flat strip that is lit like half a tube: its normals turn evenly from left to right, by an angle in all."""
+class NormalsCase(AnyCase):
+    """Triangles whose normals are turned about the upright; right is light on normals that turn evenly between them.
 
-    def __init__(self, angle: float, parts: int) -> None:
-        width, height = SIZE
-        aspect = width / height
-        x = np.linspace(-aspect, aspect, parts + 1)
-        positions = np.array([[at, y, 0.0] for at in x for y in (-1.0, 1.0)])
-        normals = np.repeat(turned_normals(np.linspace(0, 1, parts + 1), angle), 2, axis=0)
-        first = 2 * np.arange(parts)
-        triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(
-            -1, 3
+    Raises
+    ------
+    ValueError
+        If a normal is not level, or leads away from the eye, or a triangle is seen from behind.
+    """
+
+    scene: Scene
+
+    def __init__(self, scene: Scene) -> None:
+        self._mesh, normals = mesh_and_normals(scene)
+        if normals[:, 1].any() or (normals[:, 2] < 0).any() or not normals.any(axis=1).all():
+            raise ValueError("every normal must be turned from the front about the upright, got another one")
+        if scene.camera.projection != "orthographic" or not faces_the_eye(scene).all():
+            raise ValueError("every triangle must be seen from the front, by parallel rays, got another one")
+        self.scene = scene
+        self._turn = np.arctan2(normals[:, 0], normals[:, 2])
+
+    def _shown_and_wanted(self, settings: Settings) -> tuple[Floats, Floats]:
+        """Return the colours as drawn and as they should be, (H, W, 3) each; the same where nothing is drawn."""
+        frame = render(self.scene, settings)
+        shown = frame.color[..., :3].astype(np.float64)
+        wanted = shown.copy()
+        for triangle in np.unique(frame.primitive[frame.primitive >= 0]).tolist():
+            row, column = np.nonzero(frame.primitive == triangle)
+            wanted[row, column] = self._evenly_lit(triangle, column, row)
+        return shown, wanted
+
+    def _evenly_lit(self, triangle: int, column: Integers, row: Integers) -> Floats:
+        """Return the colours (F, 3) of pixels (F,) of a triangle, if its normals turn evenly."""
+        vertices = self._mesh.triangles[triangle]
+        given = np.column_stack([self._turn[vertices], self._mesh.positions[vertices]])
+        values = exact_values(clip_corners(self.scene)[triangle], given, self.scene.size, column, row)
+        turn, position = values[:, 0], values[:, 1:]
+        normal = np.stack([np.sin(turn), np.zeros(len(turn)), np.cos(turn)], axis=1)
+        seen_from = viewpoint(self.scene.camera, position)
+        diffuse, specular = light_surface(
+            position, normal, seen_from, self.scene.lights, self._mesh.material, False
         )
-        mesh = Mesh(positions, triangles, normals, material=MATERIAL, name="half a tube, flattened")
-        camera = Camera(
-            np.array([0.0, 0.0, 1.0]),
-            np.zeros(3),
-            projection="orthographic",
-            view_height=2.0,
-            near=0.5,
-            far=2.0,
-        )
-        self.scene = Scene((mesh,), camera, (LIGHT,), SIZE)
-        self.wanted = evenly_lit(angle)
+        return diffuse + specular
 
     def judge(self, settings: Settings) -> Judgement:
         """Compare the colours with those of normals that turn evenly."""
-        return judge_colors(drawn_colors(self.scene, settings)[..., :3], self.wanted, TOLERANCE)
+        return judge_colors(*self._shown_and_wanted(settings), TOLERANCE)
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that ``wrong`` pixels, (H, W) bool, are lit as by normals that turn evenly."""
+        _, wanted = self._shown_and_wanted(settings)
+        return pixels_text(
+            wrong, wanted, f"255 * np.abs(frame.color[row, column, :3] - wanted).max() <= {TOLERANCE}"
+        )
 
 
-def evenly_lit(angle: float) -> Floats:
-    """Return the colours (H, W, 3) of normals that turn evenly by ``angle`` degrees from left to right."""
+def flattened_tube(angle: float, parts: int) -> Scene:
+    """Return a flat strip that is lit like half a tube: its normals turn evenly, by ``angle`` degrees in all."""
     width, height = SIZE
-    normal = turned_normals((np.arange(width) + 0.5) / width, angle)
-    # The light comes from infinitely far away, and nothing is mirrored: the place does not matter.
-    diffuse, _ = light_surface(np.zeros((width, 3)), normal, np.ones(3), (LIGHT,), MATERIAL, False)
-    return np.broadcast_to(diffuse, (height, width, 3))
+    aspect = width / height
+    x = np.linspace(-aspect, aspect, parts + 1)
+    positions = np.array([[at, y, 0.0] for at in x for y in (-1.0, 1.0)])
+    normals = np.repeat(turned_normals(np.linspace(0, 1, parts + 1), angle), 2, axis=0)
+    first = 2 * np.arange(parts)
+    triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
+    mesh = Mesh(positions, triangles, normals, material=MATERIAL, name="half a tube, flattened")
+    camera = Camera(
+        np.array([0.0, 0.0, 1.0]),
+        np.zeros(3),
+        projection="orthographic",
+        view_height=2.0,
+        near=0.5,
+        far=2.0,
+    )
+    return Scene((mesh,), camera, (LIGHT,), SIZE)
 
 
 def turned_normals(part: Floats, angle: float) -> Floats:
@@ -80,10 +117,10 @@ def turned_normals(part: Floats, angle: float) -> Floats:
 def make_normals(place: tuple[float, ...], seed: int) -> NormalsCase:
     """Make the strip; nothing in it is random."""
     del seed
-    return NormalsCase(place[0], int(place[1]))
+    return NormalsCase(flattened_tube(place[0], int(place[1])))
 
 
-NORMALS = CaseExperiment(
+NORMALS = ShrinkableCases(
     ExperimentInfo(
         "opposite-normals",
         "Normals that interpolate to zero",
@@ -100,5 +137,6 @@ NORMALS = CaseExperiment(
     ),
     make_normals,
     "shade",
-    bound_to="the whole strip, along which normals should turn evenly",
+    case_of=NormalsCase,
+    kind=LIT_MESHES,
 )

@@ -1,30 +1,30 @@
-"""Experiments on what covered pixels show whose truth can be worked out for any triangles in clip space.
+"""Experiments on what covered pixels show: what is right is worked out anew for whatever is left of a scene.
 
-Such cells can be made smaller (`core.study.stability.shrink`): what is right is found anew for what is left.
+So all of their cells can be made smaller (`core.study.stability.shrink`).
 """
 
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.geometry.vertex_stage import transform_vertices
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.study.family import settings_of
 from core.study.frame_task import first_pixel
-from core.study.stability.case_text import clip_text, settings_text
+from core.study.stability.case_text import settings_text
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Case, CaseExperiment
-from core.study.workloads import flat_scene
+from core.study.stability.scene_text import scene_text
+from core.study.stability.smaller.kind import Kind
+from core.study.stability.smaller.triangles import TRIANGLES
 
 
-class AnyTriangles(Case):
-    """Any triangles in clip space, and what is right for them."""
-
-    scene: ClipScene
+class AnyCase(Case):
+    """Any scene of one kind, and what is right for it."""
 
     @abstractmethod
     def assertions(self, settings: Settings, wrong: Flags) -> str:
@@ -35,34 +35,28 @@ class AnyTriangles(Case):
 class ShrinkableCases(CaseExperiment):
     """Scenes that every method draws, of which triangles, pixels and digits can be left out."""
 
-    case_of: Callable[[ClipScene], AnyTriangles] = field(kw_only=True)
-    """What is right for any triangles; a ``ValueError`` where that is not known."""
+    case_of: Callable[[Any], AnyCase] = field(kw_only=True)
+    """What is right for any scene of the kind; a ``ValueError`` where that is not known."""
+    kind: Kind[Any] = field(default=TRIANGLES, kw_only=True)
+    """What the scenes are made of."""
 
-    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
-        """Return the triangles of one place in clip space, and how one method draws them."""
-        return in_clip_space(self.make(place, seed).scene), settings_of(self.base, method)
+    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[AnyScene, Settings]:
+        """Return what is made smaller of the scene of one place, and how one method draws it."""
+        return self.kind.as_case(self.make(place, seed).scene), settings_of(self.base, method)
 
-    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
-        """Draw any triangles, and compare with what is right for them."""
+    def judge(self, scene: AnyScene, settings: Settings) -> Verdict:
+        """Draw any such scene, and compare with what is right for it."""
         return self.case_of(scene).judge(settings).verdict
 
-    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+    def test_body(self, scene: AnyScene, settings: Settings) -> str:
         """Return the statements of a test: what the wrong pixels should show."""
         case = self.case_of(scene)
         assertions = case.assertions(settings, case.judge(settings).wrong)
         return f"{scene_text(scene)}\nframe = render(scene, {settings_text(settings)})\n{assertions}"
 
-    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
+    def wrong_pixel(self, scene: AnyScene, settings: Settings) -> tuple[int, int] | None:
         """Return the first pixel that is wrong."""
         return first_pixel(self.case_of(scene).judge(settings).wrong)
-
-
-def in_clip_space(scene: AnyScene) -> ClipScene:
-    """Return the triangles of a scene after projection; one that is in clip space stays as it is."""
-    if isinstance(scene, ClipScene):
-        return scene
-    vertices = transform_vertices(scene)
-    return flat_scene(vertices.clip[vertices.corners], scene.size)
 
 
 def check_in_view_volume(scene: ClipScene) -> None:
@@ -81,17 +75,6 @@ def check_in_view_volume(scene: ClipScene) -> None:
         )
 
 
-def scene_text(scene: ClipScene) -> str:
-    """Return statements that make ``scene``, with all that matters to a picture without a texture."""
-    background = f", background=np.array({scene.background.tolist()})" if scene.background.any() else ""
-    assert scene.attributes is not None
-    return (
-        f"clip = {clip_text(scene.clip)}\n"
-        f"values = {clip_text(scene.attributes)}\n"
-        f"scene = ClipScene(np.array(clip, float), np.array(values, float), {scene.size}{background})"
-    )
-
-
 def pixels_text(wrong: Flags, wanted: Floats | Integers, check: str) -> str:
     """Return statements that check every wrong pixel against what it should show.
 
@@ -103,10 +86,15 @@ def pixels_text(wrong: Flags, wanted: Floats | Integers, check: str) -> str:
     check : str
         What holds of ``column``, ``row`` and ``wanted``.
     """
-    rows, columns = np.nonzero(wrong)
+    return f"{listed_pixels(wrong, wanted)}\nfor column, row, wanted in pixels:\n    assert {check}"
+
+
+def listed_pixels(which: Flags, wanted: Floats | Integers) -> str:
+    """Return a statement that lists pixels, ``which`` (H, W) bool, with what is ``wanted``, (H, W) or (H, W, C)."""
+    rows, columns = np.nonzero(which)
     values = [
         f"    ({column}, {row}, {wanted[row, column].tolist()}),"
         for column, row in zip(columns.tolist(), rows.tolist(), strict=True)
     ]
     listed = "\n".join(values)
-    return f"pixels = [\n{listed}\n]\nfor column, row, wanted in pixels:\n    assert {check}"
+    return f"pixels = [\n{listed}\n]"

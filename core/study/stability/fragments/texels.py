@@ -1,23 +1,21 @@
 """What is lost where a pixel sees many texels: by texture filters, and by samples that share one shading.
 
 A pixel should show the mean of the texels in its footprint. The texture is mapped without perspective, so footprints
-are parallelograms, and their means are exact (``core.fragments.footprint_mean``).
+are parallelograms, and their means are exact (``core.fragments.footprint_mean``). They follow from the corners alone:
+so any such triangles can be judged, and made smaller.
 """
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Flags, Floats
 from core.fragments.footprint_mean import footprint_means
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.stability.fragments.cases import (
-    Case,
-    CaseExperiment,
-    Judgement,
-    drawn_colors,
-    judge_colors,
-)
+from core.study.exact.values import exact_values
+from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
+from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, listed_pixels
 from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.smaller.textures import TEXTURED_TRIANGLES
 from core.study.workloads import checkerboard, random_source
 
 SIDE = 24
@@ -29,48 +27,106 @@ TURN = np.radians(17.0)
 TOLERANCE = 16.0
 """Mean colour error, in 1/255, that is taken as right."""
 DENSITIES = Axis("density", "Texels for a pixel", "", (1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32), True)
-BOUND_TO = "the mean over all pixels of the textured square, and single pixels of it may be off"
-"""Why nothing of it can be left out."""
+ROUNDING = 1e-6
+"""By how much sums of areas, and places on the texture, may differ and be the same."""
+CORNER_PIXELS = np.array([0, 1, 0]), np.array([0, 0, 1])
+"""Columns and rows of the window's corner, of a place a pixel to the right and of one a pixel up."""
 ANGLES = Axis("angle", "Angle of the surface", "degrees", (0, 15, 30, 45, 60, 70, 80, 85))
 
 
-class TextureCase(Case):
-    """A square that fills the picture; the texture is ``density`` texels a pixel, and leans back by an angle."""
+class TextureCase(AnyCase):
+    """Triangles on which the texture lies without perspective; right are the means of the footprints.
 
-    def __init__(self, density: float, angle: float, seed: int) -> None:
-        texture = checkerboard(TEXELS, seed)
-        start = random_source(seed).uniform(0, TEXELS, 2)
-        cosine, sine = np.cos(TURN), np.sin(TURN)
-        lean = 1 / np.cos(np.radians(angle))
-        self._right = density * np.array([cosine, sine])
-        self._up = density * lean * np.array([-sine, cosine])
-        corners = start + SIDE * (
-            np.array([[0.0], [1], [1], [0]]) * self._right + np.array([[0.0], [0], [1], [1]]) * self._up
-        )
-        place = np.array([[-1.0, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]])
-        index = np.array([[0, 1, 2], [0, 2, 3]])
-        self.scene = ClipScene(place[index], (corners / TEXELS)[index], (SIDE, SIDE), texture, shared=index)
-        row, column = np.mgrid[0:SIDE, 0:SIDE]
-        pixels = np.stack([column.ravel(), row.ravel()], axis=1)
-        self.wanted = footprint_means(texture, self._footprints(start, pixels)).reshape(SIDE, SIDE, 3)
+    Pixels count that are covered as a whole, by as many triangles as it takes.
 
-    def _footprints(self, start: Floats, pixels: Floats) -> Floats:
-        """Return the corners (F, 4, 2), in texels, of pixels with lower left corners (F, 2)."""
-        squares = pixels[:, None] + np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
-        return np.asarray(start + squares[..., :1] * self._right + squares[..., 1:] * self._up)
+    Raises
+    ------
+    ValueError
+        If it lies with perspective, or otherwise on one triangle than on another.
+    """
+
+    scene: ClipScene
+
+    def __init__(self, scene: ClipScene) -> None:
+        self.scene = scene
+        assert scene.texture is not None
+        width, height = scene.size
+        start, right, up = _laid_out(scene)
+        row, column = np.mgrid[0:height, 0:width]
+        lower_left = np.stack([column.ravel(), row.ravel()], axis=1)
+        squares = lower_left[:, None] + np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+        footprints = start + squares[..., :1] * right + squares[..., 1:] * up
+        self.wanted = footprint_means(scene.texture, footprints).reshape(height, width, -1)
+
+    def _shown_and_whole(self, settings: Settings) -> tuple[Floats, Flags]:
+        """Return the colours (H, W, 3) that are drawn, and which pixels (H, W) bool are covered as a whole."""
+        colors = drawn_colors(self.scene, settings)
+        whole = np.asarray(colors[..., 3] > 1 - ROUNDING)
+        if not whole.any():
+            raise ValueError("a pixel must be covered as a whole, none is")
+        if np.isnan(self.wanted[whole]).any():
+            raise ValueError(
+                "every pixel must see a part of the texture, got one that sees a point or a line"
+            )
+        return colors[..., :3], whole
 
     def judge(self, settings: Settings) -> Judgement:
         """Compare the colours with the means of the footprints."""
-        shown = drawn_colors(self.scene, settings)[..., :3]
-        return judge_colors(shown, self.wanted, TOLERANCE, of_mean=True)
+        shown, whole = self._shown_and_whole(settings)
+        return judge_colors(shown, self.wanted, TOLERANCE, whole, of_mean=True)
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that the mean error over all pixels that count, ``wrong`` (H, W) bool or not, is small."""
+        del wrong
+        _, whole = self._shown_and_whole(settings)
+        pixels = listed_pixels(whole, self.wanted)
+        return (
+            f"{pixels}\n"
+            f"errors = [255 * np.abs(frame.color[row, column, :3] - wanted).max() for column, row, wanted in pixels]\n"
+            f"assert np.mean(errors) <= {TOLERANCE}"
+        )
+
+
+def _laid_out(scene: ClipScene) -> tuple[Floats, Floats, Floats]:
+    """Return where the window's corner lies in texels, (2,), and how far a pixel to the right and one up lead."""
+    assert scene.texture is not None
+    assert scene.attributes is not None
+    w = scene.clip[..., 3]
+    if (w <= 0).any() or (w != w[0, 0]).any():
+        raise ValueError("all corners must have the same positive w: with perspective the mean is not known")
+    texels = np.array(scene.texture.pixels.shape[1::-1])
+    places = [
+        exact_values(corners, values[:, :2], scene.size, *CORNER_PIXELS, pixel_center="integer")
+        for corners, values in zip(scene.clip, scene.attributes, strict=True)
+    ]
+    if not np.allclose(places, places[0], rtol=0, atol=ROUNDING):
+        raise ValueError("the texture must lie on all triangles alike, and on none that is seen edge-on")
+    start, right, up = places[0] * texels
+    return start, right - start, up - start
+
+
+def textured_square(density: float, angle: float, seed: int) -> ClipScene:
+    """Return a square that fills the picture; the texture is ``density`` texels a pixel, and leans back by degrees."""
+    texture = checkerboard(TEXELS, seed)
+    start = random_source(seed).uniform(0, TEXELS, 2)
+    cosine, sine = np.cos(TURN), np.sin(TURN)
+    lean = 1 / np.cos(np.radians(angle))
+    right = density * np.array([cosine, sine])
+    up = density * lean * np.array([-sine, cosine])
+    corners = start + SIDE * (
+        np.array([[0.0], [1], [1], [0]]) * right + np.array([[0.0], [0], [1], [1]]) * up
+    )
+    place = np.array([[-1.0, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]])
+    index = np.array([[0, 1, 2], [0, 2, 3]])
+    return ClipScene(place[index], (corners / TEXELS)[index], (SIDE, SIDE), texture, shared=index)
 
 
 def make_texture_case(place: tuple[float, ...], seed: int) -> TextureCase:
     """Make the square; the seed chooses single texels and where the texture begins."""
-    return TextureCase(place[0], place[1], seed)
+    return TextureCase(textured_square(place[0], place[1], seed))
 
 
-MINIFICATION = CaseExperiment(
+MINIFICATION = ShrinkableCases(
     ExperimentInfo(
         "minification",
         "Minification by each texture filter",
@@ -87,9 +143,10 @@ MINIFICATION = CaseExperiment(
     ),
     make_texture_case,
     "shade",
-    bound_to=BOUND_TO,
+    case_of=TextureCase,
+    kind=TEXTURED_TRIANGLES,
 )
-SHADING_ALIASING = CaseExperiment(
+SHADING_ALIASING = ShrinkableCases(
     ExperimentInfo(
         "shading-aliasing",
         "Samples against detail inside a triangle",
@@ -109,5 +166,6 @@ SHADING_ALIASING = CaseExperiment(
     make_texture_case,
     "shade",
     Settings(texture_filter="nearest"),
-    bound_to=BOUND_TO,
+    case_of=TextureCase,
+    kind=TEXTURED_TRIANGLES,
 )

@@ -15,7 +15,7 @@ from core.study.exact.areas import area_in_pixels
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Judgement, drawn_colors
 from core.study.stability.fragments.shrinkable_cases import (
-    AnyTriangles,
+    AnyCase,
     ShrinkableCases,
     check_in_view_volume,
 )
@@ -31,7 +31,7 @@ TOLERANCE = 1 / 4
 """Largest error of a pixel's cover that is taken as right: one sample of four."""
 
 
-class ThinCase(AnyTriangles):
+class ThinCase(AnyCase):
     """One white triangle; right is the exact area of it in every pixel, with its corners on the lattice.
 
     Raises
@@ -39,6 +39,8 @@ class ThinCase(AnyTriangles):
     ValueError
         If there are several triangles, which may cover the same part of a pixel, or it is cut by a plane of depth.
     """
+
+    scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
         if len(scene.clip) != 1:
