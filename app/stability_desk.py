@@ -132,12 +132,10 @@ class StabilityDesk(QObject):
         serial, last = self._serial, len(order.axes[0].values) - 1
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> AtlasResult:
-            remarks: dict[CellPlace, str] = {}
             row: list[CellRun] = []
 
             def cell_done(method: str, column: int, number: int, verdict: Verdict) -> None:
                 place = CellPlace(method, column, number)
-                remarks[place] = verdict.remark
                 row.append(CellRun(place, verdict))
                 if column == last:
                     self._row_run_in_thread.emit(_Row(serial, tuple(row)))
@@ -152,7 +150,7 @@ class StabilityDesk(QObject):
                 machine=machine(__version__),
                 cell_done=cell_done,
             )
-            return AtlasResult(atlas, remarks)
+            return AtlasResult(atlas)
 
         self._running.start(work)
 

@@ -222,7 +222,7 @@ class StabilityPresenter(QObject):
         result = self.result
         assert result is not None
         each = next(each for each in result.atlas.maps if each.method == place.key)
-        return float(each.severity[place.row, place.column]), result.remarks.get(place, "")
+        return float(each.severity[place.row, place.column]), each.remark(place.column, place.row)
 
     def choose(self, place: CellPlace | None) -> None:
         """Keep a cell as the chosen one of this experiment."""

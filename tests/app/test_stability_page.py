@@ -52,6 +52,10 @@ def click(page: StabilityPage, place: CellPlace) -> None:
     QTest.mouseClick(page.maps.canvas, LEFT, pos=page.maps.canvas.cell_area(place).center())
 
 
+def point_at(page: StabilityPage, place: CellPlace) -> None:
+    QTest.mouseMove(page.maps.canvas, page.maps.canvas.cell_area(place).center())
+
+
 def wait_for_case(page: StabilityPage, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: page.opened.found is not None, timeout=60000)
 
@@ -338,9 +342,29 @@ def test_an_atlas_is_exported_and_opened_again(
     for first, second in zip(atlas.maps, again.maps, strict=True):
         assert np.array_equal(first.outcome, second.outcome)
         assert np.array_equal(first.severity, second.severity, equal_nan=True)
+        assert first.remarks == second.remarks
+        assert all(all(row) for row in first.remarks)
+    said = next(each for each in again.maps if each.method == EXCLUSIVE).remark(0, 0)
+    point_at(page, CellPlace(EXCLUSIVE, 0, 0))
+    assert "pixels missing" in said
+    assert said in page.readout.text()
     click(page, CellPlace(EXCLUSIVE, 0, 0))
     wait_for_case(page, qtbot)
-    assert "pixels missing" in page.case.verdict.text(), "the remark comes of a new run"
+    assert said in page.case.verdict.text(), "a new run says the same"
+
+
+def test_an_atlas_of_before_there_were_remarks_opens(page: StabilityPage, tmp_path: Path) -> None:
+    info = experiments.get("shared-edges").info
+    axes = tuple(Axis(a.name, a.title, a.unit, a.values[:1], a.is_logarithmic) for a in info.axes)
+    record = json.loads(atlas_json(stress("shared-edges", axes=axes)))
+    for each in record["maps"]:
+        del each["remarks"]
+    (tmp_path / "old.json").write_text(json.dumps(record))
+    page.open_path(str(tmp_path / "old.json"))
+    assert page.runs.result is not None
+    assert page.runs.result.atlas.maps[0].remark(0, 0) == ""
+    point_at(page, CellPlace(EXCLUSIVE, 0, 0))
+    assert "Outcome" in page.readout.text()
 
 
 def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
@@ -364,6 +388,7 @@ def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
         (lambda record: record.update(version=2), "it is of version 2, and this Rasterscope opens version 1"),
         (lambda record: record.update(program="another"), "it is not an atlas of Rasterscope"),
         (lambda record: record["maps"][0]["outcome"].pop(), "maps must have"),
+        (lambda record: record["maps"][0]["remarks"][0].pop(), "maps must have"),
         (lambda record: record["maps"][0]["outcome"][0].__setitem__(0, 99), "outcomes must be below"),
         (lambda record: record["outcomes"].__setitem__(0, "perfect"), "an outcome must be one of"),
         (lambda record: record["axes"][0].pop("unit"), "unit"),
