@@ -38,7 +38,7 @@ def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
 
 def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: QtBot) -> None:
     drawn: list[int] = []
-    page.desk.point_measured.connect(lambda _: drawn.append(len(page.scatter.places())))
+    page.desk.measuring.part_done.connect(lambda _: drawn.append(len(page.scatter.places())))
     study = measured(page, qtbot)
     assert [point.method for point in study.points] == [key for key, _ in page.scatter.places()]
     assert drawn[0] == 1, "points appear as they are measured"
@@ -79,7 +79,7 @@ def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot
             drawn.append(len(page.scatter.places()))
             page.studies.cancel()
 
-    page.desk.point_measured.connect(cancel_at_the_first_point)
+    page.desk.measuring.part_done.connect(cancel_at_the_first_point)
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: bool(drawn), timeout=60000)
     assert drawn == [1]

@@ -83,7 +83,7 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
         assert record is not None
         unknown.append(record.count(UNKNOWN))
 
-    page.desk.cells_run.connect(count_unknown)
+    page.desk.running.part_done.connect(count_unknown)
     atlas = run(page, qtbot)
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
