@@ -137,10 +137,14 @@ class ListedWork(AskedWork, Generic[Choice]):
         """Whether what is shown is being done now."""
         return self._running == self._current
 
+    @property
+    def names(self) -> list[str]:
+        """Names of all that can be shown, in their order."""
+        return list(self._choices)
+
     def show_neighbour(self, direction: int) -> None:
         """Show the next of the list, or the one before."""
-        names = list(self._choices)
-        self._show_named(names[(names.index(self._current) + direction) % len(names)])
+        self._show_named(self.names[(self.names.index(self._current) + direction) % len(self.names)])
 
     def _show_named(self, name: str) -> None:
         if name != self._current:

@@ -16,6 +16,7 @@ from app.study_pictures_presenter import StudyPicturesPresenter
 from app.study_presenter import StudyPresenter
 from core.study.record import Study
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.elided_label import ElidedLabel
 from widgets.family_list import FamilyList
 from widgets.readout import Readout
@@ -43,13 +44,23 @@ class ComparePage(FilePage):
         self.families, self.readout = FamilyList(self), Readout("Figures", self)
         self.controls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
-        self.table, self.pictures = StudyTable(self), StudyPictures(self)
+        self.legend, self.table, self.pictures = ChartLegend(self), StudyTable(self), StudyPictures(self)
         self.shown_text = ElidedLabel(self)
         charts = (self.scatter, self.growth)
         self.studies = StudyPresenter(
-            session, self.desk, self.families, self.controls, charts, self.table, self.readout, self
+            session,
+            self.desk,
+            self.families,
+            self.controls,
+            charts,
+            self.legend,
+            self.table,
+            self.readout,
+            self,
         )
-        self.opened = StudyPicturesPresenter(self.studies, self.desk, charts, self.table, self.pictures, self)
+        self.opened = StudyPicturesPresenter(
+            self.studies, self.desk, (*charts, self.legend), self.table, self.pictures, self
+        )
         self._lay_out()
         self.setFocusProxy(self.scatter)
         self.studies.shown_text_changed.connect(self.shown_text.setText)
@@ -82,11 +93,10 @@ class ComparePage(FilePage):
 
     def _main(self) -> QWidget:
         self.charts = QSplitter(Qt.Orientation.Horizontal, self)
-        self.charts.addWidget(self.scatter)
-        self.charts.addWidget(self.growth)
-        self.charts.setStretchFactor(0, 3)
-        self.charts.setStretchFactor(1, 2)
-        self.charts.setSizes([600, 400])
+        for pane, stretch in ((self.scatter, 3), (self.legend, 0), (self.growth, 2)):
+            self.charts.addWidget(pane)
+            self.charts.setStretchFactor(self.charts.count() - 1, stretch)
+        self.charts.setSizes([560, 170, 340])
         self.shown_text.setProperty("role", "muted")
         self.shown_text.setAccessibleName("What the charts show")
         self.tabs = QTabWidget(self)

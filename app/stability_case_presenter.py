@@ -10,7 +10,9 @@ from app.stability_presenter import StabilityPresenter
 from app.stability_records import (
     case_record,
     dial_row,
+    first_failure,
     has_formats,
+    place_on_curve,
     place_sentence,
     shrunk_record,
     values_at,
@@ -23,6 +25,8 @@ from core.study.stability.shrink import Shrinkable, why_not_shrinkable
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 
 DIAL = "precision-dial"
 """The experiment that is about number formats itself."""
@@ -41,6 +45,7 @@ class StabilityCasePresenter(QObject):
         runs: StabilityPresenter,
         desk: StabilityDesk,
         maps: AtlasView,
+        curves: tuple[Chart, ChartLegend],
         view: CaseView,
         parent: QObject | None = None,
     ) -> None:
@@ -51,6 +56,8 @@ class StabilityCasePresenter(QObject):
         self._steps_when_found = False
         maps.cell_chosen.connect(self.choose)
         maps.cell_opened.connect(self._open)
+        curves[0].point_chosen.connect(self._choose_on_curve)
+        curves[1].series_chosen.connect(self.choose_failure)
         runs.shown_changed.connect(self._show_again)
         desk.looking.succeeded.connect(self._show_case)
         desk.looking.failed.connect(self._show_failure)
@@ -91,6 +98,19 @@ class StabilityCasePresenter(QObject):
         else:
             self._view.show_waiting(heading, "Running …")
             self._desk.look(CaseOrder(experiment, place, values, self._runs.seed()))
+
+    @Slot(str, int)
+    def _choose_on_curve(self, method: str, index: int) -> None:
+        self.choose(place_on_curve(self._runs.info, method, index))
+
+    @Slot(str, bool)
+    def choose_failure(self, method: str) -> None:
+        """Show the first cell, row by row, at which a method fails."""
+        place = first_failure(self._runs.cells, method)
+        if place is None:
+            self.message_sent.emit(f"No cell of {method} fails here.")
+        else:
+            self.choose(place)
 
     @Slot(object)
     def _open(self, place: CellPlace) -> None:

@@ -18,6 +18,8 @@ from app.state_files import EXTENSION as STATE_EXTENSION
 from core.study.stability import Atlas
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.elided_label import ElidedLabel
 from widgets.family_list import FamilyList
 from widgets.readout import Readout
@@ -44,11 +46,12 @@ class StabilityPage(FilePage):
         self.experiments, self.readout = FamilyList(self), Readout("Figures", self)
         self.experiments.setAccessibleName("Experiments")
         self.controls, self.maps, self.case = StabilityControls(self), AtlasView(self), CaseView(self)
+        self.curves = Chart("Severity along the axis", self), ChartLegend(self)
         self.shown_text = ElidedLabel(self)
         self.runs = StabilityPresenter(
-            session, self.desk, self.experiments, self.controls, self.maps, self.readout, self
+            session, self.desk, self.experiments, self.controls, self.maps, self.curves, self.readout, self
         )
-        self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.case, self)
+        self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.curves, self.case, self)
         self._lay_out()
         self.setFocusProxy(self.maps)
         self.runs.shown_text_changed.connect(self.shown_text.setText)
@@ -84,7 +87,7 @@ class StabilityPage(FilePage):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addWidget(self.controls)
-        layout.addWidget(self.maps, 1)
+        layout.addWidget(self._seen(), 1)
         layout.addLayout(self._foot())
         self.rows = QSplitter(Qt.Orientation.Vertical, self)
         self.rows.addWidget(top)
@@ -93,6 +96,22 @@ class StabilityPage(FilePage):
         self.rows.setStretchFactor(1, 2)
         self.rows.setSizes([440, 240])
         return self.rows
+
+    def _seen(self) -> QWidget:
+        """Return the maps and the curves below them."""
+        self.seen = QSplitter(Qt.Orientation.Vertical, self)
+        curves = QSplitter(Qt.Orientation.Horizontal, self)
+        panes: tuple[QWidget, QWidget] = self.curves
+        for pane, stretch in zip(panes, (1, 0), strict=True):
+            curves.addWidget(pane)
+            curves.setStretchFactor(curves.count() - 1, stretch)
+        curves.setSizes([800, 150])
+        for pane in (self.maps, curves):
+            self.seen.addWidget(pane)
+            self.seen.setStretchFactor(self.seen.count() - 1, 1)
+        self.seen.setSizes([200, 200])
+        self.seen.setAccessibleName("Maps")
+        return self.seen
 
     def _foot(self) -> QHBoxLayout:
         row = QHBoxLayout()
@@ -128,8 +147,8 @@ class StabilityPage(FilePage):
         return is_open
 
     def main_view(self) -> QWidget:
-        """Return what is copied: the maps."""
-        return self.maps
+        """Return what is copied: the maps, and the curves where there are some."""
+        return self.seen
 
     def stop(self) -> None:
         """End all runs."""
@@ -141,6 +160,7 @@ class StabilityPage(FilePage):
             "stability columns": self.columns,
             "stability left": self.left,
             "stability rows": self.rows,
+            "stability maps": self.seen,
         }
 
     # Files.

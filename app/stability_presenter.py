@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Slot
 from app.asked_work import ListedWork, WorkWords
 from app.atlas_text import WORDS
 from app.session import Session
+from app.severity_curves import has_curves, severity_chart
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
 from app.stability_desk import CellRun, StabilityDesk, StressOrder
 from app.stability_records import (
@@ -20,16 +21,21 @@ from app.stability_records import (
     counts_sentence,
     experiment_text,
     method_titles,
+    place_on_curve,
     place_sentence,
     values_at,
 )
 from app.study_words import machine_words
+from core.arrays import Floats
 from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.open_scene import watertightness
 from core.study.stability.resolution import axes_at
 from widgets.atlas_records import UNKNOWN, CellPlace
 from widgets.atlas_view import AtlasView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
+from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
 from widgets.message_bar import Progress
 from widgets.readout import Readout
@@ -52,6 +58,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         experiments: FamilyList,
         controls: StabilityControls,
         maps: AtlasView,
+        curves: tuple[Chart, ChartLegend],
         readout: Readout,
         parent: QObject | None = None,
     ) -> None:
@@ -59,6 +66,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         super().__init__(desk.running, controls, WORK_WORDS, choices, parent)
         self._session, self._desk = session, desk
         self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
+        self._curves, self._legend = curves
         self._running_info: ExperimentInfo | None = None
         self._cells: dict[str, NDArray[np.int16]] = {}
         """Of the run that is going on."""
@@ -71,6 +79,10 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         controls.cancel_requested.connect(self.cancel)
         maps.cell_hovered.connect(self._point_at)
         maps.cell_left.connect(self._point_away)
+        self._curves.point_hovered.connect(self._point_at_curve)
+        self._legend.series_hovered.connect(self._curves.show_pointed)
+        for pane in curves:
+            pane.series_left.connect(self._point_away)
         session.document_changed.connect(self._take_document)
         self.refresh()
 
@@ -133,8 +145,32 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         else:
             self._maps.show_empty(NOTHING)
         self._maps.show_chosen(self.choice.chosen)
+        self._show_curves()
         self._show_readout()
         self.shown_text_changed.emit(self._shown_text())
+
+    def _show_curves(self) -> None:
+        """Draw severity against the axis, where there is one axis alone."""
+        info = self.info
+        for pane in (self._curves, self._legend):
+            pane.setVisible(has_curves(info))
+        if not has_curves(info):
+            return
+        picture = severity_chart(info.axes[0], self._severities(), method_titles(info.methods))
+        if isinstance(picture, ChartEmpty):
+            self._curves.show_empty(picture)
+        else:
+            self._curves.show_picture(picture)
+        self._legend.show_series(picture.series if isinstance(picture, ChartPicture) else ())
+
+    def _severities(self) -> dict[str, Floats]:
+        """Return by method the severities (N,) along the first axis, NaN where nothing has been run."""
+        if self.result is not None and not self.is_partial:
+            return {each.method: each.severity[0] for each in self.result.atlas.maps}
+        found = {key: np.full(cells.shape[1], np.nan) for key, cells in self.cells.items()}
+        for place, verdict in self._verdicts.items() if self.is_partial else ():
+            found[place.key][place.column] = verdict.severity
+        return found
 
     def _shown_text(self) -> str:
         result = self.result
@@ -156,6 +192,10 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         self._hover = place
         self._show_readout()
 
+    @Slot(str, int)
+    def _point_at_curve(self, method: str, index: int) -> None:
+        self._point_at(place_on_curve(self.info, method, index))
+
     @Slot()
     def _point_away(self) -> None:
         self._hover = None
@@ -163,6 +203,9 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
 
     def _show_readout(self) -> None:
         place = self._hover or self.choice.chosen
+        key, column = ("", -1) if place is None else (place.key, place.column)
+        self._curves.show_pointed(key, column)
+        self._legend.show_pointed(key)
         if place is None or not self.is_shown(place):
             self._readout.show_text(experiment_text(self.choice))
             self._maps.canvas.setAccessibleDescription("")
@@ -250,6 +293,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
             self._verdicts[place] = each.verdict
         if self.is_partial:
             self._maps.show_atlas(atlas_record(self.info, self._cells))
+            self._show_curves()
 
     @Slot(object)
     def _take_result(self, result: AtlasResult) -> None:

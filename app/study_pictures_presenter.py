@@ -13,6 +13,7 @@ from app.study_desk import PointsShown, StudyDesk
 from app.study_presenter import StudyPresenter
 from core.study.record import Pictures
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.grid_buffer import BufferKind, GridBuffer, number_text
 from widgets.study_pictures import PicturesRecord, StudyPictures
 from widgets.study_table import StudyTable
@@ -32,7 +33,7 @@ class StudyPicturesPresenter(QObject):
         self,
         studies: StudyPresenter,
         desk: StudyDesk,
-        charts: tuple[Chart, Chart],
+        charts: tuple[Chart | ChartLegend, ...],
         numbers: StudyTable,
         view: StudyPictures,
         parent: QObject | None = None,

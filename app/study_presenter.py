@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Slot
 from app.asked_work import ListedWork, WorkWords
 from app.plan_points import chosen_points, plan_candidates
 from app.session import Session
-from app.study_charts import growth_of, numbers_of, scatter_of
+from app.study_charts import MOST_NAMED, growth_of, numbers_of, scatter_of
 from app.study_choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
 from app.study_desk import StudyDesk, StudyOrder, StudyResult
 from app.study_figures import point_text, study_text, table_of
@@ -18,6 +18,7 @@ from core.settings import Settings
 from core.study.record import Point, Study
 from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
 from widgets.message_bar import Progress
@@ -45,6 +46,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         families: FamilyList,
         controls: StudyControls,
         charts: tuple[Chart, Chart],
+        legend: ChartLegend,
         numbers: StudyTable,
         readout: Readout,
         parent: QObject | None = None,
@@ -52,7 +54,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), parent)
         self._session, self._desk = session, desk
         self._families, self._controls = families, controls
-        self._charts, self._table, self._readout = charts, numbers, readout
+        self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
         self._partial: Study | None = None
         """What has been measured by now, of the family that is being measured."""
         self._numbers: Mapping[str, int] = {}
@@ -73,7 +75,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         controls.seed_chosen.connect(self._choose_seed)
         controls.measuring_requested.connect(self.measure)
         controls.cancel_requested.connect(self.cancel)
-        for chart in self._charts:
+        for chart in (*self._charts, self._legend):
             chart.series_hovered.connect(self._point_at)
             chart.series_left.connect(self._point_away)
 
@@ -142,8 +144,16 @@ class StudyPresenter(ListedWork[FamilyChoice]):
                 chart.show_empty(picture)
             else:
                 chart.show_picture(picture)
+        self._show_legend(scatter)
         self._show_readout()
         self.shown_text_changed.emit(self._shown_text())
+
+    def _show_legend(self, scatter: ChartPicture | ChartEmpty) -> None:
+        """Show the list of names beside a chart that is too crowded to hold them all."""
+        is_crowded = isinstance(scatter, ChartPicture) and len(scatter.series) > MOST_NAMED
+        self._legend.setVisible(is_crowded)
+        if isinstance(scatter, ChartPicture) and is_crowded:
+            self._legend.show_series(scatter.series, scatter.front)
 
     def _ringed(self, study: Study) -> tuple[str, ...]:
         """Return the points that a plan chose for the scene that was measured."""
@@ -188,7 +198,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self._show_pointed()
 
     def _show_pointed(self) -> None:
-        for chart in self._charts:
+        for chart in (*self._charts, self._legend):
             chart.show_pointed(self._pointed)
         self._show_readout()
 

@@ -1,6 +1,7 @@
 """The Compare page: measuring, charts and figures; with real measurements."""
 
 import time
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -204,3 +205,26 @@ def test_closing_while_measuring_ends_the_thread(page: ComparePage) -> None:
     page.window().close()
     assert not page.desk.is_measuring
     assert time.perf_counter() - start < 20
+
+
+def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
+    study = hand_made()
+    page.studies.take_saved(study, "few.json")
+    assert not page.legend.isVisible()
+    many = tuple(replace(study.points[n % 2], method=f"line=m{n}", title=f"Method {n}") for n in range(20))
+    growth = dict.fromkeys(study.growth, many)
+    page.studies.take_saved(replace(study, points=many, growth=growth), "many.json")
+    QApplication.processEvents()
+    assert page.legend.isVisible()
+    assert page.legend.count() == 20
+    row = page.legend.visualItemRect(page.legend.item(3)).center()
+    QTest.mouseMove(page.legend.viewport(), row)
+    assert page.scatter.pointed == page.growth.pointed == "line=m3"
+    assert "line=m3" in page.readout.text()
+    QTest.mouseClick(page.legend.viewport(), Qt.MouseButton.LeftButton, pos=row)
+    assert page.opened.chosen == ("line=m3",)
+    assert page.legend.item(3).text() == "A: Method 3"
+    place = page.scatter.place_of("line=m1")
+    assert place is not None
+    QTest.mouseMove(page.scatter.viewport(), place.toPoint())
+    assert page.legend.currentItem().text().startswith("Method ")
