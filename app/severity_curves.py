@@ -1,10 +1,10 @@
 """How wrong each method is along the one axis of an experiment, as a chart and as a drawing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from app.study_axes import axis_of, ticks
+from app.study_axes import LogAxis, axis_of, ticks
 from app.study_chart import LINES
 from app.study_labels import spread_apart
 from app.study_words import digits
@@ -53,33 +53,50 @@ def severity_svg(atlas: Atlas, top: float) -> tuple[list[str], float]:
     across = axis_of(list(axis.values), LEFT, RIGHT)
     sizes = [float(value) for values in lines.values() for value in values if value > 0]
     up = axis_of(sizes, bottom - ZERO_GAP, top + 24)
-    parts = [text(24, top + 12, f"{SEVERITY}; 0 is right", size=12)]
-    for value in ticks(across):
-        x = across.place(value)
-        parts.append(line(x, top + 24, x, bottom + 6, GRID, 1))
-        parts.append(text(x, bottom + 20, digits(value, 1), size=10, anchor="middle"))
-    for value in ticks(up) if sizes else []:
-        y = up.place(value)
-        parts.append(line(LEFT, y, RIGHT, y, GRID, 1))
-        parts.append(text(LEFT - 8, y + 4, digits(value, 2), size=10, anchor="end"))
-    parts.append(line(LEFT, bottom, RIGHT, bottom, TEXT, 1))
-    parts.append(text(LEFT - 8, bottom + 4, "0", size=11, weight=600, anchor="end"))
-    ends = []
-    for number, (method, values) in enumerate(lines.items()):
-        color, dashes = LINES[number % len(LINES)], "" if number < len(LINES) else "5 3"
-        places = [
+    unit = f" ({axis.unit})" if axis.unit else ""
+    parts = [
+        text(24, top + 12, f"{SEVERITY}; 0 is right", size=12),
+        *_grid(across, up if sizes else None, top + 24, bottom),
+        text(RIGHT, bottom + 36, f"{axis.title}{unit}", size=11, color=QUIET, anchor="end"),
+    ]
+    places = {
+        method: [
             (across.place(where), bottom if value == 0 else up.place(float(value)))
             for where, value in zip(axis.values, values, strict=True)
             if np.isfinite(value)
         ]
-        if places:
-            parts.append(polyline(places, color, 1.8, dashes=dashes))
-            parts += [circle(x, y, 2.5, color, filled=True) for x, y in places]
-            ends.append((places[-1], method, color))
-    heights = spread_apart([place[1] for place, _, _ in ends], 14, top + 24, bottom + 10)
+        for method, values in lines.items()
+    }
+    return [*parts, *_lines(places, top + 24, bottom + 10)], bottom + 52
+
+
+def _grid(across: LogAxis, up: LogAxis | None, top: float, bottom: float) -> list[str]:
+    """Return the lines and numbers of both axes; ``up`` is ``None`` where every severity is 0."""
+    parts = [
+        line(LEFT, bottom, RIGHT, bottom, TEXT, 1),
+        text(LEFT - 8, bottom + 4, "0", size=11, weight=600, anchor="end"),
+    ]
+    for value in ticks(across):
+        x = across.place(value)
+        parts.append(line(x, top, x, bottom + 6, GRID, 1))
+        parts.append(text(x, bottom + 20, digits(value, 1), size=10, anchor="middle"))
+    for value, y in [] if up is None else [(value, up.place(value)) for value in ticks(up)]:
+        parts.append(line(LEFT, y, RIGHT, y, GRID, 1))
+        parts.append(text(LEFT - 8, y + 4, digits(value, 2), size=10, anchor="end"))
+    return parts
+
+
+def _lines(places: Mapping[str, Sequence[tuple[float, float]]], top: float, bottom: float) -> list[str]:
+    """Return the line of every method through its places, with its name between ``top`` and ``bottom``."""
+    parts, ends = [], []
+    for number, (method, through) in enumerate(places.items()):
+        color, dashes = LINES[number % len(LINES)], "" if number < len(LINES) else "5 3"
+        if through:
+            parts.append(polyline(through, color, 1.8, dashes=dashes))
+            parts += [circle(x, y, 2.5, color, filled=True) for x, y in through]
+            ends.append((through[-1], method, color))
+    heights = spread_apart([place[1] for place, _, _ in ends], 14, top, bottom)
     for ((x, y), method, color), height in zip(ends, heights, strict=True):
         parts.append(line(x + 4, y, RIGHT + 18, height, color, 0.8))
         parts.append(text(RIGHT + NAME_WIDTH, height + 4, method, size=11))
-    unit = f" ({axis.unit})" if axis.unit else ""
-    parts.append(text(RIGHT, bottom + 36, f"{axis.title}{unit}", size=11, color=QUIET, anchor="end"))
-    return parts, bottom + 52
+    return parts

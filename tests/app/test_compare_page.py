@@ -224,6 +224,7 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     QTest.mouseClick(page.legend.viewport(), Qt.MouseButton.LeftButton, pos=row)
     assert page.opened.chosen == ("line=m3",)
     assert page.legend.item(3).text() == "A: Method 3"
+    QApplication.processEvents()
     place = page.scatter.place_of("line=m1")
     assert place is not None
     QTest.mouseMove(page.scatter.viewport(), place.toPoint())
