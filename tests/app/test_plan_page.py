@@ -41,6 +41,7 @@ def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.desk.is_looking
     qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    QApplication.processEvents()  # Rows that have just been made are shown a moment later.
     shown = page.plans.shown
     assert shown is not None
     assert shown.report is not None
