@@ -18,7 +18,7 @@ ENDINGS = (".csv", ".json", ".svg", ".png")
 def atlas_csv(atlas: Atlas) -> str:
     """Return a table with a row for every cell of every method, in rows that stand alone."""
     axes = atlas.experiment.axes
-    names = ["experiment", "seed", "method", *(axis.name for axis in axes), "outcome", "severity"]
+    names = ["experiment", "seed", "method", *(axis.name for axis in axes), "outcome", "severity", "remark"]
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*names, *atlas.machine])
@@ -30,7 +30,7 @@ def atlas_csv(atlas: Atlas) -> str:
                 severity = float(each.severity[row, column])
                 shown = "" if isnan(severity) else repr(severity)
                 cells = [atlas.experiment.name, atlas.seed, each.method, *place, Outcome(value).name.lower()]
-                writer.writerow([*cells, shown, *machine])
+                writer.writerow([*cells, shown, each.remark(column, row), *machine])
     return text.getvalue()
 
 
@@ -55,6 +55,7 @@ def atlas_json(atlas: Atlas) -> str:
                     "title": each.title,
                     "outcome": each.outcome.tolist(),
                     "severity": [[None if isnan(v) else v for v in row] for row in each.severity.tolist()],
+                    "remarks": [list(row) for row in each.remarks],
                 }
                 for each in atlas.maps
             ],

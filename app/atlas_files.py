@@ -38,6 +38,8 @@ class MapRecord(Record):
     outcome: list[list[Count]]
     severity: list[list[float | None]]
     """``None``: no number."""
+    remarks: tuple[tuple[str, ...], ...] = ()
+    """Files of earlier versions of the program have none."""
 
 
 class AtlasFileRecord(Record):
@@ -65,7 +67,7 @@ class AtlasFileRecord(Record):
         rows = len(self.axes[1].values) if len(self.axes) > 1 else 1
         columns = len(self.axes[0].values)
         for each in self.maps:
-            for cells in (each.outcome, each.severity):
+            for cells in (each.outcome, each.severity, each.remarks or each.outcome):
                 if len(cells) != rows or any(len(row) != columns for row in cells):
                     raise ValueError(f"maps must have {rows} rows of {columns} cells, {each.method} has not")
             if any(number >= len(self.outcomes) for row in each.outcome for number in row):
@@ -100,6 +102,7 @@ def _atlas(record: AtlasFileRecord) -> Atlas:
             each.title,
             numbers[np.array(each.outcome, np.int64)],
             np.array([[np.nan if value is None else value for value in row] for row in each.severity]),
+            each.remarks,
         )
         for each in record.maps
     )

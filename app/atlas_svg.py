@@ -3,6 +3,7 @@
 from textwrap import wrap
 
 from app.atlas_text import MARKS, WORDS, axis_text
+from app.severity_curves import has_curves, severity_svg
 from app.study_words import machine_words
 from app.svg_shapes import QUIET, text
 from core.study.stability import Atlas, Outcome, StabilityMap
@@ -42,6 +43,9 @@ def atlas_svg(atlas: Atlas) -> str:
         x, y = LEFT + step * (number % in_row), TOP + height_of_map * (number // in_row)
         parts += _map(each, x, y)
     y = TOP + height_of_map * (-(-len(atlas.maps) // in_row))
+    if has_curves(info):
+        curves, y = severity_svg(atlas, y)
+        parts += curves
     parts += _legend(atlas, y)
     foot = [axis_text("Across", info.axes[0])]
     foot += [axis_text("Up", info.axes[1])] if len(info.axes) > 1 else []

@@ -15,7 +15,24 @@ EXAMPLES = """examples:
   rasterscope screenshot teapot.obj -o teapot.png --theme dark --size 1600x1000
   rasterscope screenshot near-plane -o clip.svg --stage clip --step 4
   rasterscope screenshot cube -o samples.png --stage resolve --set antialiasing=msaa-4
+  rasterscope screenshot cube -o lines.png --page compare --show line --work pixel-ends --choose line=dda
+  rasterscope screenshot cube -o cracks.png --page stability --show shared-edges --choose fill_rule=exclusive
+  rasterscope screenshot teapot.obj -o plan.png --page plan
+  rasterscope screenshot study-line-any-ends.json -o study.png
+
+A page other than step measures or runs what it shows; it takes as long as in the window. A saved study or atlas is
+shown as it is.
 """
+PAGES = ("step", "compare", "stability", "plan")
+ONLY_OF = {
+    "stage": ("step",),
+    "step": ("step",),
+    "view": ("step",),
+    "show": ("compare", "stability"),
+    "work": ("compare",),
+    "choose": ("compare", "stability"),
+}
+"""Options that are of some pages only."""
 ENDINGS = (".png", ".svg", ".pdf")
 SMALLEST = (900, 600)
 """Least size of the window in pixels."""
@@ -57,7 +74,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--step", metavar="N", type=step_from_text, help="operations of the stage that are done; default: all"
     )
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
+    parser.add_argument("--page", choices=PAGES, help="page that is shown (step)")
+    parser.add_argument(
+        "--show", metavar="NAME", help="family that page compare measures, or experiment that stability runs"
+    )
+    parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
+    parser.add_argument(
+        "--choose", metavar="METHOD", help="open the pictures of a method, or the first cell where it fails"
+    )
     add_settings(parser)
+
+
+def check_page(options: argparse.Namespace) -> None:
+    """Refuse, with a sentence, options that the page does not have, and any page for what has its own."""
+    page = options.page or "step"
+    is_saved = options.file.lower().endswith(".json")
+    for name, pages in ONLY_OF.items():
+        if getattr(options, name) is not None and (page not in pages or is_saved):
+            where = "a saved study or atlas" if is_saved else f"page {page}"
+            raise UsageError(f"argument --{name}: it is for page {' or '.join(pages)}, got {where}")
+    if is_saved and (options.page is not None or options.set):
+        raise UsageError(
+            f"--page and --set are for scenes; a saved study or atlas has its own, got {options.file}"
+        )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -66,9 +105,15 @@ def run(options: argparse.Namespace) -> int:
         raise UsageError(f"argument -o: the file must end with {', '.join(ENDINGS)}, got {options.output}")
     if sys.platform.startswith("linux"):
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    check_page(options)
     load_qt()
     from app.window_start import grab_window
 
+    content = None
+    if options.page not in (None, "step"):
+        from app.page_filling import PageContent  # All pages come along: not for the Step page alone.
+
+        content = PageContent(options.page, options.show or "", options.work or "", options.choose or "")
     grab_window(
         options.file,
         options.output,
@@ -78,5 +123,6 @@ def run(options: argparse.Namespace) -> int:
         options.step,
         options.view,
         lambda settings: chosen_settings(settings, options.set),
+        content,
     )
     return 0

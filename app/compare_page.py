@@ -3,28 +3,20 @@
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QPushButton,
-    QSplitter,
-    QTabWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
-from app.export import copy_widget, export_widget
-from app.file_writing import whole_file
-from app.pages import Handlers, Page
+from app.file_page import FilePage, FileWords
+from app.pages import Handlers
 from app.session import Session
 from app.study_charts import TIME
 from app.study_desk import StudyDesk
-from app.study_export import study_csv, study_picture
-from app.study_files import EXTENSION, StudyFileError, load_study, save_study
+from app.study_export import study_content
+from app.study_files import EXTENSION, load_study
 from app.study_pictures_presenter import StudyPicturesPresenter
 from app.study_presenter import StudyPresenter
 from core.study.record import Study
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.elided_label import ElidedLabel
 from widgets.family_list import FamilyList
 from widgets.readout import Readout
@@ -32,35 +24,49 @@ from widgets.study_controls import StudyControls
 from widgets.study_pictures import StudyPictures
 from widgets.study_table import StudyTable
 
-FILE_KINDS = (
-    "Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
-    "Study, to be opened again (*.json);;Page as it is seen (*.pdf)"
+FILE_WORDS = FileWords(
+    noun="study",
+    view="charts",
+    nothing="measure first (F5)",
+    kinds="Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
+    f"Study, to be opened again (*{EXTENSION});;Page as it is seen (*.pdf)",
+    export_tip="Write the charts, the numbers or the whole study to a file (Ctrl+E)",
+    copy_tip="Put the charts, or the numbers with all their digits, on the clipboard",
 )
 
 
-class ComparePage(Page):
+class ComparePage(FilePage):
     """All panes of the Compare page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(FILE_WORDS, parent)
         self.desk = StudyDesk(self)
         self.families, self.readout = FamilyList(self), Readout("Figures", self)
         self.controls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
-        self.table, self.pictures = StudyTable(self), StudyPictures(self)
+        self.legend, self.table, self.pictures = ChartLegend(self), StudyTable(self), StudyPictures(self)
         self.shown_text = ElidedLabel(self)
         charts = (self.scatter, self.growth)
         self.studies = StudyPresenter(
-            session, self.desk, self.families, self.controls, charts, self.table, self.readout, self
+            session,
+            self.desk,
+            self.families,
+            self.controls,
+            charts,
+            self.legend,
+            self.table,
+            self.readout,
+            self,
         )
-        self.opened = StudyPicturesPresenter(self.studies, self.desk, charts, self.table, self.pictures, self)
+        self.opened = StudyPicturesPresenter(
+            self.studies, self.desk, (*charts, self.legend), self.table, self.pictures, self
+        )
         self._lay_out()
         self.setFocusProxy(self.scatter)
         self.studies.shown_text_changed.connect(self.shown_text.setText)
-        self.studies.message_sent.connect(self.message_sent)
-        self.studies.refused.connect(self.edit_refused)
-        self.opened.message_sent.connect(self.message_sent)
-        self.opened.refused.connect(self.edit_refused)
+        for presenter in (self.studies, self.opened):
+            presenter.message_sent.connect(self.message_sent)
+            presenter.refused.connect(self.edit_refused)
         self.opened.step_requested.connect(self.step_requested)
 
     # Layout.
@@ -87,11 +93,10 @@ class ComparePage(Page):
 
     def _main(self) -> QWidget:
         self.charts = QSplitter(Qt.Orientation.Horizontal, self)
-        self.charts.addWidget(self.scatter)
-        self.charts.addWidget(self.growth)
-        self.charts.setStretchFactor(0, 3)
-        self.charts.setStretchFactor(1, 2)
-        self.charts.setSizes([600, 400])
+        for pane, stretch in ((self.scatter, 3), (self.legend, 0), (self.growth, 2)):
+            self.charts.addWidget(pane)
+            self.charts.setStretchFactor(self.charts.count() - 1, stretch)
+        self.charts.setSizes([560, 170, 340])
         self.shown_text.setProperty("role", "muted")
         self.shown_text.setAccessibleName("What the charts show")
         self.tabs = QTabWidget(self)
@@ -120,12 +125,6 @@ class ComparePage(Page):
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 0, 0, 4)
         row.setSpacing(8)
-        self.export_button = QPushButton("Export…", corner)
-        self.export_button.setToolTip("Write the charts, the numbers or the whole study to a file (Ctrl+E)")
-        self.export_button.clicked.connect(self.ask_export)
-        self.copy_button = QPushButton("Copy", corner)
-        self.copy_button.setToolTip("Put the charts, or the numbers with all their digits, on the clipboard")
-        self.copy_button.clicked.connect(self.copy)
         for button in (self.export_button, self.copy_button):
             row.addWidget(button)
         return corner
@@ -191,57 +190,26 @@ class ComparePage(Page):
 
     # Files.
 
-    def open_path(self, path: str) -> None:
-        """Open a saved study and show it as what it is."""
-        try:
-            study = load_study(path)
-        except StudyFileError as error:
-            self.edit_refused.emit(f"{error}. What is shown stays as it was.")
-            return
-        self.studies.take_saved(study, Path(path).name)
+    def show_file(self, path: str) -> None:
+        """Show a saved study."""
+        self.studies.take_saved(load_study(path), Path(path).name)
 
-    @Slot()
-    def ask_export(self) -> None:
-        """Ask where the study is to go, and write it there."""
+    def file_stem(self) -> str:
+        """Return the name of a file of the study that is shown."""
         study = self._finished()
-        if study is None:
-            return
-        name = f"study-{study.family}-{study.work.name}.png"
-        path, _ = QFileDialog.getSaveFileName(self.window(), "Export study", name, FILE_KINDS)
-        if path:
-            self.export_to(path)
+        return "" if study is None else f"study-{study.family}-{study.work.name}"
 
-    def export_to(self, path: str) -> None:
-        """Write the study by the ending of the file."""
-        study = self._finished()
-        if study is None:
-            return
-        try:
-            self._write(study, path)
-        except (OSError, ValueError) as error:
-            self.edit_refused.emit(f"The study was not exported: {error}")
-        else:
-            self.message_sent.emit(f"Exported {Path(path).name}.")
-
-    def _write(self, study: Study, path: str) -> None:
-        ending, choice = Path(path).suffix.lower(), self.studies.choice
-        if ending == EXTENSION:
-            save_study(path, study)
-        elif ending == ".csv":
-            with whole_file(path) as file:
-                file.write(study_csv(study).encode())
-        elif ending in (".svg", ".png") and choice.cost == TIME:
-            with whole_file(path) as file:
-                file.write(study_picture(study, choice.measure, ending))
-        else:
-            export_widget(self.charts, path)
+    def file_content(self, ending: str) -> bytes | None:
+        """Return the study in a file; pictures are of time, those of another cost are as they are seen."""
+        study, choice = self._finished(), self.studies.choice
+        assert study is not None
+        if ending in (".svg", ".png") and choice.cost != TIME:
+            return None
+        return study_content(study, choice.measure, ending)
 
     def _finished(self) -> Study | None:
         result = self.studies.result
-        if result is None or self.studies.is_partial:
-            self.message_sent.emit("There is nothing to export yet: measure first (F5).")
-            return None
-        return result.study
+        return None if result is None or self.studies.is_partial else result.study
 
     @Slot()
     def copy(self) -> None:
@@ -250,5 +218,4 @@ class ComparePage(Page):
             self.table.copy()
             self.message_sent.emit("Copied the numbers.")
         else:
-            copy_widget(self.charts)
-            self.message_sent.emit("Copied the charts.")
+            super().copy()

@@ -30,8 +30,8 @@ class PlanPicturesPresenter(QObject):
         self._plans, self._desk, self._view = plans, desk, view
         self._drawn: PlanPictures | None = None
         plans.shown_changed.connect(self.close)
-        desk.pictures_drawn.connect(self._show_pictures)
-        desk.pictures_failed.connect(self._show_failure)
+        desk.drawing.succeeded.connect(self._show_pictures)
+        desk.drawing.failed.connect(self._show_failure)
         view.step_requested.connect(self.step)
         view.copy_requested.connect(self.copy)
         view.closing_requested.connect(self.close)

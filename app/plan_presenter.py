@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.asked_work import AskedWork, WorkWords
 from app.plan_desk import PlanDesk, PlanOrder
 from app.plan_words import EMPTY, about, advice_html, details, findings_html, headline, rows_of
 from app.session import Session
@@ -12,8 +13,6 @@ from widgets.message_bar import Progress
 from widgets.plan_controls import PlanControls
 from widgets.plan_rows import PlanRows
 from widgets.plan_summary import PlanFindings, PlanSummary, SummaryRecord
-
-PERCENT = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,13 +24,11 @@ class PlanShown:
     report: PlanReport | None = None
 
 
-class PlanPresenter(QObject):
-    """Looks at the open scene and shows what it needs; results of an earlier scene are marked as such."""
+WORDS = WorkWords("The look was cancelled", "It could not be planned", "what was found before is as it was")
 
-    message_sent = Signal(str)
-    refused = Signal(str)
-    shown_changed = Signal()
-    """Another plan is shown, or another report: pictures of the one before are gone."""
+
+class PlanPresenter(AskedWork):
+    """Looks at the open scene and shows what it needs; results of an earlier scene are marked as such."""
 
     def __init__(
         self,
@@ -42,7 +39,7 @@ class PlanPresenter(QObject):
         rows: PlanRows,
         parent: QObject | None = None,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(desk.looking, controls, WORDS, parent)
         self._session, self._desk = session, desk
         self._controls, self._summaries, self._rows = controls, summaries, rows
         self._order: PlanOrder | None = None
@@ -55,11 +52,6 @@ class PlanPresenter(QObject):
         controls.looking_requested.connect(self.look)
         controls.cancel_requested.connect(self.cancel)
         controls.applying_requested.connect(self.apply)
-        desk.planned.connect(self._take_plan)
-        desk.progressed.connect(self._show_progress)
-        desk.measured.connect(self._take_report)
-        desk.failed.connect(self._fail)
-        desk.ended.connect(self._end)
         session.document_changed.connect(self.refresh)
         self.refresh()
 
@@ -93,47 +85,26 @@ class PlanPresenter(QObject):
             controls.rounds_box.value(),
             document.title or "scene",
         )
-        self._desk.cancel()
+        self._desk.looking.cancel()
         self._order, self._before = order, self.shown
         controls.show_progress(Progress("Looking at the scene", 0, 0))
         self._desk.look(order)
 
-    @Slot()
-    def cancel(self) -> None:
-        """Stop looking; what was found before is shown again."""
-        if self._desk.is_looking:
-            self._desk.cancel()
-            self.message_sent.emit("The look was cancelled; what was found before is as it was.")
-
-    @Slot(object, str)
-    def _show_progress(self, fraction: float | None, doing: str) -> None:
-        done = 0 if fraction is None else round(fraction * PERCENT)
-        self._controls.show_progress(Progress(doing, done, 0 if fraction is None else PERCENT))
-
     @Slot(object)
-    def _take_plan(self, plan: Plan) -> None:
+    def _take_part(self, plan: Plan) -> None:
         assert self._order is not None
         self._show(PlanShown(self._order, plan))
 
     @Slot(object)
-    def _take_report(self, report: PlanReport) -> None:
-        # The end of the work has been told before, and has put back what was shown earlier.
+    def _take_result(self, report: PlanReport) -> None:
         assert self._asked is not None
         self._show(PlanShown(self._asked, report.plan, report))
         self._session.set_plan(report)
         self.message_sent.emit(f"Looked at {self._asked.title}.")
 
-    @Slot(object)
-    def _fail(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
-        self.refused.emit(f"It could not be planned: {error} What was found before is as it was.")
-
-    @Slot()
-    def _end(self) -> None:
-        """Go back to what was found before, unless a report follows."""
+    def _put_back(self) -> None:
+        """Show what was found before."""
         self._asked, self._order = self._order, None
-        self._controls.show_progress(None)
         if self._asked is not None:
             self._show(self._before)
 

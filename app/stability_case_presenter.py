@@ -10,7 +10,9 @@ from app.stability_presenter import StabilityPresenter
 from app.stability_records import (
     case_record,
     dial_row,
+    first_failure,
     has_formats,
+    place_on_curve,
     place_sentence,
     shrunk_record,
     values_at,
@@ -22,6 +24,8 @@ from core.study.stability.coverage.precision_dial import DialReading
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 
 DIAL = "precision-dial"
 """The experiment that is about number formats itself."""
@@ -40,6 +44,7 @@ class StabilityCasePresenter(QObject):
         runs: StabilityPresenter,
         desk: StabilityDesk,
         maps: AtlasView,
+        curves: tuple[Chart, ChartLegend],
         view: CaseView,
         parent: QObject | None = None,
     ) -> None:
@@ -50,13 +55,15 @@ class StabilityCasePresenter(QObject):
         self._steps_when_found = False
         maps.cell_chosen.connect(self.choose)
         maps.cell_opened.connect(self._open)
+        curves[0].point_chosen.connect(self._choose_on_curve)
+        curves[1].series_chosen.connect(self.choose_failure)
         runs.shown_changed.connect(self._show_again)
-        desk.case_found.connect(self._show_case)
-        desk.case_failed.connect(self._show_failure)
-        desk.shrunk_found.connect(self._show_shrunk)
-        desk.shrinking_failed.connect(self._tell_no_shrinking)
-        desk.dial_read.connect(self._show_dial)
-        desk.dial_failed.connect(self._tell_no_dial)
+        desk.looking.succeeded.connect(self._show_case)
+        desk.looking.failed.connect(self._show_failure)
+        desk.shrinking.succeeded.connect(self._show_shrunk)
+        desk.shrinking.failed.connect(self._tell_no_shrinking)
+        desk.reading.succeeded.connect(self._show_dial)
+        desk.reading.failed.connect(self._tell_no_dial)
         view.pixel_pinned.connect(self._read_dial)
         view.step_requested.connect(self.step)
         view.shrink_requested.connect(self.shrink)
@@ -90,6 +97,19 @@ class StabilityCasePresenter(QObject):
         else:
             self._view.show_waiting(heading, "Running …")
             self._desk.look(CaseOrder(experiment, place, values, self._runs.seed()))
+
+    @Slot(str, int)
+    def _choose_on_curve(self, method: str, index: int) -> None:
+        self.choose(place_on_curve(self._runs.info, method, index))
+
+    @Slot(str, bool)
+    def choose_failure(self, method: str) -> None:
+        """Show the first cell, row by row, at which a method fails."""
+        place = first_failure(self._runs.cells, method)
+        if place is None:
+            self.message_sent.emit(f"No cell of {method} fails here.")
+        else:
+            self.choose(place)
 
     @Slot(object)
     def _open(self, place: CellPlace) -> None:

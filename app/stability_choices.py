@@ -1,7 +1,6 @@
 """What is chosen for each experiment of the Stability page, and what has been run of it, while the window lives."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from core.study.stability import Atlas, Experiment, ExperimentInfo, experiments
 from core.study.stability.resolution import axes_at
@@ -14,11 +13,9 @@ TITLES = {"coarse": "Coarse", "normal": "Normal", "fine": "Fine"}
 
 @dataclass(frozen=True, eq=False)
 class AtlasResult:
-    """An atlas, and what its runs said."""
+    """An atlas, and where it is from."""
 
     atlas: Atlas
-    remarks: Mapping[CellPlace, str] = field(default_factory=dict)
-    """Sentences of the cells; a saved atlas has none."""
     path: str = ""
     """The file it was opened from; empty: it was run here."""
 

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
 from app import __version__
 from app.stability_choices import AtlasResult
-from app.workers import Job, Progress
+from app.workers import Desk, Progress
 from core import Frame, render
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
@@ -70,76 +70,46 @@ class ShrunkFound:
     frame: Frame | None
 
 
-@dataclass(frozen=True, eq=False)
-class _Row:
-    serial: int
-    cells: tuple[CellRun, ...]
-
-
-class StabilityDesk(QObject):
-    """At most one run of a grid, one look at a cell and one shrinking at a time; the newest counts."""
-
-    cells_run = Signal(object)
-    """A tuple of `CellRun`: one row of a map of the present run."""
-    progressed = Signal(object, str)
-    ran = Signal(object)
-    """The finished `AtlasResult`."""
-    running_failed = Signal(object)
-    """The exception."""
-    running_ended = Signal()
-    """Done, failed or cancelled."""
-    case_found = Signal(object)
-    """A `CaseFound`."""
-    case_failed = Signal(object)
-    shrunk_found = Signal(object)
-    """A `ShrunkFound`."""
-    shrinking_failed = Signal(object)
-    dial_read = Signal(object)
-    """A tuple of ``DialReading``."""
-    dial_failed = Signal(object)
-    _row_run_in_thread = Signal(object)
+class StabilityDesk(Desk):
+    """At most one run of a grid, one look at a cell, one shrinking and one reading at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._serial = 0
-        self._running, self._looking, self._shrinking, self._reading = (Job(self) for _ in range(4))
-        self._running.progressed.connect(self.progressed)
-        self._running.succeeded.connect(self.ran)
-        self._running.failed.connect(self.running_failed)
-        self._running.ended.connect(self.running_ended)
-        self._looking.succeeded.connect(self.case_found)
-        self._looking.failed.connect(self.case_failed)
-        self._shrinking.succeeded.connect(self.shrunk_found)
-        self._shrinking.failed.connect(self.shrinking_failed)
-        self._reading.succeeded.connect(self.dial_read)
-        self._reading.failed.connect(self.dial_failed)
-        self._row_run_in_thread.connect(self._take_row)
+        self.running = self.add_job()
+        """Gives a tuple of `CellRun` for every row of a map, and in the end an `AtlasResult`."""
+        self.looking = self.add_job()
+        """Gives a `CaseFound`."""
+        self.shrinking = self.add_job()
+        """Gives a `ShrunkFound`."""
+        self.reading = self.add_job()
+        """Gives a tuple of ``DialReading``."""
 
     @property
     def is_running(self) -> bool:
         """Whether a grid is being run."""
-        return self._running.is_running
+        return self.running.is_running
 
     @property
     def is_shrinking(self) -> bool:
         """Whether a case is being made small."""
-        return self._shrinking.is_running
+        return self.shrinking.is_running
 
     def run(self, order: StressOrder) -> None:
         """Run an experiment; rows of cells come as they are done."""
-        self._serial += 1
-        serial, last = self._serial, len(order.axes[0].values) - 1
+        last = len(order.axes[0].values) - 1
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> AtlasResult:
-            remarks: dict[CellPlace, str] = {}
+        def work(
+            progress: Progress,
+            is_cancelled: Callable[[], bool],
+            row_done: Callable[[tuple[CellRun, ...]], None],
+        ) -> AtlasResult:
             row: list[CellRun] = []
 
             def cell_done(method: str, column: int, number: int, verdict: Verdict) -> None:
                 place = CellPlace(method, column, number)
-                remarks[place] = verdict.remark
                 row.append(CellRun(place, verdict))
                 if column == last:
-                    self._row_run_in_thread.emit(_Row(serial, tuple(row)))
+                    row_done(tuple(row))
                     row.clear()
 
             atlas = stress(
@@ -151,20 +121,9 @@ class StabilityDesk(QObject):
                 machine=machine(__version__),
                 cell_done=cell_done,
             )
-            return AtlasResult(atlas, remarks)
+            return AtlasResult(atlas)
 
-        self._running.start(work)
-
-    @Slot()
-    def cancel(self) -> None:
-        """Stop running; nothing comes of it."""
-        self._serial += 1
-        self._running.cancel()
-
-    @Slot(object)
-    def _take_row(self, row: _Row) -> None:
-        if row.serial == self._serial and self.is_running:
-            self.cells_run.emit(row.cells)
+        self.running.start_in_parts(work)
 
     def look(self, order: CaseOrder) -> None:
         """Run one cell once more and draw it."""
@@ -176,8 +135,8 @@ class StabilityDesk(QObject):
             frame = None if opening is None else drawn(opening.scene, opening.settings)
             return CaseFound(order, verdict, opening, frame)
 
-        self._shrinking.cancel()
-        self._looking.start(work)
+        self.shrinking.cancel()
+        self.looking.start(work)
 
     def shrink(self, order: CaseOrder) -> None:
         """Make one cell small."""
@@ -189,7 +148,7 @@ class StabilityDesk(QObject):
             )
             return ShrunkFound(order, shrunk, drawn(shrunk.scene, shrunk.settings))
 
-        self._shrinking.start(work)
+        self.shrinking.start(work)
 
     def read_dial(self, scene: ClipScene, pixel: tuple[int, int]) -> None:
         """Evaluate a pixel in every number format."""
@@ -197,20 +156,13 @@ class StabilityDesk(QObject):
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[DialReading, ...]:
             return readings_at(scene, pixel, is_cancelled)
 
-        self._reading.start(work)
+        self.reading.start(work)
 
     @Slot()
     def stop_looking(self) -> None:
         """Wait for no single cell any more."""
-        self._reading.cancel()
-        self._looking.cancel()
-        self._shrinking.cancel()
-
-    def shut_down(self) -> None:
-        """Cancel everything and wait for the threads."""
-        self._serial += 1
-        for job in (self._running, self._looking, self._shrinking, self._reading):
-            job.shut_down()
+        for job in (self.reading, self.looking, self.shrinking):
+            job.cancel()
 
 
 def readings_at(

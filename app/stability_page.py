@@ -3,55 +3,61 @@
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QVBoxLayout, QWidget
 
 from app.atlas_export import atlas_content
-from app.atlas_files import EXTENSION, AtlasFileError, load_atlas
-from app.export import copy_widget, export_widget
-from app.file_writing import whole_file
-from app.pages import Handlers, Page
+from app.atlas_files import EXTENSION, load_atlas
+from app.file_page import FilePage, FileWords
+from app.pages import Handlers
 from app.session import Session
 from app.shrunk_files import save_shrunk, shrunk_name
 from app.stability_case_presenter import StabilityCasePresenter
-from app.stability_choices import AtlasResult
 from app.stability_desk import StabilityDesk
 from app.stability_presenter import StabilityPresenter
 from app.state_files import EXTENSION as STATE_EXTENSION
+from core.study.stability import Atlas
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.elided_label import ElidedLabel
 from widgets.family_list import FamilyList
 from widgets.readout import Readout
 from widgets.stability_controls import StabilityControls
 
-FILE_KINDS = (
-    "Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
-    f"Atlas, to be opened again (*{EXTENSION});;Page as it is seen (*.pdf)"
+FILE_WORDS = FileWords(
+    noun="atlas",
+    view="maps",
+    nothing="run the experiment first (F5)",
+    kinds="Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
+    f"Atlas, to be opened again (*{EXTENSION});;Page as it is seen (*.pdf)",
+    export_tip="Write the maps, all cells or the whole atlas to a file (Ctrl+E)",
+    copy_tip="Put the maps on the clipboard",
 )
 CASE_KINDS = f"Scene, to be opened again (*{STATE_EXTENSION});;Python test (*.py)"
 
 
-class StabilityPage(Page):
+class StabilityPage(FilePage):
     """All panes of the Stability page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(FILE_WORDS, parent)
         self.desk = StabilityDesk(self)
         self.experiments, self.readout = FamilyList(self), Readout("Figures", self)
         self.experiments.setAccessibleName("Experiments")
         self.controls, self.maps, self.case = StabilityControls(self), AtlasView(self), CaseView(self)
+        self.curves = Chart("Severity along the axis", self), ChartLegend(self)
         self.shown_text = ElidedLabel(self)
         self.runs = StabilityPresenter(
-            session, self.desk, self.experiments, self.controls, self.maps, self.readout, self
+            session, self.desk, self.experiments, self.controls, self.maps, self.curves, self.readout, self
         )
-        self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.case, self)
+        self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.curves, self.case, self)
         self._lay_out()
         self.setFocusProxy(self.maps)
         self.runs.shown_text_changed.connect(self.shown_text.setText)
-        self.runs.message_sent.connect(self.message_sent)
-        self.runs.refused.connect(self.edit_refused)
-        self.opened.message_sent.connect(self.message_sent)
-        self.opened.refused.connect(self.edit_refused)
+        for presenter in (self.runs, self.opened):
+            presenter.message_sent.connect(self.message_sent)
+            presenter.refused.connect(self.edit_refused)
         self.opened.step_requested.connect(self.step_requested)
         self.case.save_requested.connect(self.ask_save_case)
 
@@ -81,7 +87,7 @@ class StabilityPage(Page):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addWidget(self.controls)
-        layout.addWidget(self.maps, 1)
+        layout.addWidget(self._seen(), 1)
         layout.addLayout(self._foot())
         self.rows = QSplitter(Qt.Orientation.Vertical, self)
         self.rows.addWidget(top)
@@ -91,13 +97,23 @@ class StabilityPage(Page):
         self.rows.setSizes([440, 240])
         return self.rows
 
+    def _seen(self) -> QWidget:
+        """Return the maps and the curves below them."""
+        self.seen = QSplitter(Qt.Orientation.Vertical, self)
+        curves = QSplitter(Qt.Orientation.Horizontal, self)
+        panes: tuple[QWidget, QWidget] = self.curves
+        for pane, stretch in zip(panes, (1, 0), strict=True):
+            curves.addWidget(pane)
+            curves.setStretchFactor(curves.count() - 1, stretch)
+        curves.setSizes([800, 150])
+        for pane in (self.maps, curves):
+            self.seen.addWidget(pane)
+            self.seen.setStretchFactor(self.seen.count() - 1, 1)
+        self.seen.setSizes([200, 200])
+        self.seen.setAccessibleName("Maps")
+        return self.seen
+
     def _foot(self) -> QHBoxLayout:
-        self.export_button = QPushButton("Export…", self)
-        self.export_button.setToolTip("Write the maps, all cells or the whole atlas to a file (Ctrl+E)")
-        self.export_button.clicked.connect(self.ask_export)
-        self.copy_button = QPushButton("Copy", self)
-        self.copy_button.setToolTip("Put the maps on the clipboard")
-        self.copy_button.clicked.connect(self.copy)
         row = QHBoxLayout()
         row.setSpacing(8)
         row.addWidget(self.shown_text, 1)
@@ -131,8 +147,8 @@ class StabilityPage(Page):
         return is_open
 
     def main_view(self) -> QWidget:
-        """Return what is copied: the maps."""
-        return self.maps
+        """Return what is copied: the maps, and the curves where there are some."""
+        return self.seen
 
     def stop(self) -> None:
         """End all runs."""
@@ -144,61 +160,29 @@ class StabilityPage(Page):
             "stability columns": self.columns,
             "stability left": self.left,
             "stability rows": self.rows,
+            "stability maps": self.seen,
         }
 
     # Files.
 
-    def open_path(self, path: str) -> None:
-        """Open a saved atlas and show it as what it is."""
-        try:
-            atlas = load_atlas(path)
-        except AtlasFileError as error:
-            self.edit_refused.emit(f"{error}. What is shown stays as it was.")
-            return
-        self.runs.take_saved(atlas, Path(path).name)
+    def show_file(self, path: str) -> None:
+        """Show a saved atlas."""
+        self.runs.take_saved(load_atlas(path), Path(path).name)
 
-    @Slot()
-    def ask_export(self) -> None:
-        """Ask where the atlas is to go, and write it there."""
-        result = self._finished()
-        if result is None:
-            return
-        name = f"stress-{result.atlas.experiment.name}.png"
-        path, _ = QFileDialog.getSaveFileName(self.window(), "Export atlas", name, FILE_KINDS)
-        if path:
-            self.export_to(path)
+    def file_stem(self) -> str:
+        """Return the name of a file of the atlas that is shown."""
+        atlas = self._finished()
+        return "" if atlas is None else f"stress-{atlas.experiment.name}"
 
-    def export_to(self, path: str) -> None:
-        """Write the atlas by the ending of the file."""
-        result = self._finished()
-        if result is None:
-            return
-        try:
-            self._write(result, path)
-        except (OSError, ValueError) as error:
-            self.edit_refused.emit(f"The atlas was not exported: {error}")
-        else:
-            self.message_sent.emit(f"Exported {Path(path).name}.")
+    def file_content(self, ending: str) -> bytes | None:
+        """Return the atlas in a file."""
+        atlas = self._finished()
+        assert atlas is not None
+        return atlas_content(atlas, ending)
 
-    def _write(self, result: AtlasResult, path: str) -> None:
-        content = atlas_content(result.atlas, Path(path).suffix.lower())
-        if content is None:
-            export_widget(self.maps, path)
-            return
-        with whole_file(path) as file:
-            file.write(content)
-
-    def _finished(self) -> AtlasResult | None:
-        if self.runs.result is None or self.runs.is_partial:
-            self.message_sent.emit("There is nothing to export yet: run the experiment first (F5).")
-            return None
-        return self.runs.result
-
-    @Slot()
-    def copy(self) -> None:
-        """Put the maps on the clipboard as a picture."""
-        copy_widget(self.maps)
-        self.message_sent.emit("Copied the maps.")
+    def _finished(self) -> Atlas | None:
+        result = self.runs.result
+        return None if result is None or self.runs.is_partial else result.atlas
 
     @Slot()
     def ask_save_case(self) -> None:
@@ -207,20 +191,12 @@ class StabilityPage(Page):
         if found is None:
             self.message_sent.emit("Shrink a failing cell first (S): the smallest case is worth a file.")
             return
-        name = f"{shrunk_name(found.order.experiment.info.name, found.order.place.key)}{STATE_EXTENSION}"
-        path, _ = QFileDialog.getSaveFileName(self.window(), "Save case", name, CASE_KINDS)
-        if path:
-            self.save_case_to(path)
+        stem = shrunk_name(found.order.experiment.info.name, found.order.place.key)
+        self.ask_path("Save case", f"{stem}{STATE_EXTENSION}", CASE_KINDS, self.save_case_to)
 
     def save_case_to(self, path: str) -> None:
         """Write the small case as a scene or as a Python test, by the ending of the file."""
         found = self.opened.shrunk
         assert found is not None
-        try:
-            save_shrunk(
-                Path(path), found.shrunk, f"{found.order.experiment.info.name}: {found.order.place.key}"
-            )
-        except (OSError, ValueError) as error:
-            self.edit_refused.emit(f"The case was not saved: {error}")
-        else:
-            self.message_sent.emit(f"Saved {Path(path).name}.")
+        title = f"{found.order.experiment.info.name}: {found.order.place.key}"
+        self.tell_written(path, lambda: save_shrunk(Path(path), found.shrunk, title), "saved", "case")

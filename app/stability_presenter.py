@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.asked_work import ListedWork, WorkWords
 from app.atlas_text import WORDS
 from app.session import Session
+from app.severity_curves import has_curves, severity_chart
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
 from app.stability_desk import CellRun, StabilityDesk, StressOrder
 from app.stability_records import (
@@ -19,16 +21,21 @@ from app.stability_records import (
     counts_sentence,
     experiment_text,
     method_titles,
+    place_on_curve,
     place_sentence,
     values_at,
 )
 from app.study_words import machine_words
+from core.arrays import Floats
 from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.open_scene import watertightness
 from core.study.stability.resolution import axes_at
 from widgets.atlas_records import UNKNOWN, CellPlace
 from widgets.atlas_view import AtlasView
+from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
+from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
 from widgets.message_bar import Progress
 from widgets.readout import Readout
@@ -38,17 +45,11 @@ NOTHING = (
     "One map for each method, one cell for each place: what came of a real run there. Press Run (F5); "
     "cells appear as they are run."
 )
-PERCENT = 100
+WORK_WORDS = WorkWords("Running was cancelled", "It could not be run", "the maps of before are as they were")
 
 
-class StabilityPresenter(QObject):
+class StabilityPresenter(ListedWork[ExperimentChoice]):
     """Keeps the choices and atlases of all experiments and shows those of one."""
-
-    message_sent = Signal(str)
-    refused = Signal(str)
-    shown_changed = Signal()
-    """Another atlas is shown: the chosen cell is another one, or none."""
-    shown_text_changed = Signal(str)
 
     def __init__(
         self,
@@ -57,16 +58,15 @@ class StabilityPresenter(QObject):
         experiments: FamilyList,
         controls: StabilityControls,
         maps: AtlasView,
+        curves: tuple[Chart, ChartLegend],
         readout: Readout,
         parent: QObject | None = None,
     ) -> None:
-        super().__init__(parent)
+        choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
+        super().__init__(desk.running, controls, WORK_WORDS, choices, parent)
         self._session, self._desk = session, desk
         self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
-        self._choices = choices_of_all() | {OPEN_SCENE: self._open_scene()}
-        self._current = next(iter(self._choices))
-        self._running = ""
-        """Experiment that is being run; empty: none."""
+        self._curves, self._legend = curves
         self._running_info: ExperimentInfo | None = None
         self._cells: dict[str, NDArray[np.int16]] = {}
         """Of the run that is going on."""
@@ -79,44 +79,27 @@ class StabilityPresenter(QObject):
         controls.cancel_requested.connect(self.cancel)
         maps.cell_hovered.connect(self._point_at)
         maps.cell_left.connect(self._point_away)
-        desk.cells_run.connect(self._take_cells)
-        desk.progressed.connect(self._show_progress)
-        desk.ran.connect(self._take_result)
-        desk.running_failed.connect(self._fail)
-        desk.running_ended.connect(self._finish)
+        self._curves.point_hovered.connect(self._point_at_curve)
+        self._legend.series_hovered.connect(self._curves.show_pointed)
+        for pane in curves:
+            pane.series_left.connect(self._point_away)
         session.document_changed.connect(self._take_document)
         self.refresh()
-
-    def _open_scene(self) -> ExperimentChoice:
-        """Return the experiment on the scene that is open now."""
-        document = self._session.document
-        experiment = watertightness(document.scene, document.title)
-        return ExperimentChoice(experiment.info, experiment)
 
     @Slot()
     def _take_document(self) -> None:
         """Make the experiment on the open scene one on the scene that is open now, unless it has been run."""
         if self._choices[OPEN_SCENE].result is None and self._running != OPEN_SCENE:
-            self._choices[OPEN_SCENE] = self._open_scene()
+            self._choices[OPEN_SCENE] = open_scene_choice(self._session)
             if self._current == OPEN_SCENE:
                 self.refresh()
 
     # What is shown.
 
     @property
-    def choice(self) -> ExperimentChoice:
-        """The experiment that is shown."""
-        return self._choices[self._current]
-
-    @property
     def result(self) -> AtlasResult | None:
         """What has been run of it, or opened."""
         return self.choice.result
-
-    @property
-    def is_partial(self) -> bool:
-        """Whether the experiment that is shown is being run."""
-        return bool(self._running) and self._running == self._current
 
     @property
     def info(self) -> ExperimentInfo:
@@ -139,15 +122,11 @@ class StabilityPresenter(QObject):
     @Slot(str)
     def show_experiment(self, name: str) -> None:
         """Show another experiment."""
-        if name != self._current:
-            self._current, self._hover = name, None
-            self.refresh()
-            self.shown_changed.emit()
+        self._show_named(name)
 
-    def show_neighbour(self, direction: int) -> None:
-        """Show the next experiment of the list, or the one before."""
-        names = list(self._choices)
-        self.show_experiment(names[(names.index(self._current) + direction) % len(names)])
+    def _point_nowhere(self) -> None:
+        """Forget the cell that is pointed at."""
+        self._hover = None
 
     def refresh(self) -> None:
         """Show the experiment, its controls and its maps."""
@@ -166,8 +145,32 @@ class StabilityPresenter(QObject):
         else:
             self._maps.show_empty(NOTHING)
         self._maps.show_chosen(self.choice.chosen)
+        self._show_curves()
         self._show_readout()
         self.shown_text_changed.emit(self._shown_text())
+
+    def _show_curves(self) -> None:
+        """Draw severity against the axis, where there is one axis alone."""
+        info = self.info
+        for pane in (self._curves, self._legend):
+            pane.setVisible(has_curves(info))
+        if not has_curves(info):
+            return
+        picture = severity_chart(info.axes[0], self._severities(), method_titles(info.methods))
+        if isinstance(picture, ChartEmpty):
+            self._curves.show_empty(picture)
+        else:
+            self._curves.show_picture(picture)
+        self._legend.show_series(picture.series if isinstance(picture, ChartPicture) else ())
+
+    def _severities(self) -> dict[str, Floats]:
+        """Return by method the severities (N,) along the first axis, NaN where nothing has been run."""
+        if self.result is not None and not self.is_partial:
+            return {each.method: each.severity[0] for each in self.result.atlas.maps}
+        found = {key: np.full(cells.shape[1], np.nan) for key, cells in self.cells.items()}
+        for place, verdict in self._verdicts.items() if self.is_partial else ():
+            found[place.key][place.column] = verdict.severity
+        return found
 
     def _shown_text(self) -> str:
         result = self.result
@@ -189,6 +192,10 @@ class StabilityPresenter(QObject):
         self._hover = place
         self._show_readout()
 
+    @Slot(str, int)
+    def _point_at_curve(self, method: str, index: int) -> None:
+        self._point_at(place_on_curve(self.info, method, index))
+
     @Slot()
     def _point_away(self) -> None:
         self._hover = None
@@ -196,6 +203,9 @@ class StabilityPresenter(QObject):
 
     def _show_readout(self) -> None:
         place = self._hover or self.choice.chosen
+        key, column = ("", -1) if place is None else (place.key, place.column)
+        self._curves.show_pointed(key, column)
+        self._legend.show_pointed(key)
         if place is None or not self.is_shown(place):
             self._readout.show_text(experiment_text(self.choice))
             self._maps.canvas.setAccessibleDescription("")
@@ -222,7 +232,7 @@ class StabilityPresenter(QObject):
         result = self.result
         assert result is not None
         each = next(each for each in result.atlas.maps if each.method == place.key)
-        return float(each.severity[place.row, place.column]), result.remarks.get(place, "")
+        return float(each.severity[place.row, place.column]), each.remark(place.column, place.row)
 
     def choose(self, place: CellPlace | None) -> None:
         """Keep a cell as the chosen one of this experiment."""
@@ -253,9 +263,9 @@ class StabilityPresenter(QObject):
                 "This version has no such experiment: a saved atlas can be looked at, not run again."
             )
             return
-        self._desk.cancel()
+        self._desk.running.cancel()
         if choice.name == OPEN_SCENE:
-            made = self._open_scene()
+            made = open_scene_choice(self._session)
             choice.info, choice.experiment = made.info, made.experiment
         experiment = choice.experiment
         assert experiment is not None
@@ -268,34 +278,22 @@ class StabilityPresenter(QObject):
         self.shown_changed.emit()
         self._desk.run(StressOrder(experiment, axes, choice.seed))
 
-    @Slot()
-    def cancel(self) -> None:
-        """Stop running; the maps of before are shown again."""
-        if self._desk.is_running:
-            self._desk.cancel()
-            self._forget_cell()
-            self.message_sent.emit("Running was cancelled; the maps of before are as they were.")
-
-    def _forget_cell(self) -> None:
+    def _come_to_nothing(self) -> None:
         """Choose no cell any more: the maps of before are shown again."""
         self.choice.chosen = self._hover = None
         self._maps.show_chosen(None)
         self._show_readout()
         self.shown_changed.emit()
 
-    @Slot(object, str)
-    def _show_progress(self, fraction: float, doing: str) -> None:
-        if self._running:
-            self._controls.show_progress(Progress(doing, round(fraction * PERCENT), PERCENT))
-
     @Slot(object)
-    def _take_cells(self, cells: tuple[CellRun, ...]) -> None:
+    def _take_part(self, cells: tuple[CellRun, ...]) -> None:
         for each in cells:
             place = each.place
             self._cells[place.key][place.row, place.column] = int(each.verdict.outcome)
             self._verdicts[place] = each.verdict
         if self.is_partial:
             self._maps.show_atlas(atlas_record(self.info, self._cells))
+            self._show_curves()
 
     @Slot(object)
     def _take_result(self, result: AtlasResult) -> None:
@@ -305,19 +303,10 @@ class StabilityPresenter(QObject):
         self.shown_changed.emit()
         self.message_sent.emit(f"Ran {choice.info.title.lower()}: {counts_sentence(result)}")
 
-    @Slot(object)
-    def _fail(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
-        self._forget_cell()
-        self.refused.emit(f"It could not be run: {error} The maps of before are as they were.")
-
-    @Slot()
-    def _finish(self) -> None:
-        """Go back to the maps of before, unless a result follows."""
+    def _put_back(self) -> None:
+        """Show the maps of before."""
         self._running, self._running_info = "", None
         self._cells, self._verdicts = {}, {}
-        self._controls.show_progress(None)
         self.refresh()
 
     # Saved atlases.
@@ -327,6 +316,11 @@ class StabilityPresenter(QObject):
         info = atlas.experiment
         choice = self._choices.setdefault(info.name, ExperimentChoice(info, None))
         choice.result, choice.seed, choice.chosen = AtlasResult(atlas, path=path), atlas.seed, None
-        self._current, self._hover = info.name, None
-        self.refresh()
-        self.shown_changed.emit()
+        self._turn_to(info.name)
+
+
+def open_scene_choice(session: Session) -> ExperimentChoice:
+    """Return the experiment on the scene that is open now."""
+    document = session.document
+    experiment = watertightness(document.scene, document.title)
+    return ExperimentChoice(experiment.info, experiment)

@@ -69,6 +69,19 @@ def values_at(info: ExperimentInfo, place: CellPlace) -> tuple[float, ...]:
     )
 
 
+def first_failure(cells: Cells, method: str) -> CellPlace | None:
+    """Return the first cell, row by row, at which a method fails; ``None``: there is none."""
+    kinds = cells[method]
+    fails = ~np.isin(kinds, (Outcome.RIGHT, Outcome.REFUSED, UNKNOWN))
+    row, column = divmod(int(fails.argmax()), kinds.shape[1])
+    return CellPlace(method, column, row) if fails.any() else None
+
+
+def place_on_curve(info: ExperimentInfo, method: str, index: int) -> CellPlace:
+    """Return the cell of a point of a curve along the only axis; a negative ``index`` counts from its end."""
+    return CellPlace(method, index % len(info.axes[0].values), 0)
+
+
 def place_sentence(info: ExperimentInfo, values: tuple[float, ...]) -> str:
     """Return the values of all axes in words."""
     parts = (

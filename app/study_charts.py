@@ -13,6 +13,9 @@ from widgets.stage_texts import family_title
 TIME = "time"
 """The cost that is time on this machine; every other one is a name of `Point.counts`."""
 
+MOST_NAMED = 16
+"""Marks of a chart whose names find a place beside them; of more there is a list too."""
+
 
 def costs_of(points: Sequence[Point]) -> list[str]:
     """Return what the methods can be charged with: time, then all counts."""
@@ -116,7 +119,8 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
     )
     if not series:
         return ChartEmpty("Every method refused this work; the text on the left says why.")
-    return ChartPicture(dial_axis(dial), cost_axis(cost, study.work.unit), series)
+    axes = dial_axis(dial), cost_axis(cost, study.work.unit)
+    return ChartPicture(*axes, series, is_named=len(series) <= MOST_NAMED)
 
 
 def dial_axis(dial: Dial) -> ChartAxis:

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from threading import Lock
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
 from app import __version__
 from app.document import TEACHING_LIMIT, TRACED_TOGETHER
 from app.opening_document import part_around
 from app.pages import StepRequest
-from app.workers import Job, Progress
+from app.workers import Desk, Progress
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, Pictures, Point, Study, machine, measure, opening, pictures
@@ -62,62 +62,31 @@ class PointsShown:
     openings: tuple[Opening | None, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class _Measured:
-    serial: int
-    point: Point
-
-
-class StudyDesk(QObject):
-    """At most one measurement, one drawing of pictures and one search at a time; the newest counts."""
-
-    point_measured = Signal(object)
-    """A ``Point`` of the present measurement, measured anew."""
-    progressed = Signal(object, str)
-    measured = Signal(object)
-    """The finished `StudyResult`."""
-    measuring_failed = Signal(object)
-    """The exception."""
-    measuring_ended = Signal()
-    """Done, failed or cancelled."""
-    pictures_drawn = Signal(object)
-    """A `PointsShown`."""
-    pictures_failed = Signal(object)
-    divergence_found = Signal(object)
-    """A ``StepRequest``, or a text: they never part ways."""
-    divergence_failed = Signal(object)
-    _measured_in_thread = Signal(object)
+class StudyDesk(Desk):
+    """At most one measurement, one drawing of pictures and one search at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         # A measurement that was cancelled may still be in its last run, which would disturb the next one.
         self._turn = Lock()
-        self._serial = 0
-        self._measuring, self._drawing, self._searching = Job(self), Job(self), Job(self)
-        self._measuring.progressed.connect(self.progressed)
-        self._measuring.succeeded.connect(self.measured)
-        self._measuring.failed.connect(self.measuring_failed)
-        self._measuring.ended.connect(self.measuring_ended)
-        self._drawing.succeeded.connect(self.pictures_drawn)
-        self._drawing.failed.connect(self.pictures_failed)
-        self._searching.succeeded.connect(self.divergence_found)
-        self._searching.failed.connect(self.divergence_failed)
-        self._measured_in_thread.connect(self._take_point)
+        self.measuring = self.add_job()
+        """Gives every ``Point`` as it is measured anew, and in the end a `StudyResult`."""
+        self.drawing = self.add_job()
+        """Gives a `PointsShown`."""
+        self.searching = self.add_job()
+        """Gives a ``StepRequest``, or a text: they never part ways."""
 
     @property
     def is_measuring(self) -> bool:
         """Whether a measurement is going on."""
-        return self._measuring.is_running
+        return self.measuring.is_running
 
     def measure(self, order: StudyOrder) -> None:
         """Measure; points come as they are measured."""
-        self._serial += 1
-        serial = self._serial
 
-        def point_done(point: Point) -> None:
-            self._measured_in_thread.emit(_Measured(serial, point))
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> StudyResult:
+        def work(
+            progress: Progress, is_cancelled: Callable[[], bool], point_done: Callable[[Point], None]
+        ) -> StudyResult:
             with self._turn:
                 study = measure(
                     order.family,
@@ -136,18 +105,7 @@ class StudyDesk(QObject):
                 )
             return StudyResult(study, order.scene)
 
-        self._measuring.start(work)
-
-    @Slot()
-    def cancel(self) -> None:
-        """Stop measuring; nothing comes of it."""
-        self._serial += 1
-        self._measuring.cancel()
-
-    @Slot(object)
-    def _take_point(self, measured: _Measured) -> None:
-        if measured.serial == self._serial and self.is_measuring:
-            self.point_measured.emit(measured.point)
+        self.measuring.start_in_parts(work)
 
     def draw(self, result: StudyResult, points: tuple[Point, ...]) -> None:
         """Draw the pictures of one or two points."""
@@ -157,13 +115,13 @@ class StudyDesk(QObject):
             drawn = tuple(pictures(study, point, scene) for point in points)
             return PointsShown(points, drawn, tuple(opening(study, point, scene) for point in points))
 
-        self._drawing.start(work)
+        self.drawing.start(work)
 
     @Slot()
     def stop_drawing(self) -> None:
         """Wait for no picture any more."""
-        self._drawing.cancel()
-        self._searching.cancel()
+        self.drawing.cancel()
+        self.searching.cancel()
 
     def find_divergence(self, shown: PointsShown) -> None:
         """Find the first place at which two points part ways."""
@@ -171,13 +129,7 @@ class StudyDesk(QObject):
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> StepRequest | str:
             return divergence_of(shown)
 
-        self._searching.start(work)
-
-    def shut_down(self) -> None:
-        """Cancel everything and wait for the threads."""
-        self._serial += 1
-        for job in (self._measuring, self._drawing, self._searching):
-            job.shut_down()
+        self.searching.start(work)
 
 
 def divergence_of(shown: PointsShown) -> StepRequest | str:

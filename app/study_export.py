@@ -8,9 +8,11 @@ from pathlib import Path
 from app.bench.chart_png import write_png
 from app.file_writing import whole_file
 from app.study_chart import study_svg
-from app.study_files import save_study
+from app.study_files import EXTENSION, study_json
 from core.study.record import Point, Study, pareto_front
 
+ENDINGS = (".svg", ".png", ".csv", EXTENSION)
+"""Of the files that a study is written to."""
 FIXED = ("method", "title", "rounds", "unit", "units")
 TIMES = ("median_seconds_per_unit", "lower_quartile", "upper_quartile")
 
@@ -65,8 +67,17 @@ def point_cells(study: Study, point: Point) -> dict[str, object]:
     return cells
 
 
-def study_picture(study: Study, measure: str | None, ending: str) -> bytes:
-    """Return the charts as the content of an SVG (``.svg``) or else a PNG file; ``measure`` as in `export_study`."""
+def study_content(study: Study, measure: str | None, ending: str) -> bytes | None:
+    """Return the content of a file with one of `ENDINGS`; ``None``: there is no such kind of file.
+
+    ``measure`` is the error of the chart, as in `export_study`.
+    """
+    if ending == ".csv":
+        return study_csv(study).encode()
+    if ending == EXTENSION:
+        return study_json(study).encode()
+    if ending not in ENDINGS:
+        return None
     svg = study_svg(study, measure)
     if ending == ".svg":
         return svg.encode()
@@ -88,15 +99,12 @@ def export_study(study: Study, folder: Path, measure: str | None = None) -> list
     OSError
         If a file cannot be written; the message is one sentence.
     """
-    stem = folder / f"study-{study.family}-{study.work.name}"
-    contents = {ending: study_picture(study, measure, ending) for ending in (".svg", ".png")}
-    contents[".csv"] = study_csv(study).encode()
     written = []
-    for ending, content in contents.items():
-        path = stem.with_name(stem.name + ending)
+    for ending in ENDINGS:
+        path = folder / f"study-{study.family}-{study.work.name}{ending}"
+        content = study_content(study, measure, ending)
+        assert content is not None
         with whole_file(path) as file:
             file.write(content)
         written.append(path)
-    path = stem.with_name(stem.name + ".json")
-    save_study(path, study)
-    return [*written, path]
+    return written

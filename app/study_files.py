@@ -99,6 +99,12 @@ def save_study(path: str | Path, study: Study) -> None:
     OSError
         If it cannot be written; what stood there stays. The message is one sentence.
     """
+    with whole_file(path) as file:
+        file.write(study_json(study).encode())
+
+
+def study_json(study: Study) -> str:
+    """Return the text of a study file."""
     record = StudyRecord(
         program="rasterscope study",
         version=VERSION,
@@ -117,8 +123,7 @@ def save_study(path: str | Path, study: Study) -> None:
             for value, points in study.growth.items()
         ),
     )
-    with whole_file(path) as file:
-        file.write(readable_json(record.model_dump(mode="json")).encode() + b"\n")
+    return readable_json(record.model_dump(mode="json")) + "\n"
 
 
 def _work_record(work: WorkKind) -> WorkRecord:

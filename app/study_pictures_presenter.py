@@ -13,6 +13,7 @@ from app.study_desk import PointsShown, StudyDesk
 from app.study_presenter import StudyPresenter
 from core.study.record import Pictures
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.grid_buffer import BufferKind, GridBuffer, number_text
 from widgets.study_pictures import PicturesRecord, StudyPictures
 from widgets.study_table import StudyTable
@@ -32,7 +33,7 @@ class StudyPicturesPresenter(QObject):
         self,
         studies: StudyPresenter,
         desk: StudyDesk,
-        charts: tuple[Chart, Chart],
+        charts: tuple[Chart | ChartLegend, ...],
         numbers: StudyTable,
         view: StudyPictures,
         parent: QObject | None = None,
@@ -45,10 +46,10 @@ class StudyPicturesPresenter(QObject):
             chart.series_chosen.connect(self.choose)
         numbers.row_chosen.connect(self._choose_row)
         studies.shown_changed.connect(self.close)
-        desk.pictures_drawn.connect(self._show_pictures)
-        desk.pictures_failed.connect(self._show_failure)
-        desk.divergence_found.connect(self._take_divergence)
-        desk.divergence_failed.connect(self._tell_no_divergence)
+        desk.drawing.succeeded.connect(self._show_pictures)
+        desk.drawing.failed.connect(self._show_failure)
+        desk.searching.succeeded.connect(self._take_divergence)
+        desk.searching.failed.connect(self._tell_no_divergence)
         view.step_requested.connect(self.step)
         view.divergence_requested.connect(self.step_to_divergence)
         view.copy_requested.connect(self.copy)

@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.asked_work import ListedWork, WorkWords
 from app.plan_points import chosen_points, plan_candidates
 from app.session import Session
-from app.study_charts import growth_of, numbers_of, scatter_of
+from app.study_charts import MOST_NAMED, growth_of, numbers_of, scatter_of
 from app.study_choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
 from app.study_desk import StudyDesk, StudyOrder, StudyResult
 from app.study_figures import point_text, study_text, table_of
@@ -17,6 +18,7 @@ from core.settings import Settings
 from core.study.record import Point, Study
 from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.chart import Chart
+from widgets.chart_legend import ChartLegend
 from widgets.chart_records import ChartEmpty, ChartPicture
 from widgets.family_list import FamilyList
 from widgets.message_bar import Progress
@@ -29,18 +31,13 @@ NOTHING = "Error against cost, one mark for each method. Choose the work above, 
 NO_GROWTH = (
     "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
 )
-PERCENT = 100
+WORK_WORDS = WorkWords(
+    "Measuring was cancelled", "It could not be measured", "what was measured before is as it was"
+)
 
 
-class StudyPresenter(QObject):
+class StudyPresenter(ListedWork[FamilyChoice]):
     """Keeps the choices and results of all families and shows those of one."""
-
-    message_sent = Signal(str)
-    refused = Signal(str)
-    shown_changed = Signal()
-    """Another study is shown, or another family: chosen points are gone."""
-    shown_text_changed = Signal(str)
-    """What the charts show, in words."""
 
     def __init__(
         self,
@@ -49,18 +46,15 @@ class StudyPresenter(QObject):
         families: FamilyList,
         controls: StudyControls,
         charts: tuple[Chart, Chart],
+        legend: ChartLegend,
         numbers: StudyTable,
         readout: Readout,
         parent: QObject | None = None,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), parent)
         self._session, self._desk = session, desk
         self._families, self._controls = families, controls
-        self._charts, self._table, self._readout = charts, numbers, readout
-        self._choices = choices_of_all()
-        self._current = next(iter(self._choices))
-        self._running: str = ""
-        """Family that is being measured; empty: none."""
+        self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
         self._partial: Study | None = None
         """What has been measured by now, of the family that is being measured."""
         self._numbers: Mapping[str, int] = {}
@@ -71,7 +65,7 @@ class StudyPresenter(QObject):
         self.refresh()
 
     def _connect(self) -> None:
-        controls, desk = self._controls, self._desk
+        controls = self._controls
         self._families.family_chosen.connect(self.show_family)
         controls.work_chosen.connect(self._choose_work)
         controls.dial_chosen.connect(self._choose_dial)
@@ -81,31 +75,16 @@ class StudyPresenter(QObject):
         controls.seed_chosen.connect(self._choose_seed)
         controls.measuring_requested.connect(self.measure)
         controls.cancel_requested.connect(self.cancel)
-        desk.progressed.connect(self._show_progress)
-        desk.point_measured.connect(self._take_point)
-        desk.measured.connect(self._take_result)
-        desk.measuring_failed.connect(self._fail)
-        desk.measuring_ended.connect(self._finish)
-        for chart in self._charts:
+        for chart in (*self._charts, self._legend):
             chart.series_hovered.connect(self._point_at)
             chart.series_left.connect(self._point_away)
 
     # What is shown.
 
     @property
-    def choice(self) -> FamilyChoice:
-        """The family that is shown."""
-        return self._choices[self._current]
-
-    @property
     def result(self) -> StudyResult | None:
         """What has been measured of it, or opened."""
         return self.choice.result
-
-    @property
-    def is_partial(self) -> bool:
-        """Whether the family that is shown is being measured."""
-        return self._running == self._current
 
     @property
     def study(self) -> Study | None:
@@ -122,16 +101,11 @@ class StudyPresenter(QObject):
     @Slot(str)
     def show_family(self, name: str) -> None:
         """Show another family."""
-        if name != self._current:
-            self._current = name
-            self._pointed = self._chosen = ""
-            self.refresh()
-            self.shown_changed.emit()
+        self._show_named(name)
 
-    def show_neighbour(self, direction: int) -> None:
-        """Show the next family of the list, or the one before."""
-        names = list(self._choices)
-        self.show_family(names[(names.index(self._current) + direction) % len(names)])
+    def _point_nowhere(self) -> None:
+        """Forget the points that are pointed at and chosen."""
+        self._pointed = self._chosen = ""
 
     def show_next_measure(self) -> None:
         """Show the next error on the vertical axis."""
@@ -170,8 +144,16 @@ class StudyPresenter(QObject):
                 chart.show_empty(picture)
             else:
                 chart.show_picture(picture)
+        self._show_legend(scatter)
         self._show_readout()
         self.shown_text_changed.emit(self._shown_text())
+
+    def _show_legend(self, scatter: ChartPicture | ChartEmpty) -> None:
+        """Show the list of names beside a chart that is too crowded to hold them all."""
+        is_crowded = isinstance(scatter, ChartPicture) and len(scatter.series) > MOST_NAMED
+        self._legend.setVisible(is_crowded)
+        if isinstance(scatter, ChartPicture) and is_crowded:
+            self._legend.show_series(scatter.series, scatter.front)
 
     def _ringed(self, study: Study) -> tuple[str, ...]:
         """Return the points that a plan chose for the scene that was measured."""
@@ -216,7 +198,7 @@ class StudyPresenter(QObject):
         self._show_pointed()
 
     def _show_pointed(self) -> None:
-        for chart in self._charts:
+        for chart in (*self._charts, self._legend):
             chart.show_pointed(self._pointed)
         self._show_readout()
 
@@ -285,7 +267,7 @@ class StudyPresenter(QObject):
             if plan is not None:
                 others = choice.family.candidates(settings)
                 order = replace(order, extra=plan_candidates(plan.plan, settings, others))
-        self._desk.cancel()
+        self._desk.measuring.cancel()
         self._running = choice.name
         self._partial = None
         self._numbers = {
@@ -293,7 +275,7 @@ class StudyPresenter(QObject):
             for number, each in enumerate((*choice.family.candidates(settings), *order.extra))
         }
         self._blank = _unmeasured(choice, order)
-        self._pointed = self._chosen = ""
+        self._point_nowhere()
         self._controls.show_progress(Progress("Preparing", 0, 0))
         self.shown_changed.emit()
         self._show_study()
@@ -306,21 +288,8 @@ class StudyPresenter(QObject):
             self.choice.measure = SAMPLED_COLOR.name
         self.measure()
 
-    @Slot()
-    def cancel(self) -> None:
-        """Stop measuring; what was measured before is shown again."""
-        if self._desk.is_measuring:
-            self._desk.cancel()
-            self.message_sent.emit("Measuring was cancelled; what was measured before is as it was.")
-
-    @Slot(object, str)
-    def _show_progress(self, fraction: float | None, doing: str) -> None:
-        if self._running:
-            done = 0 if fraction is None else round(fraction * PERCENT)
-            self._controls.show_progress(Progress(doing, done, 0 if fraction is None else PERCENT))
-
     @Slot(object)
-    def _take_point(self, point: Point) -> None:
+    def _take_part(self, point: Point) -> None:
         points = {each.method: each for each in (self._partial or self._blank).points} | {point.method: point}
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
         self._partial = replace(self._blank, points=tuple(in_order))
@@ -331,21 +300,12 @@ class StudyPresenter(QObject):
     def _take_result(self, result: StudyResult) -> None:
         choice = self._choices[result.study.family]
         choice.take(result)
-        self._finish()
+        self.refresh()
         self.message_sent.emit(f"Measured {choice.title.lower()}.")
 
-    @Slot(object)
-    def _fail(self, error: Exception) -> None:
-        self._finish()
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
-        self.refused.emit(f"It could not be measured: {error} What was measured before is as it was.")
-
-    @Slot()
-    def _finish(self) -> None:
-        """Go back to what was measured before, unless a result or a reason follows."""
+    def _put_back(self) -> None:
+        """Show what was measured before."""
         self._running, self._partial = "", None
-        self._controls.show_progress(None)
         self.refresh()
 
     # Saved studies.
@@ -355,10 +315,7 @@ class StudyPresenter(QObject):
         if study.family not in self._choices:
             self._choices[study.family] = choice_of_saved(study)
         self._choices[study.family].take(StudyResult(study, path=path))
-        self._current = study.family
-        self._pointed = self._chosen = ""
-        self.refresh()
-        self.shown_changed.emit()
+        self._turn_to(study.family)
 
 
 def _unmeasured(choice: FamilyChoice, order: StudyOrder) -> Study:

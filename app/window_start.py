@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
@@ -12,12 +13,16 @@ from app.export import export_widget
 from app.look import THEMES, the_application
 from app.main_window import MainWindow
 from app.open_any import Opened, open_any
+from app.page_table import page_of_file
 from app.preferences import Preferences, load_preferences
 from core.picture.workers import BandWorkers
 from core.settings import Settings
 from lessons.scenes import CATALOGUE
 from widgets.message_bar import MessageKind
 from widgets.theme import DARK, LIGHT, Theme, apply_theme
+
+if TYPE_CHECKING:
+    from app.page_filling import PageContent
 
 
 def theme_of(name: str, application: QApplication) -> Theme:
@@ -82,11 +87,14 @@ def grab_window(
     step: int | None = None,
     view: str | None = None,
     choose: Callable[[Settings], Settings] | None = None,
+    content: "PageContent | None" = None,
 ) -> None:
     """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
 
     Parameters
     ----------
+    target : str
+        A mesh, a state, the name of a built-in scene, or a saved study or atlas, which is shown on its page.
     stage : str, optional
         A stage of ``core.STAGES``; by default the one that a state file was saved at, or ``raster``.
     step : int, optional
@@ -95,15 +103,18 @@ def grab_window(
         Main view, as ``pixels`` or ``scene``.
     choose : callable, optional
         Takes the document's settings and returns those that are shown.
+    content : PageContent, optional
+        Another page, and what it is filled with; by default the Step page, or that of a saved study or atlas.
 
     Raises
     ------
     ValueError, OSError
-        If the file cannot be opened, the picture not be written, or there is no such view.
+        If the file cannot be opened, the picture not be written, or there is no such view, family or experiment.
     """
     application = the_application()
     apply_theme(application, theme_of(theme, application))
-    opened = open_any(target)
+    is_saved = bool(page_of_file(target))
+    opened = Opened(open_document(CATALOGUE[0].make(), CATALOGUE[0].title)) if is_saved else open_any(target)
     document = opened.document
     if choose is not None:
         document = replace(document, settings=choose(document.settings))
@@ -118,9 +129,24 @@ def grab_window(
     window.resize(*size)
     window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)
     window.show()
-    for _ in range(20):
-        application.processEvents()
-    window.page.settle()
-    export_widget(window, path)
-    window.hide()
-    window.page.views.stop()
+    try:
+        if is_saved or content is not None:
+            _fill(window, target if is_saved else "", content)
+        for _ in range(20):
+            application.processEvents()
+        window.page.settle()
+        export_widget(window, path)
+    finally:
+        window.hide()
+        for page in window.pages.made:
+            page.stop()
+
+
+def _fill(window: MainWindow, saved: str, content: "PageContent | None") -> None:
+    """Show a saved study or atlas, or fill a page."""
+    from app.page_filling import fill_page, open_saved  # All pages come along: not before one is wanted.
+
+    if saved:
+        open_saved(window, saved)
+    elif content is not None:
+        fill_page(window, content)

@@ -7,21 +7,24 @@ from PySide6.QtCore import QObject, QThread, Signal, Slot
 
 Progress = Callable[[float | None, str], None]
 Work = Callable[[Progress, Callable[[], bool]], Any]
+PartWork = Callable[[Progress, Callable[[], bool], Callable[[Any], None]], Any]
+"""Work that gives parts of its result as they are done."""
 
 
 class _Worker(QThread):
     progressed = Signal(object, str)
+    part_done = Signal(object)
     succeeded = Signal(object)
     failed = Signal(object)
 
-    def __init__(self, work: Work, parent: QObject | None = None) -> None:
+    def __init__(self, work: PartWork, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._work = work
 
     def run(self) -> None:
         """Do the work; whatever it raises goes to the GUI thread."""
         try:
-            result = self._work(self.progressed.emit, self.isInterruptionRequested)
+            result = self._work(self.progressed.emit, self.isInterruptionRequested, self.part_done.emit)
         except Exception as error:
             self.failed.emit(error)
         else:
@@ -33,6 +36,8 @@ class Job(QObject):
 
     progressed = Signal(object, str)
     """Fraction done (``None``: not known) and what is being done."""
+    part_done = Signal(object)
+    """A part of the result, of work that was started in parts."""
     succeeded = Signal(object)
     failed = Signal(object)
     """The exception."""
@@ -51,10 +56,15 @@ class Job(QObject):
 
     def start(self, work: Work) -> None:
         """Begin ``work(progress, is_cancelled)``."""
+        self.start_in_parts(lambda progress, is_cancelled, _: work(progress, is_cancelled))
+
+    def start_in_parts(self, work: PartWork) -> None:
+        """Begin ``work(progress, is_cancelled, part_done)``."""
         self.cancel()
         worker = _Worker(work, self)
         self._worker = worker
         worker.progressed.connect(self._progress)
+        worker.part_done.connect(self._take_part)
         worker.succeeded.connect(self._succeed)
         worker.failed.connect(self._fail)
         worker.finished.connect(self._retire)
@@ -82,6 +92,11 @@ class Job(QObject):
             self.progressed.emit(fraction, doing)
 
     @Slot(object)
+    def _take_part(self, part: object) -> None:
+        if self.sender() is self._worker:
+            self.part_done.emit(part)
+
+    @Slot(object)
     def _succeed(self, result: object) -> None:
         if self.sender() is self._worker:
             self._finish()
@@ -102,3 +117,21 @@ class Job(QObject):
     @Slot()
     def _retire(self) -> None:
         self._retired = [worker for worker in self._retired if worker.isRunning()]
+
+
+class Desk(QObject):
+    """The jobs of a page: each does at most one piece of work at a time, and the newest counts."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._jobs: list[Job] = []
+
+    def add_job(self) -> Job:
+        """Return another job of the page."""
+        self._jobs.append(Job(self))
+        return self._jobs[-1]
+
+    def shut_down(self) -> None:
+        """Cancel everything and wait for the threads."""
+        for job in self._jobs:
+            job.shut_down()

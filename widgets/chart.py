@@ -36,15 +36,21 @@ class Chart(ChartCanvas):
 
     series_hovered = Signal(str)
     """Key of the series under the pointer, or gone to by an arrow key."""
+    point_hovered = Signal(str, int)
+    """The same with the number of the point in its series; -1 is the last."""
     series_left = Signal()
     """The pointer is on no point any more."""
     series_chosen = Signal(str, bool)
     """Key of a series that was clicked or entered, and whether Ctrl or Shift asks for it beside another one."""
+    point_chosen = Signal(str, int)
+    """Key of a series and number of the point in it that was clicked."""
 
     def __init__(self, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._empty = ChartEmpty("")
         self._pointed = ""
+        self._index = -1
+        """Which of its points."""
         self._marks: ChartMark = {}
         self._pressed_at: QPointF | None = None
         self._shows_focus = False
@@ -61,12 +67,12 @@ class Chart(ChartCanvas):
         """Show series; one that is no longer there is not pointed at any more."""
         super().show_picture(picture)
         if picture is None or self._pointed not in {series.key for series in picture.series}:
-            self._pointed = ""
+            self._pointed, self._index = "", -1
 
-    def show_pointed(self, key: str) -> None:
-        """Mark the series that is pointed at elsewhere; empty: none."""
-        if key != self._pointed:
-            self._pointed = key
+    def show_pointed(self, key: str, index: int = -1) -> None:
+        """Mark the series that is pointed at elsewhere, at its last point or another one; empty: none."""
+        if (key, index) != (self._pointed, self._index):
+            self._pointed, self._index = key, index
             self.viewport().update()
 
     def show_marks(self, marks: ChartMark) -> None:
@@ -93,40 +99,44 @@ class Chart(ChartCanvas):
         if pressed_at is None or event.button() != Qt.MouseButton.LeftButton:
             return
         moved = event.position() - pressed_at
-        key = self._near(event.position())
+        key, index = self._near(event.position())
         if key and hypot(moved.x(), moved.y()) <= _CLICK:
             self.series_chosen.emit(key, bool(event.modifiers() & _ADDS))
+            self.point_chosen.emit(key, index)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Show everything, after a double click beside the points."""
         super().mouseDoubleClickEvent(event)
-        if not self._near(event.position()):
+        if not self._near(event.position())[0]:
             self.fit()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Point at the nearest series."""
         super().mouseMoveEvent(event)
-        self._point_at(self._near(event.position()))
+        self._point_at(*self._near(event.position()))
 
     def leaveEvent(self, event: QEvent) -> None:
         """Point at nothing."""
         super().leaveEvent(event)
         self._point_at("")
 
-    def _near(self, at: QPointF) -> str:
-        """Return the key of the nearest point that is near, or nothing."""
-        distances = [(hypot(p.x() - at.x(), p.y() - at.y()), key) for key, p in self.places()]
+    def _near(self, at: QPointF) -> tuple[str, int]:
+        """Return key and number of the nearest point that is near, or no key."""
+        distances = [(hypot(p.x() - at.x(), p.y() - at.y()), key, index) for key, index, p in self.points()]
         near = [found for found in distances if found[0] <= _NEAR]
-        return min(near)[1] if near else ""
+        return min(near)[1:] if near else ("", -1)
 
-    def _point_at(self, key: str) -> None:
-        if key == self._pointed:
+    def _point_at(self, key: str, index: int = -1) -> None:
+        if (key, index) == (self._pointed, self._index):
             return
-        self.show_pointed(key)
-        if key:
-            self.series_hovered.emit(key)
-        else:
+        is_another = key != self._pointed
+        self.show_pointed(key, index)
+        if not key:
             self.series_left.emit()
+            return
+        if is_another:
+            self.series_hovered.emit(key)
+        self.point_hovered.emit(key, index)
 
     # Keyboard.
 
@@ -217,7 +227,7 @@ class Chart(ChartCanvas):
         reach = 0.9 * self.mark_size()
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for series in picture.series:
-            at = self.place_of(series.key)
+            at = self.place_of(series.key, self._index if series.key == self._pointed else -1)
             if at is not None and series.key in picture.ringed:
                 painter.setPen(QPen(QColor(theme.text), 2.0))
                 for share in (1.0, 1.4):
@@ -227,7 +237,10 @@ class Chart(ChartCanvas):
                 painter.drawEllipse(at, reach, reach)
 
     def _paint_names(self, painter: QPainter, picture: ChartPicture) -> None:
-        """Write every series' name beside its last point, where there is room; what is pointed at comes first."""
+        """Write every series' name beside its last point, where there is room.
+
+        What is pointed at comes first, then what was chosen or stands out, then the front.
+        """
         theme = current_theme()
         font = text_font(theme, theme.small_px)
         metrics = QFontMetricsF(font)
@@ -240,15 +253,13 @@ class Chart(ChartCanvas):
         if len(picture.series) <= _FEW:
             for bar in self.bars():
                 places.take(bar)
-        wanted = sorted(
-            picture.series,
-            key=lambda s: (s.key != self._pointed, s.key not in self._marks, s.key not in picture.ringed),
-        )
+        first = ({self._pointed}, self._marks.keys(), set(picture.ringed), set(picture.front))
+        wanted = sorted(picture.series, key=lambda s: [s.key not in keys for keys in first])
         for series in wanted:
-            end = self.place_of(series.key)
-            if end is None:
-                continue
+            end = self.place_of(series.key, self._index if series.key == self._pointed else -1)
             letter = self._marks.get(series.key, "")
+            if end is None or not (picture.is_named or letter or series.key == self._pointed):
+                continue
             text = f"{letter}: {series.title}" if letter else series.title
             size = QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height())
             found = places.find(end, size, reach, _FURTHER)

@@ -77,13 +77,17 @@ class ChartCanvas(pg.GraphicsView):
 
     def places(self) -> list[tuple[str, QPointF]]:
         """Return the key and the place in the widget of every point that can be seen."""
+        return [(key, at) for key, _, at in self.points()]
+
+    def points(self) -> list[tuple[str, int, QPointF]]:
+        """Return key, number in its series and place in the widget of every point that can be seen."""
         area = self.plot_area().adjusted(-1, -1, 1, 1)
         found = []
         for key, places in self._places.items():
             for index in range(len(places)):
                 at = self.place_of(key, index)
                 if at is not None and area.contains(at):
-                    found.append((key, at))
+                    found.append((key, index, at))
         return found
 
     def bars(self) -> list[QRectF]:

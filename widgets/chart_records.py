@@ -51,6 +51,8 @@ class ChartPicture:
     """Keys of the series of one point that no other beats on both axes, the smallest x first."""
     ringed: tuple[str, ...] = ()
     """Keys of the series that stand out, whatever is pointed at: what a plan chose."""
+    is_named: bool = True
+    """Whether all names are written beside the marks; else a list beside the chart has them."""
 
 
 @dataclass(frozen=True)

@@ -262,13 +262,12 @@ def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bo
     is_steep = abs(dy) > abs(dx)  #: octant
     low, high = (min(b, d), max(b, d)) if is_steep else (min(a, c), max(a, c))
     columns = range(ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5) + 1)  #: columns
-    backward = (dy if is_steep else dx) < 0
-    low, high = (min(a, c), max(a, c)) if is_steep else (min(b, d), max(b, d))
-    rows = range(low // SUBPIXELS - 1, high // SUBPIXELS + 3)
+    du, dv, u0, v0 = (dy, dx, b, a) if is_steep else (dx, dy, a, b)
 
     pixels = []
-    for u in columns[::-1] if backward else columns:
-        for v in rows:
+    for u in columns[::-1] if du < 0 else columns:
+        nearest = floor((v0 + (SUBPIXELS * u - u0) * dv / du) / SUBPIXELS + 0.5)
+        for v in (nearest - 1, nearest, nearest + 1):
             column, row = (v, u) if is_steep else (u, v)
             x, y = SUBPIXELS * column - a, SUBPIXELS * row - b
             cross, dot = dx * y - dy * x, dx * x + dy * y  #: across

@@ -11,15 +11,9 @@ from collections.abc import Callable
 from math import ceil, floor
 from typing import Any
 
-from core.arrays import Floats
-from core.raster.line_records import check_segments
-from core.raster.lines import LISTINGS
-from core.settings import Settings
-from core.trace.lines import PIXEL_METHODS, line_set_up
+import numpy as np
 
-COUNTED = ("bresenham", "bresenham-lecture", "bresenham-float", "midpoint", "dda")
-"""Line methods whose listings are plain arithmetic; others make numbers of their own, which cannot be counted."""
-KINDS = {bool: "integer", int: "integer", float: "float"}
+KINDS = {bool: "integer", int: "integer", float: "float", np.float32: "float"}
 
 
 class CountedNumber:
@@ -43,8 +37,8 @@ class CountedNumber:
         return CountedNumber(result, self.tally)
 
     def _compared(self, rule: Callable[[Any, Any], bool], other: Any) -> bool:
-        kinds = {type(self.value), type(plain(other))}
-        kind = "float" if float in kinds else "integer" if kinds <= {int, bool} else "rational"
+        kinds = {KINDS.get(type(value), "rational") for value in (self.value, plain(other))}
+        kind = next(kind for kind in ("float", "rational", "integer") if kind in kinds)
         self.tally[f"{kind} comparisons"] += 1
         return rule(self.value, plain(other))
 
@@ -125,24 +119,3 @@ class CountedNumber:
 def plain(number: Any) -> Any:
     """Return the value of a number, counted or not."""
     return number.value if isinstance(number, CountedNumber) else number
-
-
-def count_line_operations(segments: Floats, size: tuple[int, int], settings: Settings) -> dict[str, int]:
-    """Run the listing of a line method on segments (L, 2, 2) and return how often it did what.
-
-    Parameters
-    ----------
-    segments : (L, 2, 2) float64
-        Window x and y in pixels.
-    size : (width, height)
-    settings : Settings
-        Their ``line`` is one of `COUNTED`.
-    """
-    checked = check_segments(segments, *size, settings.pixel_center)
-    set_up = line_set_up(checked, settings.line)
-    tally: Counter[str] = Counter()
-    takes_pixels = settings.line in PIXEL_METHODS
-    for first, second in zip(set_up["first_end"].tolist(), set_up["second_end"].tolist(), strict=True):
-        ends = [int(end) for end in (*first, *second)] if takes_pixels else [*first, *second]
-        LISTINGS[settings.line](*(CountedNumber(end, tally) for end in ends), False)
-    return dict(sorted(tally.items()))

@@ -9,7 +9,7 @@ from core.arrays import Floats, Integers
 from core.raster.line_records import LinePixels
 from core.raster.lines import draw_lines
 from core.settings import Settings
-from core.study.counted_numbers import COUNTED, count_line_operations
+from core.study.counted_listings import COUNTED, count_line_operations
 from core.study.exact.areas import distance_from_line, line_areas
 from core.study.family import Assignment, Errors, StudyFamily, Task
 from core.study.frame_task import per_million, scalar_pictures

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.atlas_export import atlas_json
+from core.study.stability import Axis, experiments, stress
 from tests.app.cli_runs import refused, run_program
 
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}
@@ -50,9 +52,68 @@ def test_methods_are_those_that_were_asked_for(tmp_path):
     assert (plain != smooth).any(axis=2).mean() > 0.01
 
 
+def test_pages_are_filled(tmp_path):
+    step = shot(tmp_path, "shared-edge")
+    lines = shot(tmp_path, "shared-edge", *["--page", "compare", "--show", "visibility", "--work", "cycle"])
+    maps = shot(tmp_path, "shared-edge", *["--page", "stability", "--show", "painters-cycle"])
+    plan = shot(tmp_path, "shared-edge", "--page", "plan")
+    pictures = [step, lines, maps, plan]
+    for number, first in enumerate(pictures):
+        for second in pictures[:number]:
+            assert (first != second).any(axis=2).mean() > 0.05
+
+
+def test_what_is_behind_a_mark_is_opened(tmp_path):
+    page = ["shared-edge", *["--page", "stability", "--show", "precision-dial"]]
+    closed, opened = shot(tmp_path, *page), shot(tmp_path, *page, "--choose", "coverage=float32")
+    lower = slice(560, 760), slice(290, 1280)
+    assert (closed[lower] != opened[lower]).any(axis=2).mean() > 0.2
+
+
+def test_a_saved_atlas_is_shown_as_it_is(tmp_path):
+    axes = tuple(
+        Axis(a.name, a.title, a.unit, a.values[:3], True) for a in experiments.get("slivers").info.axes
+    )
+    atlas = tmp_path / "maps" / "atlas.json"
+    atlas.parent.mkdir()
+    atlas.write_text(atlas_json(stress("slivers", axes=axes)))
+    (tmp_path / "picture").mkdir()
+    saved, step = shot(tmp_path / "picture", str(atlas)), shot(tmp_path / "picture", "shared-edge")
+    assert (saved != step).any(axis=2).mean() > 0.05
+
+
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [
+        (["cube", "--page", "plan", "--stage", "raster"], "--stage: it is for page step, got page plan"),
+        (["cube", "--show", "slivers"], "--show: it is for page compare or stability, got page step"),
+        (
+            ["cube", "--page", "stability", "--work", "any"],
+            "--work: it is for page compare, got page stability",
+        ),
+        (["study.json", "--step", "3"], "--step: it is for page step, got a saved study or atlas"),
+        (["study.json", "--page", "step"], "a saved study or atlas has its own, got study.json"),
+        (["cube", "--page", "lesson"], "invalid choice: 'lesson'"),
+    ],
+)
+def test_options_of_another_page_are_wrong_usage(tmp_path, arguments, wanted):
+    line = refused(2, "screenshot", *arguments, "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
+    assert wanted in line
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (["cube", "-o", "a.png", "--page", "compare", "--show", "tea"], "family must be one of "),
+        (
+            ["cube", "-o", "a.png", "--page", "compare", "--show", "line", "--work", "x"],
+            "work of line must be one",
+        ),
+        (
+            ["cube", "-o", "a.png", "--page", "stability", "--show", "tea"],
+            "experiment must be one of precision-dial",
+        ),
+        (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no such file"),
         (["gone.obj", "-o", "a.png"], "there is no file gone.obj"),
         (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
         (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),

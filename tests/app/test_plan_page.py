@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.compare_page import ComparePage
@@ -41,6 +42,7 @@ def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.desk.is_looking
     qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    QApplication.processEvents()  # Rows that have just been made are shown a moment later.
     shown = page.plans.shown
     assert shown is not None
     assert shown.report is not None

@@ -1,7 +1,5 @@
 """The Stability page: running, maps, cells, the case behind a cell, shrinking, and files; with real runs."""
 
-import csv
-import json
 from pathlib import Path
 
 import numpy as np
@@ -11,55 +9,21 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.atlas_export import atlas_json
-from app.atlas_files import AtlasFileError, load_atlas
 from app.main_window import MainWindow
 from app.stability_desk import StressOrder
 from app.stability_page import StabilityPage
 from app.state_files import load_state
-from core.study.stability import Atlas, Axis, Outcome, experiments, stress
+from core.study.stability import Axis, Outcome, experiments, stress
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.resolution import axes_at
+from tests.app.stability_pages import EXCLUSIVE, LEFT, click, run, stability_page, status, wait_for_case
 from widgets.atlas_records import UNKNOWN, CellPlace
 from widgets.dial_table import HEAD
-
-EXCLUSIVE = "fill_rule=exclusive"
-LEFT = Qt.MouseButton.LeftButton
 
 
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
-    """Return the page at a mesh whose edges pass through pixel centres, on a coarse grid."""
-    QTest.keyClick(window, Qt.Key.Key_3, Qt.KeyboardModifier.AltModifier)
-    found = window.pages.current
-    assert isinstance(found, StabilityPage)
-    found.runs.show_experiment("shared-edges")
-    found.runs.choice.resolution = "coarse"
-    found.runs.refresh()
-    return found
-
-
-def run(page: StabilityPage, qtbot: QtBot) -> Atlas:
-    """Run by the key and wait."""
-    QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.desk.is_running
-    qtbot.waitUntil(lambda: not page.desk.is_running, timeout=60000)
-    assert page.runs.result is not None
-    return page.runs.result.atlas
-
-
-def click(page: StabilityPage, place: CellPlace) -> None:
-    QTest.mouseClick(page.maps.canvas, LEFT, pos=page.maps.canvas.cell_area(place).center())
-
-
-def wait_for_case(page: StabilityPage, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: page.opened.found is not None, timeout=60000)
-
-
-def status(page: StabilityPage) -> str:
-    window = page.window()
-    assert isinstance(window, MainWindow)
-    return window.statusBar().currentMessage()
+    return stability_page(window)
 
 
 def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage) -> None:
@@ -79,7 +43,7 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
         assert record is not None
         unknown.append(record.count(UNKNOWN))
 
-    page.desk.cells_run.connect(count_unknown)
+    page.desk.running.part_done.connect(count_unknown)
     atlas = run(page, qtbot)
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
@@ -329,77 +293,6 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
     window.session.set_setting("fill", "blocks")
     assert page.runs.result is not None
     assert page.runs.result.atlas is atlas, "what has been run stays when the scene changes"
-
-
-def test_an_atlas_is_exported_and_opened_again(
-    window: MainWindow, page: StabilityPage, qtbot: QtBot, tmp_path: Path
-) -> None:
-    atlas = run(page, qtbot)
-    for ending in ("json", "csv", "svg", "png", "pdf"):
-        page.export_to(str(tmp_path / f"atlas.{ending}"))
-    assert (tmp_path / "atlas.png").read_bytes().startswith(b"\x89PNG")
-    assert (tmp_path / "atlas.pdf").read_bytes().startswith(b"%PDF")
-    rows = list(csv.DictReader((tmp_path / "atlas.csv").read_text().splitlines()))
-    assert len(rows) == sum(each.outcome.size for each in atlas.maps)
-    assert atlas.experiment.claim.split(";")[0] in (tmp_path / "atlas.svg").read_text().replace("\n", " ")
-    assert {row["date"] for row in rows} == {atlas.machine["date"]}
-    page.runs.choice.result = None
-    window.pages.show_page("step")
-    window.open_path(str(tmp_path / "atlas.json"))
-    assert window.pages.current_name == "stability"
-    assert page.runs.result is not None
-    again = page.runs.result.atlas
-    assert (again.experiment, again.seed, again.machine) == (atlas.experiment, atlas.seed, atlas.machine)
-    for first, second in zip(atlas.maps, again.maps, strict=True):
-        assert np.array_equal(first.outcome, second.outcome)
-        assert np.array_equal(first.severity, second.severity, equal_nan=True)
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
-    wait_for_case(page, qtbot)
-    assert "pixels missing" in page.case.verdict.text(), "the remark comes of a new run"
-
-
-def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
-    page: StabilityPage, qtbot: QtBot, tmp_path: Path
-) -> None:
-    run(page, qtbot)
-    page.export_to(str(tmp_path / "atlas.json"))
-    record = json.loads((tmp_path / "atlas.json").read_text())
-    record["experiment"], record["title"] = "gone", "An experiment of another version"
-    (tmp_path / "atlas.json").write_text(json.dumps(record))
-    page.open_path(str(tmp_path / "atlas.json"))
-    assert page.experiments.currentItem().text() == "An experiment of another version"
-    assert not page.controls.running.start_button.isEnabled()
-    click(page, CellPlace(EXCLUSIVE, 0, 0))
-    assert "no such experiment" in page.case.verdict.text()
-
-
-@pytest.mark.parametrize(
-    ("change", "wanted"),
-    [
-        (lambda record: record.update(version=2), "it is of version 2, and this Rasterscope opens version 1"),
-        (lambda record: record.update(program="another"), "it is not an atlas of Rasterscope"),
-        (lambda record: record["maps"][0]["outcome"].pop(), "maps must have"),
-        (lambda record: record["maps"][0]["outcome"][0].__setitem__(0, 99), "outcomes must be below"),
-        (lambda record: record["outcomes"].__setitem__(0, "perfect"), "an outcome must be one of"),
-        (lambda record: record["axes"][0].pop("unit"), "unit"),
-    ],
-)
-def test_a_broken_atlas_is_refused_with_a_sentence(tmp_path: Path, change: object, wanted: str) -> None:
-    info = experiments.get("shared-edges").info
-    axes = tuple(Axis(a.name, a.title, a.unit, a.values[:1], a.is_logarithmic) for a in info.axes)
-    record = json.loads(atlas_json(stress("shared-edges", axes=axes)))
-    assert callable(change)
-    change(record)
-    (tmp_path / "broken.json").write_text(json.dumps(record))
-    with pytest.raises(AtlasFileError, match=r"^broken\.json cannot be opened: ") as refused:
-        load_atlas(tmp_path / "broken.json")
-    assert wanted in str(refused.value)
-
-
-def test_a_study_still_opens_on_the_compare_page(window: MainWindow, tmp_path: Path) -> None:
-    (tmp_path / "study.json").write_text('{"program": "rasterscope study", "version": 1}')
-    window.open_path(str(tmp_path / "study.json"))
-    assert window.pages.current_name == "compare"
 
 
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:

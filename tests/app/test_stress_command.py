@@ -135,6 +135,7 @@ def test_every_cell_is_in_the_table(atlas) -> None:
     lost = found["coverage=snapped", 2.0**-12]
     assert lost["outcome"] == "hole"
     assert float(lost["severity"]) >= 1
+    assert lost["remark"] == "8 of 4096 pixels missing, 0 drawn too often"
     assert lost["processor"] == "abacus"
     assert found["coverage=exact", 2.0**-12]["outcome"] == "right"
 
@@ -147,6 +148,7 @@ def test_everything_is_in_the_json(atlas) -> None:
         assert saved["method"] == each.method
         assert saved["outcome"] == each.outcome.tolist()
         assert saved["severity"] == each.severity.tolist()
+        assert saved["remarks"] == [[each.remark(column, 0) for column in range(2)]]
 
 
 def test_the_drawing_has_a_square_for_every_cell(atlas) -> None:

@@ -1,11 +1,13 @@
 """Line clippers on segments along a border, of no length, and past a corner."""
 
+import re
+
 import numpy as np
 import pytest
 
 from core.study.exact.segments import clipped_ends
-from core.study.stability import Outcome, experiments
-from core.study.stability.coverage.line_clippers import PROMISED, judge_clip
+from core.study.stability import Outcome, experiments, stress
+from core.study.stability.coverage.line_clippers import PROMISED, judge_clip, stretch_text
 from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 
@@ -55,6 +57,21 @@ def test_rounded_crossings_err_at_a_corner_and_only_there(method: str) -> None:
     found = outcomes("segments-past-a-corner", method)
     assert Outcome.DOUBLE_HIT in found.values()
     assert {outcome for (offset, _), outcome in found.items() if abs(offset) > PROMISED} == {Outcome.RIGHT}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_remarks_are_sentences_with_short_numbers(name: str) -> None:
+    said = {remark for each in stress(name).maps for row in each.remarks for remark in row}
+    assert all(re.match(r"the (segment|ends) ", remark) for remark in said)
+    assert not [remark for remark in said if re.search(r"[\[\]]|[1-9]\d{4}", remark)]
+
+
+def test_a_remark_tells_where_a_wrong_stretch_lies() -> None:
+    level = np.array([[-9.0, 64.0 + 2.0**-45], [80.0, 64.0 + 2.0**-45]])
+    verdict = judge_clip(level, "cyrus-beck-lecture")
+    assert verdict.remark == "the segment is kept from (0, 64) to (64, 64), but lies outside"
+    assert stretch_text([[64.0, 64.0], [64.0, 64.0 + 2.0**-45]]) == "at (64, 64)"
+    assert stretch_text([[0.0, np.nan], [1.25, -np.inf]]) == "from (0, nan) to (1.25, -inf)"
 
 
 def test_the_reference_keeps_the_border() -> None:

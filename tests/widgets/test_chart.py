@@ -187,3 +187,18 @@ def test_a_closed_chart_leaves_another_theme_alone(chart: Chart, qapp: QApplicat
     apply_theme(qapp, DARK)
     apply_theme(qapp, LIGHT)
     assert chart.closed
+
+
+def test_a_point_of_a_line_is_told_with_its_number(chart: Chart, qtbot: QtBot) -> None:
+    line = ChartSeries("line", "Line", 0, np.array([1.0, 10.0, 100.0]), np.array([5.0, 0.0, 2.0]))
+    chart.show_picture(ChartPicture(ChartAxis("Width"), ChartAxis("Severity"), (line,), is_named=False))
+    place = chart.place_of("line", 1)
+    assert place is not None
+    with qtbot.waitSignal(chart.point_hovered) as hovered:
+        QTest.mouseMove(chart.viewport(), place.toPoint())
+    assert hovered.args == ["line", 1]
+    with qtbot.waitSignal(chart.point_chosen) as chosen:
+        QTest.mouseClick(chart.viewport(), Qt.MouseButton.LeftButton, pos=place.toPoint())
+    assert chosen.args == ["line", 1]
+    chart.show_pointed("line", 0)
+    assert chart.pointed == "line"

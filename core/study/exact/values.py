@@ -38,7 +38,7 @@ class ExactPlanes:
 
 def exact_planes(corners: Floats, size: tuple[int, int]) -> ExactPlanes:
     """Return the planes of a triangle given in clip space, (3, 4) float64, before snapping."""
-    placed = [homogeneous_corner(corner, size, False) for corner in corners]
+    placed = [homogeneous_corner(corner, size) for corner in corners]
     scale = lcm(*(value.denominator for corner in placed for value in corner))
     rows = [tuple(int(value * scale) for value in corner) for corner in placed]
     coefficients = []

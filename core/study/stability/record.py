@@ -66,10 +66,16 @@ class StabilityMap:
     """(rows, columns) uint8 `Outcome`, the second axis up, the first to the right; one row where there is one axis."""
     severity: Floats
     """(rows, columns) float64, how wrong: pixels, values; 0 where right, NaN where there is no number."""
+    remarks: tuple[tuple[str, ...], ...] = ()
+    """(rows, columns) what was said of each run, in a sentence; empty: nothing was kept."""
 
     def count(self, outcome: Outcome) -> int:
         """Return how many cells ended so."""
         return int(np.count_nonzero(self.outcome == outcome))
+
+    def remark(self, column: int, row: int) -> str:
+        """Return what was said of one run; empty: nothing."""
+        return self.remarks[row][column] if self.remarks else ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,18 +65,20 @@ def stress(
     maps = []
     for number, method in enumerate(info.methods):
         outcome, severity = np.zeros(len(places), np.uint8), np.zeros(len(places))
+        remarks = []
         for cell, place in enumerate(places):
             if is_cancelled is not None and is_cancelled():
                 raise StressCancelledError(f"{info.title} was cancelled")
             verdict = experiment.run(method, place, seed)
             outcome[cell], severity[cell] = int(verdict.outcome), verdict.severity
+            remarks.append(verdict.remark)
             if cell_done is not None:
                 cell_done(method, cell % columns, cell // columns, verdict)
             if progress is not None and cell % max(columns // 2, 1) == 0:
                 progress((number + cell / len(places)) / len(info.methods), method)
-        maps.append(
-            StabilityMap(method, method, outcome.reshape(rows, columns), severity.reshape(rows, columns))
-        )
+        said = tuple(tuple(remarks[row * columns : (row + 1) * columns]) for row in range(rows))
+        shape = rows, columns
+        maps.append(StabilityMap(method, method, outcome.reshape(shape), severity.reshape(shape), said))
     return Atlas(replace(info, axes=chosen), tuple(maps), seed, dict(machine or {}))
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from core import Settings, draw_picture
 from core.picture.workers.worth import COLOR, FRAGMENT, Load, load_of
-from tests.core.picture.test_workers import SCENES
+from tests.core.picture.band_scenes import SCENES
 
 
 @pytest.mark.parametrize("name", list(SCENES))

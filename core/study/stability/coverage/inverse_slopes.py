@@ -15,7 +15,7 @@ from core.arrays import Integers
 from core.raster.scanline_lecture import draw_triangle
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.exact.coverage import facing, homogeneous_corner
+from core.study.exact.coverage import facing, whole_corner
 from core.study.family import settings_of
 from core.study.record import Opening
 from core.study.stability.coverage.covered_pixels import count_cover, cover_test, on_its_lattice
@@ -84,14 +84,14 @@ def printed_cover(scene: ClipScene, settings: Settings) -> Integers:
     width, height = scene.size
     cover = np.zeros((height, width), np.int64)
     for corners in scene.clip:
-        placed = [homogeneous_corner(corner, scene.size, True) for corner in corners]
+        placed = [whole_corner(corner, scene.size, True) for corner in corners]
         if any(w <= 0 for _, _, w in placed):
             raise ValueError("every corner must lie in front of the eye")
         # The printed program knows no triangles without area: they are left out before it.
         if facing(placed) == 0:
             continue
         # Rounded, half up, to the pixel with the nearest centre: the one that the corner lies in.
-        whole: list[Any] = [(Fraction(floor(x / w)), Fraction(floor(y / w))) for x, y, w in placed]
+        whole: list[Any] = [(Fraction(x // w), Fraction(y // w)) for x, y, w in placed]
         for row, first, second in draw_triangle(*whole):
             start, stop = (floor(x + Fraction(1, 2)) for x in sorted((first, second)))
             if 0 <= row < height:

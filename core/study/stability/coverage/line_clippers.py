@@ -82,7 +82,7 @@ class LineClipExperiment:
             return f"{clipping}\nassert not clipped.is_kept[0]"
         tolerance = PROMISED * float(np.spacing(np.abs(segment).max()))
         return (
-            f"{clipping}\nassert clipped.is_kept[0]\nwanted = {_shown(wanted)}\n"
+            f"{clipping}\nassert clipped.is_kept[0]\nwanted = {_ends(wanted)}\n"
             f"np.testing.assert_allclose(clipped.segments[0], wanted, rtol=0, atol={tolerance})"
         )
 
@@ -99,12 +99,14 @@ def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SID
     if wanted is None:
         if not clipped.is_kept[0]:
             return Verdict(Outcome.RIGHT, 0.0, "the segment lies outside, and is dropped")
-        return Verdict(Outcome.DOUBLE_HIT, 1.0, f"kept from {clipped.segments[0].tolist()}, but lies outside")
+        kept = stretch_text(clipped.segments[0].tolist())
+        return Verdict(Outcome.DOUBLE_HIT, 1.0, f"the segment is kept {kept}, but lies outside")
     if not clipped.is_kept[0]:
-        return Verdict(Outcome.HOLE, 1.0, f"dropped, but {_shown(wanted)} lies inside")
+        inside = stretch_text(_ends(wanted))
+        return Verdict(Outcome.HOLE, 1.0, f"the segment is dropped, but lies inside {inside}")
     found = clipped.segments[0]
     if not np.isfinite(found).all():
-        return Verdict(Outcome.NOT_A_NUMBER, np.nan, f"the ends are {found.tolist()}")
+        return Verdict(Outcome.NOT_A_NUMBER, np.nan, f"the segment is kept {stretch_text(found.tolist())}")
     error = ulps_off(found, wanted, float(np.spacing(np.abs(segment).max())))
     remark = f"the ends are {error:.3g} ulp off"
     return Verdict(Outcome.RIGHT if error <= PROMISED else Outcome.WRONG_PICTURE, error, remark)
@@ -119,8 +121,20 @@ def ulps_off(found: Floats, wanted: Ends, ulp: float) -> float:
     )
 
 
-def _shown(ends: Ends) -> str:
-    return str([[float(value) for value in end] for end in ends])
+def _ends(ends: Ends) -> list[list[float]]:
+    """Return exact ends rounded to float64."""
+    return [[float(value) for value in end] for end in ends]
+
+
+def stretch_text(ends: list[list[float]]) -> str:
+    """Return in words where a stretch begins and ends: ``from (-9, 64) to (80, 64)``; ``at (64, 64)`` if it is short.
+
+    Notes
+    -----
+    Four digits are read, ulps are not: ends that read the same are told as one place.
+    """
+    first, second = ("(" + ", ".join(f"{value:.4g}" for value in end) + ")" for end in ends)
+    return f"at {first}" if first == second else f"from {first} to {second}"
 
 
 def along_the_border(place: tuple[float, ...]) -> Floats:

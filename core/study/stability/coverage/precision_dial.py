@@ -100,7 +100,7 @@ class _Case:
 
 
 def _exact_case(scene: ClipScene, triangle: int, pixel: tuple[int, int]) -> _Case:
-    placed = [homogeneous_corner(corner, scene.size, False) for corner in scene.clip[triangle]]
+    placed = [homogeneous_corner(corner, scene.size) for corner in scene.clip[triangle]]
     turn = facing(placed)
     x, y = (Fraction(2 * index + 1, 2) for index in pixel)
     values, sides = [], []

@@ -1,0 +1,53 @@
+"""The Stability page as the tests use it: on a coarse grid, run, pointed at."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.main_window import MainWindow
+from app.stability_page import StabilityPage
+from core.study.stability import Atlas
+from widgets.atlas_records import CellPlace
+
+EXCLUSIVE = "fill_rule=exclusive"
+
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+def stability_page(window: MainWindow) -> StabilityPage:
+    """Return the page at a mesh whose edges pass through pixel centres, on a coarse grid."""
+    QTest.keyClick(window, Qt.Key.Key_3, Qt.KeyboardModifier.AltModifier)
+    found = window.pages.current
+    assert isinstance(found, StabilityPage)
+    found.runs.show_experiment("shared-edges")
+    found.runs.choice.resolution = "coarse"
+    found.runs.refresh()
+    return found
+
+
+def run(page: StabilityPage, qtbot: QtBot) -> Atlas:
+    """Run by the key and wait."""
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    assert page.desk.is_running
+    qtbot.waitUntil(lambda: not page.desk.is_running, timeout=60000)
+    assert page.runs.result is not None
+    return page.runs.result.atlas
+
+
+def click(page: StabilityPage, place: CellPlace) -> None:
+    QTest.mouseClick(page.maps.canvas, LEFT, pos=page.maps.canvas.cell_area(place).center())
+
+
+def point_at(page: StabilityPage, place: CellPlace) -> None:
+    QTest.mouseMove(page.maps.canvas, page.maps.canvas.cell_area(place).center())
+
+
+def wait_for_case(page: StabilityPage, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: page.opened.found is not None, timeout=60000)
+
+
+def status(page: StabilityPage) -> str:
+    window = page.window()
+    assert isinstance(window, MainWindow)
+    return window.statusBar().currentMessage()

@@ -1,0 +1,119 @@
+"""Severity along the one axis of an experiment: in the chart, in the drawing, and linked with the maps."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.atlas_svg import atlas_svg
+from app.main_window import MainWindow
+from app.severity_curves import BELOW_ZERO, NOTHING_RUN, severity_chart
+from app.stability_page import StabilityPage
+from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
+from widgets.atlas_records import CellPlace
+from widgets.chart_records import ChartEmpty, ChartPicture
+
+AXIS = Axis("gap", "Gap", "pixels", (0.001, 0.01, 0.1), True)
+WEAK, STRONG = "coverage=float16", "coverage=exact"
+
+
+def hand_made(axis: Axis = AXIS) -> Atlas:
+    info = ExperimentInfo("gaps", "Gaps", "What?", (axis,), (WEAK, STRONG), "One fails.")
+    hole, right = Outcome.HOLE, Outcome.RIGHT
+    maps = (
+        StabilityMap(WEAK, WEAK, np.array([[hole, hole, right]], np.uint8), np.array([[40.0, 3.0, 0.0]])),
+        StabilityMap(STRONG, STRONG, np.array([[right] * 3], np.uint8), np.zeros((1, 3))),
+    )
+    return Atlas(info, maps)
+
+
+@pytest.fixture
+def page(window: MainWindow) -> StabilityPage:
+    window.pages.show_page("stability")
+    found = window.pages.current
+    assert isinstance(found, StabilityPage)
+    return found
+
+
+def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> None:
+    page.runs.take_saved(hand_made(), "gaps.json")
+    QApplication.processEvents()
+    chart, legend = page.curves
+    picture = chart.picture
+    assert picture is not None
+    assert [series.y.tolist() for series in picture.series] == [[40.0, 3.0, 0.0], [0.0, 0.0, 0.0]]
+    assert picture.series[0].x.tolist() == list(AXIS.values)
+    zero, three = chart.place_of(WEAK, 2), chart.place_of(WEAK, 1)
+    assert zero is not None
+    assert three is not None
+    assert zero.y() > three.y() + 10
+    assert [legend.item(row).text() for row in range(legend.count())] == ["float16", "exact"]
+
+
+def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
+    page.runs.take_saved(hand_made(), "gaps.json")
+    QApplication.processEvents()
+    chart, legend = page.curves
+    place = chart.place_of(WEAK, 1)
+    assert place is not None
+    QTest.mouseMove(chart.viewport(), place.toPoint())
+    assert "Severity: <b>3</b>" in page.readout.text()
+    assert legend.currentRow() == 0
+    QTest.mouseClick(chart.viewport(), Qt.MouseButton.LeftButton, pos=place.toPoint())
+    assert page.runs.choice.chosen == CellPlace(WEAK, 1, 0)
+
+
+def test_a_row_of_the_list_opens_the_first_failure(page: StabilityPage, window: MainWindow) -> None:
+    page.runs.take_saved(hand_made(), "gaps.json")
+    QApplication.processEvents()
+    legend = page.curves[1]
+    for row, wanted in ((1, None), (0, CellPlace(WEAK, 0, 0))):
+        place = legend.visualItemRect(legend.item(row)).center()
+        QTest.mouseClick(legend.viewport(), Qt.MouseButton.LeftButton, pos=place)
+        assert page.runs.choice.chosen == wanted
+        if wanted is None:
+            assert f"No cell of {STRONG} fails" in window.statusBar().currentMessage()
+
+
+def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPage, qtbot: QtBot) -> None:
+    page.runs.show_experiment("precision-dial")
+    page.runs.choice.resolution = "coarse"
+    counts: list[int] = []
+
+    def count_lines() -> None:
+        picture = page.curves[0].picture
+        counts.append(0 if picture is None else len(picture.series))
+
+    page.desk.running.part_done.connect(count_lines)
+    page.runs.run()
+    qtbot.waitUntil(lambda: not page.desk.is_running, timeout=60000)
+    assert counts == list(range(1, len(page.runs.info.methods) + 1))
+    assert page.curves[0].isVisible()
+    page.runs.show_experiment("slivers")
+    assert not page.curves[0].isVisible()
+    assert not page.curves[1].isVisible()
+
+
+def test_an_axis_below_zero_says_where_to_look() -> None:
+    axis = Axis("gap", "Gap", "", (-1.0, 1.0))
+    found = severity_chart(axis, {WEAK: np.array([1.0, 0.0])}, {WEAK: "float16"})
+    assert found == ChartEmpty(BELOW_ZERO)
+    assert "Severity" not in atlas_svg(hand_made(Axis("gap", "Gap", "", (-1.0, 0.0, 1.0))))
+
+
+def test_what_has_not_been_run_has_no_line() -> None:
+    titles = {WEAK: "float16", STRONG: "exact"}
+    unknown, partly = np.full(3, np.nan), np.array([1.0, np.nan, 0.0])
+    assert severity_chart(AXIS, {WEAK: unknown, STRONG: unknown}, titles) == ChartEmpty(NOTHING_RUN)
+    found = severity_chart(AXIS, {WEAK: unknown, STRONG: partly}, titles)
+    assert isinstance(found, ChartPicture)
+    assert [(series.key, series.number) for series in found.series] == [(STRONG, 1)]
+
+
+def test_the_drawing_has_a_mark_for_every_severity() -> None:
+    svg = atlas_svg(hand_made())
+    assert svg.count("<circle") == 6
+    assert "how wrong a run is" in svg
+    assert svg.count(f">{WEAK}<") == 2, "above its map and at the end of its line"

@@ -1,0 +1,105 @@
+"""Scenes that several processes draw: of every kind that takes a way of its own."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core import Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene, Settings, Texture
+from tests.core.meshes import icosphere, torus
+
+SPANS = Settings(fill="spans", depth="fixed-38")
+
+
+def ball(subdivisions: int = 3, size: tuple[int, int] = (96, 80), eye=(0.4, 0.8, 2.6), **changes) -> Scene:
+    positions, triangles = icosphere(subdivisions)
+    colors = np.concatenate([np.abs(positions), np.ones((len(positions), 1))], axis=1)
+    mesh = Mesh(positions, triangles, normals=positions, colors=colors)
+    camera = Camera(np.array(eye), np.zeros(3))
+    lights = (DirectionalLight(np.array([-1.0, -1.0, -1.0])), PointLight(np.array([2.0, 2.0, 1.0])))
+    return replace(Scene((mesh,), camera, lights, size), **changes)
+
+
+def plain_ball() -> Scene:
+    """Return a ball of one colour under two lights, that is lit pixel by pixel."""
+    positions, triangles = icosphere(4)
+    return replace(ball(size=(120, 90)), meshes=(Mesh(positions, triangles, normals=positions),))
+
+
+def textured_rings() -> Scene:
+    positions, triangles = torus(24, 12)
+    generator = np.random.default_rng(3)
+    texture = Texture(generator.random((16, 16, 3), np.float32))
+    uvs = generator.random((len(positions), 2)) * 2
+    first = Mesh(positions, triangles, uvs=uvs, texture=texture)
+    return Scene(
+        (first, replace(first, transform=np.diag([0.7, 0.7, 2.0, 1.0])), ball().meshes[0]),
+        Camera(np.array([0.3, 0.2, 1.2]), np.zeros(3), near=0.5),
+        (PointLight(np.array([1.0, 2.0, 2.0])),),
+        (101, 67),
+        np.array([0.1, 0.2, 0.3, 1.0]),
+    )
+
+
+def loose_triangles(count: int, size: tuple[int, int]) -> ClipScene:
+    generator = np.random.default_rng(count)
+    clip = generator.normal(0.0, 1.0, (count, 3, 4))
+    clip[:, :, 3] = generator.uniform(-0.2, 2.0, (count, 3))
+    return ClipScene(clip, generator.random((count, 3, 4)), size)
+
+
+def textured_sheets() -> Scene:
+    """Return two sheets below, one behind the other, and one above: only the lower half has two layers."""
+    sheets = [(-1.0, -0.7, 0.0), (-0.97, -0.72, 0.1), (-0.5, 0.97, 0.1)]
+    positions = np.array(
+        [
+            corner
+            for low, high, z in sheets
+            for corner in ((-1, low, z), (1, low, z), (1, high, z), (-1, high, z))
+        ]
+    )
+    triangles = np.array(
+        [[4 * k + i for i in corners] for k in range(3) for corners in ((0, 1, 2), (0, 2, 3))]
+    )
+    uvs = np.tile([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], (3, 1))
+    texture = Texture(np.random.default_rng(1).random((64, 64, 3), np.float32))
+    mesh = Mesh(positions, triangles, uvs=uvs, texture=texture)
+    return Scene((mesh,), Camera(np.array([0.2, 0.3, 2.9]), np.zeros(3)), (), (512, 512))
+
+
+def smooth_below_and_steep_above() -> ClipScene:
+    """Return two triangles: bytes are right for the lower one, not for the upper one, whose w differ a lot."""
+    clip = np.array(
+        [
+            [[-1.0, -1.0, 0, 1], [1, -1, 0, 1], [0, -0.8, 0, 1]],
+            [[-9.0, 4.5, 0, 9], [1, 0.5, 0, 1], [0, 0.9, 0, 1]],
+        ]
+    )
+    colors = np.array([[0.5, 0.5, 0.5, 1], [0.52, 0.5, 0.5, 1], [0.5, 0.52, 0.5, 1]])
+    bright = np.array([[1.0, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]])
+    return ClipScene(clip, np.stack([colors, bright]), (60, 90))
+
+
+SCENES = {
+    "ball": (ball(), SPANS),
+    "ball, one side drawn": (ball(), replace(SPANS, cull="back", shading="gouraud")),
+    "ball in bytes": (ball(5, (200, 200)), replace(SPANS, cull="back", shading="gouraud")),
+    "ball in bytes, both sides": (ball(5, (200, 200)), replace(SPANS, shading="gouraud")),
+    "ball of flat faces": (ball(), replace(SPANS, shading="flat", depth="z-float32")),
+    "ball behind the lower edge": (
+        ball(eye=(0.0, 2.0, 2.0), size=(64, 97)),
+        replace(SPANS, depth="inverse-w"),
+    ),
+    "rings with a texture": (textured_rings(), SPANS),
+    "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
+    "two layers in one band": (textured_sheets(), replace(SPANS, cull="back", shading="unlit")),
+    "wireframe": (textured_rings(), replace(SPANS, polygon_mode="wireframe")),
+    "blended": (loose_triangles(60, (50, 41)), replace(SPANS, blend="over")),
+    "painter": (loose_triangles(60, (50, 41)), replace(SPANS, visibility="painters")),
+    "another fill": (textured_rings(), Settings(fill="blocks")),
+    "through the eye": (loose_triangles(200, (64, 64)), SPANS),
+    "clipped": (loose_triangles(200, (64, 33)), replace(SPANS, clipping="sutherland-hodgman")),
+    "two rows": (loose_triangles(40, (300, 2)), SPANS),
+    "one row": (loose_triangles(40, (300, 1)), SPANS),
+    "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
+    "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
+}

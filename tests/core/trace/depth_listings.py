@@ -1,0 +1,99 @@
+"""The listings of ray casting, depth and blending, executed on the rows."""
+
+from math import isnan
+
+import numpy as np
+
+from core.framebuffer.blending import additive_pixel, over_pixel
+from core.framebuffer.depth import depth_test
+from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
+from core.trace import StageTrace, Trace
+from core.visibility.ray_casting import hit_is_nearer
+from core.visibility.ray_planes import hit_value
+from tests.core.trace.executed_rows import equal, rows_of_kind
+
+
+def check_rays(traced: Trace) -> None:
+    found, planes = traced.stage("depth"), traced.source.geometry.ray_planes
+    c, (width, height) = found.columns, traced.source.scene.size
+    for kind, has_nearest in (("ray-first", False), ("ray", True), ("ray-exact", True)):
+        for row in rows_of_kind(found, kind):
+            (triangle, nearest), ray = (
+                (found.triangle[row], c["nearest"][row]),
+                (int(c["m"][row]), int(c["n"][row])),
+            )
+            plane = [float(c[name][row]) for name in "abcd"]
+            hit = hit_value(plane, c["sizes"][row].tolist(), *ray, width, height)
+            assert hit == (c["nearness"][row], c["error"][row])
+            corners = planes.clip[nearest].tolist() if has_nearest else None
+            before = c["nearest_nearness"][row], c["nearest_error"][row]
+            xy = (ray[0], width), (ray[1], height)
+            assert (
+                hit_is_nearer(*hit, planes.clip[triangle].tolist(), *before, corners, *xy, planes.by_w)
+                == (c["passes"][row])
+            )
+
+
+def check_depth(traced: Trace) -> None:
+    found = traced.stage("depth")
+    c = found.columns
+    if traced.source.geometry.casts_rays:
+        check_rays(traced)
+        return
+    # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
+    if "key" in c and traced.source.settings.fill != "scanline-lecture":
+        check_keys(found)
+    for kind in ("test", "store"):
+        check_stored(found, kind)
+    for row in rows_of_kind(found, "test"):
+        after, passes = depth_test(c["stored"][row], c["before"][row], bool(c["larger_is_nearer"][row]))
+        assert passes == c["passes"][row]
+        assert after == c["after"][row]
+    for row in rows_of_kind(found, "out-of-range"):
+        assert not c["passes"][row]
+        assert isnan(c["before"][row])
+        assert not 0 <= c["depth"][row] <= 1
+    for row in rows_of_kind(found, "store"):
+        assert c["after"][row] == c["stored"][row]
+        assert c["passes"][row]
+
+
+def check_stored(found: StageTrace, kind: str) -> None:
+    """Execute what makes the value that the depth buffer gets."""
+    c, constants = found.columns, found.constants
+    making = found.listings.get(f"{kind}.value")
+    rounding = found.listings.get(f"{kind}.depth")
+    for row in rows_of_kind(found, kind):
+        if constants["quantity"] == "logarithm":
+            value = making.function(float(c["inverse_w"][row]), constants["near"], constants["far"])
+            assert value == c["value"][row]
+        elif making is not None:
+            names = ("t",) if "t" in c else ("a", "b", "c", "x", "y")
+            ends = c["ends"][row].tolist() if "t" in c else []
+            assert making.function(*(c[name][row] for name in names), *ends) == c["value"][row]
+        if making is not None:
+            assert rounding.function(c["value"][row]) == c["stored"][row]
+        elif rounding is not None:
+            assert rounding.function(float(c["depth"][row]), constants["scale"]) == c["stored"][row]
+
+
+def check_keys(found: StageTrace) -> None:
+    """Execute the depth test on packed keys."""
+    c = {name: column.tolist() for name, column in found.columns.items()}
+    for row in rows_of_kind(found, "test"):
+        plane = [c[name][row] for name in ("origin", "across", "up", "column", "row", "number")]
+        assert packed_depth_test(*plane, c["before_key"][row]) == (c["after_key"][row], c["passes"][row])
+    for row in rows_of_kind(found, "rounded"):
+        after, passes = rounded_depth_test(c["depth"][row], c["number"][row], c["before_key"][row])
+        assert (after, passes) == (c["after_key"][row], c["passes"][row])
+
+
+def check_blend(traced: Trace) -> None:
+    found = traced.stage("blend")
+    c = found.columns
+    for row in rows_of_kind(found, traced.source.settings.blend):
+        scalar = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
+        if scalar is not None:
+            assert equal(scalar(c["source"][row], c["before"][row]), c["after"][row])
+        else:
+            assert equal(c["source"][row].astype(np.float32), c["after"][row])

@@ -1,0 +1,133 @@
+"""The listings of interpolation, textures and shading, executed on the rows."""
+
+import numpy as np
+
+from core import Scene
+from core.fragments.corrected_affine import interpolate_corrected_at
+from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
+from core.fragments.level_of_detail import level_of_detail
+from core.fragments.lighting import blinn_phong
+from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
+from core.fragments.mipmaps import mipmap_levels
+from core.fragments.shading import shaded_color
+from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
+from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
+from core.raster.line_slopes import affine_line_slopes_at, line_slopes_at
+from core.surface import viewpoint
+from core.trace import StageTrace, Trace
+from core.trace.texture_columns import slope_kind
+from tests.core.trace.executed_rows import equal, rows_of_kind
+
+
+def check_interpolate(traced: Trace) -> None:
+    found = traced.stage("interpolate")
+    c, planes, settings = found.columns, traced.source.geometry.planes, traced.source.settings
+    for row in rows_of_kind(found, settings.interpolation):
+        p = c["primitive"][row]
+        plane = planes.a[p], planes.b[p], planes.c[p]
+        for k in range(c["values"].shape[1]):
+            corners = c["corner_values"][row][:, k]
+            with np.errstate(all="ignore"):
+                if settings.interpolation == "flat":
+                    provoking = 0 if settings.provoking == "first" else 2
+                    weights, value = take_provoking_value(provoking, corners)
+                elif settings.interpolation == "affine":
+                    w = planes.w[p]
+                    weights, total, value = interpolate_affine_at(
+                        *plane, w, c["x"][row], c["y"][row], corners
+                    )
+                    assert equal(total, c["total"][row])
+                elif settings.interpolation == "affine-n":
+                    center, interval = (c["x"][row], c["y"][row]), settings.correction_interval
+                    weights, value = interpolate_corrected_at(
+                        *plane, planes.determinant[p], *center, interval, corners
+                    )
+                else:
+                    weights, total, value = interpolate_at(*plane, c["x"][row], c["y"][row], corners)
+                    assert equal(total, c["total"][row])
+            assert equal(weights, c["weights"][row])
+            assert equal(value, c["values"][row, k])
+
+
+def check_shade(traced: Trace) -> None:
+    found = traced.stage("shade")
+    source, c = traced.source, found.columns
+    filters = {"nearest": nearest_color, "bilinear": bilinear_color}
+    textures, mesh = found.extra["textures"], found.extra["mesh"]
+    values, layout = source.interpolated[1], source.geometry.primitives.layout
+    for kind in ("textured", "textured-lit"):
+        for row in rows_of_kind(found, kind):
+            pixels = textures[mesh[row]].pixels.astype(np.float64).tolist()
+            u, v = values[row, layout["uv"]].tolist()
+            if uses_mipmaps(source.settings.texture_filter):
+                color = check_mipmaps(traced, found, row)
+            else:
+                color = filters[source.settings.texture_filter](pixels, u, v, source.settings.wrap)
+            assert equal(color, c["texture_color"][row][: len(color)])
+            assert c["texture_color"][row][3] == 1 or len(color) == 4
+    for kind in ("lit", "textured-lit"):
+        for row in rows_of_kind(found, kind):
+            color = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
+            assert equal(color, c["color"][row])
+    for kind in ("plain", "textured"):
+        rows = rows_of_kind(found, kind)
+        assert equal(c["albedo"][rows], c["color"][rows])
+    if "normal" in layout:
+        check_light(traced, found)
+
+
+def slopes_of(traced: Trace, c, row: int):
+    """Return what the listing of the slopes gives for a row."""
+    kind, uv = slope_kind(traced.source), c["uv"][row].tolist()
+    if kind == "flat":
+        return slopes_of_one_value()
+    if kind == "area":
+        rises = (c[name][row] for name in ("slope_a", "slope_b", "slope_n"))
+        return slopes_at(*rises, *uv, *c["corner_uv"][row].T)
+    ends, length = c["end_uv"][row], c["length"][row]
+    if kind == "affine-line":
+        slope = affine_line_slopes_at(length, *ends)
+    else:
+        _, slope = line_slopes_at(c["t"][row], *c["end_w"][row], length, *ends)
+    none = [0.0, 0.0]
+    return [*none, *slope] if c["is_steep"][row] else [*slope, *none]
+
+
+def check_mipmaps(traced: Trace, found: StageTrace, row: int) -> tuple[float, ...]:
+    """Execute the listings of slopes and level of detail; return what that of the filter gives."""
+    settings, c = traced.source.settings, found.columns
+    texture = found.extra["textures"][found.extra["mesh"][row]]
+    with np.errstate(all="ignore"):
+        slopes = slopes_of(traced, c, row)
+        assert equal(slopes, c["uv_slopes"][row])
+        *lengths, lod = level_of_detail(*map(float, slopes), *c["texture_size"][row].tolist())
+    assert equal(lengths, c["lengths"][row])
+    assert equal(lod, c["lod"][row])
+    levels = [level.pixels.astype(np.float64).tolist() for level in mipmap_levels(texture)]
+    mix = {"trilinear": mipmap_color, "mipmap-nearest": nearest_mipmap_color}[settings.texture_filter]
+    for name, number in zip(("near", "far"), c["levels"][row].tolist(), strict=True):
+        if name == "near" or settings.texture_filter == "trilinear":
+            color = bilinear_color(levels[number], *c["uv"][row].tolist(), settings.wrap)
+            assert equal(color, c[f"{name}_color"][row][: len(color)])
+    return mix(levels, *c["uv"][row].tolist(), lod, settings.wrap)
+
+
+def check_light(traced: Trace, found: StageTrace) -> None:
+    source, scene = traced.source, traced.source.scene
+    assert isinstance(scene, Scene)
+    values, layout = source.interpolated[1], source.geometry.primitives.layout
+    for row in range(0, found.steps.row_count, max(found.steps.row_count // 40, 1)):
+        position = values[row : row + 1, layout["position"]]
+        eye = np.broadcast_to(viewpoint(scene.camera, position), (1, 3))[0]
+        normal = values[row, layout["normal"]]
+        material = scene.meshes[found.extra["mesh"][row]].material
+        lights = blinn_phong(
+            tuple(position[0].tolist()),
+            tuple(normal.tolist()),
+            tuple(eye.tolist()),
+            scene.lights,
+            material,
+            False,
+        )
+        assert equal(lights[0], found.columns["diffuse_light"][row])
+        assert equal(lights[1], found.columns["specular_light"][row])

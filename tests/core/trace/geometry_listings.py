@@ -1,0 +1,109 @@
+"""The listings of transformation, culling, clipping and edge functions, executed on the rows."""
+
+import numpy as np
+
+from core.geometry.after_divide import divide_corner
+from core.geometry.culling import cull_verdict
+from core.geometry.matrices import transform_component
+from core.geometry.sutherland_hodgman import clip_edge, clip_edge_in_order
+from core.raster.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.float_formats import rounded_corner
+from core.raster.inverse_format import inverse_coefficients
+from core.raster.snapping import snap_one
+from core.trace import Trace
+from core.trace.transform import divide_and_map
+from tests.core.trace.executed_rows import equal, rows_of_kind
+
+
+def check_transform(traced: Trace) -> None:
+    found = traced.stage("transform")
+    c = found.columns
+    for kind in ("object-to-world", "world-to-camera", "camera-to-clip"):
+        for row in rows_of_kind(found, kind):
+            after = [transform_component(line, c["before"][row]) for line in c["matrix"][row]]
+            assert equal(after, c["after"][row])
+    width, height = traced.source.scene.size
+    for row in rows_of_kind(found, "viewport"):
+        clip = c["before"][row - 1]
+        if clip[3] != 0:
+            assert equal(clip[:3] / clip[3], c["after"][row - 1][:3])
+            assert equal(divide_and_map(clip, width, height), c["after"][row][:3])
+
+
+def check_cull(traced: Trace) -> None:
+    found = traced.stage("cull")
+    assembled = traced.source.geometry.assembled
+    drops = {"none": lambda f: False, "back": lambda f: f < 0, "front": lambda f: f > 0}
+    ends = found.steps.triangle_ends
+    for triangle, row in zip(assembled.triangle.tolist(), (ends - 1).tolist(), strict=True):
+        facing = found.columns["facing"][row]
+        clip = assembled.clip[np.flatnonzero(assembled.triangle == triangle)[0]]
+        verdict = cull_verdict(clip, facing, drops[traced.source.settings.cull](facing))
+        assert verdict == found.columns["verdict"][row]
+
+
+def check_clip(traced: Trace) -> None:
+    found = traced.stage("clip")
+    c = found.columns
+    in_order = traced.source.settings.clipping == "sutherland-hodgman-lecture"
+    in_order = in_order and not traced.source.geometry.clipping_inserted
+    listed = clip_edge_in_order if in_order else clip_edge
+    for kind in ("in-in", "in-out", "out-in", "out-out"):
+        for row in rows_of_kind(found, kind):
+            corners = listed(c["start"][row], c["end"][row], c["start_distance"][row], c["end_distance"][row])
+            wanted = {"in-in": [c["end"][row]], "out-out": [], "in-out": [c["corner"][row]]}
+            assert equal(corners, wanted.get(kind, [c["corner"][row], c["end"][row]]))
+    for kind in {"divided", "mirrored"} & set(found.steps.kinds):
+        for row in rows_of_kind(found, kind):
+            assert divide_corner(*c["clip"][row].tolist()) == tuple(c["ndc"][row])
+            assert (c["clip"][row][3] > 0) == (kind == "divided")
+
+
+def check_edges(traced: Trace) -> None:
+    found = traced.stage("edges")
+    c = found.columns
+    for row in rows_of_kind(found, "snapped"):
+        assert [snap_one(value) for value in c["window"][row]] == c["snapped"][row].tolist()
+    edges, primitive = (
+        traced.source.geometry.edges,
+        np.repeat(np.arange(len(traced.source.geometry.edges)), 7),
+    )
+    numbers, ends = edges.numbers, edges.numbers.held_corners(edges.corners)
+    shown = (edges.shown_a, edges.shown_b, edges.shown_c)
+    for row in rows_of_kind(found, "edge"):
+        p, k = primitive[row], c["edge"][row]
+        if numbers.suits_spans:
+            start, finish = c["start"][row], c["finish"][row]
+        else:
+            start, finish = ([held[corner, p] for held in ends] for corner in ((k + 1) % 3, (k + 2) % 3))
+        with np.errstate(all="ignore"):
+            sign = np.array(np.sign(c["doubled_area"][row])).astype(numbers.held_as)[()]
+            sign = int(sign) if numbers.name == "exact" else sign
+            coefficients = edge_coefficients(*start, *finish, sign)
+        assert equal(
+            np.array(coefficients, float), np.array((edges.a[p, k], edges.b[p, k], edges.c[p, k]), float)
+        )
+        assert equal([of[p, k] for of in shown], (c["a"][row], c["b"][row], c["c"][row]))
+    for row in rows_of_kind(found, "rounded"):
+        with np.errstate(over="ignore"):
+            rounded = rounded_corner(*c["homogeneous"][row], numbers.held_as)
+        assert equal(np.array(rounded, float), c["rounded"][row])
+    for row in rows_of_kind(found, "inverse-edge"):
+        p, k = primitive[row], c["edge"][row]
+        with np.errstate(all="ignore"):
+            columns, area = inverse_coefficients([list(corner) for corner in edges.corners.homogeneous[p]])
+        assert equal([line[k] for line in columns], (c["a"][row], c["b"][row], c["c"][row]))
+        assert equal(area, c["doubled_area"][row])
+    for row in rows_of_kind(found, "anchored-edge"):
+        ends = (c["start"][row], c["finish"][row])
+        corner, other = ends if c["anchor"][row] > 0 else ends[::-1]
+        sign = np.sign(c["doubled_area"][row]) * c["anchor"][row]
+        coefficients = anchored_coefficients(*corner[:2], *other, sign)
+        assert equal(coefficients, (c["a"][row], c["b"][row], c["c"][row]))
+
+
+def coefficients_of(edges, primitive: int) -> list[tuple[float, float, float, bool]]:
+    return [
+        (edges.a[primitive, k], edges.b[primitive, k], edges.c[primitive, k], edges.owns_tie[primitive, k])
+        for k in range(3)
+    ]
