@@ -19,6 +19,7 @@ from core.picture.deferred import shade_visible
 from core.picture.job import Job, Words, encode
 from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
+from core.picture.lit_texture import LitTexture, lit_texture
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Picture, Route, Split
 from core.picture.supersampled import draw_supersampled
@@ -32,7 +33,7 @@ from core.scene import AnyScene, ClipScene, Mesh
 from core.settings import Settings
 from core.timing import timed
 
-Colors = LayerColors | LitNormals
+Colors = LayerColors | LitNormals | LitTexture
 
 ENCODINGS = ("srgb", "linear")
 
@@ -153,7 +154,7 @@ def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
     """Draw without depth, if that can be right; ``None``: it is not."""
     if (
         colors is None
-        or isinstance(colors, LitNormals)
+        or isinstance(colors, LitNormals | LitTexture)
         or not colors.fits_layer
         or not _may_be_one_layer(job)
     ):
@@ -183,7 +184,7 @@ def _choose_colors(job: Job) -> Colors | None:
         if of_triangles is not None:
             return PaletteColors(job.encode(of_triangles))
     with job.timed("interpolate"):
-        return byte_colors(job) or lit_normals(job) or texture_colors(job)
+        return byte_colors(job) or lit_normals(job) or lit_texture(job) or texture_colors(job)
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:

@@ -1,0 +1,169 @@
+"""Phong's shading of a textured mesh: normals from packed words, texture coordinates from planes, both lit in float32.
+
+Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
+float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
+precision (``single_texture``), normals and light are those of ``lit_normals``.
+
+How close the bytes are: `ROUNDING` of the window's extent squared, over the area, is what planes through far corners may
+be rounded by, theirs and those of ``render`` (``core.fragments.interpolation``). That moves the position in the texture,
+by less than a thousandth of a texel or this way is not taken; times the steepest that sRGB rises it is added to what the
+light may be off (``light_errors``). Left out are triangles hardly wider than snapping moves their corners: these are
+drawn as if their corners were the snapped ones, and their colours stay between those of the corners.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, Singles
+from core.fragments.interpolation import plane_value
+from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
+from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
+from core.framebuffer.nearest import NearestFragments
+from core.geometry_record import Geometry
+from core.integer_planes import IntegerPlanes, window_slopes
+from core.picture.cleared import is_thin
+from core.picture.job import Job, blocks
+from core.picture.light_errors import STEEPEST
+from core.picture.lit_normals import TOLERANCE, error_of, lit_color
+from core.picture.packed_normals import corner_w, pack_normals, unit_normals
+from core.picture.pixel_light import PixelLight, lit_pixels
+from core.raster.snapping import window_position
+from core.scene import Scene, Texture
+
+ROUNDING = 2.0**-48
+"""Rounding of planes, as a part of the products of coordinates in them, with room to spare."""
+
+Plane = tuple[Floats, Floats, Floats]
+"""Change per column, per row, and value at the window's origin, (P,) float64 each."""
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where the corners of P triangles are in the window."""
+
+    x: Floats
+    """(3, P) float64 pixels."""
+    y: Floats
+    """(3, P) float64."""
+    doubled_area: Floats
+    """(P,) float64, not 0."""
+    is_thin: Flags
+    """(P,) bool, see ``core.picture.cleared``."""
+
+
+@dataclass(frozen=True, eq=False)
+class LitTexture:
+    """Normals and texture coordinates of P triangles, and what lights them."""
+
+    normals: IntegerPlanes
+    coordinates: tuple[Plane, Plane, Plane]
+    """1/w, and the position in texels over w."""
+    light: PixelLight
+    color: tuple[np.float32, ...]
+    """What the texture is multiplied with: linear grey, or red, green and blue."""
+    sampler: SingleSampler
+    name = "lit texture"
+    stage = "shade"
+
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
+        seen_count = 0
+        for part in blocks(len(job.pixels)):
+            place, primitive = nearest.seen_in(part)
+            if not len(place):
+                continue
+            seen_count += len(place)
+            column, row = job.raster.position(place)
+            albedo = self._albedo(job, primitive, column, row)
+            normal = unit_normals(self.normals, job, primitive, column, row)
+            job.pixels[place] = lit_pixels(job, albedo, *self.light.at(job, normal, column, row))
+        return seen_count
+
+    def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
+        """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
+        x, y = job.raster.centers(column, row)
+        inverse_w, u, v = (plane_value(plane, primitive, x, y) for plane in self.coordinates)
+        u /= inverse_w
+        v /= inverse_w
+        colors = job.arena("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
+        self.sampler.write_colors(u, v, colors)
+        if all(part == 1 for part in self.color):
+            return list(colors)
+        count = max(len(colors), len(self.color))
+        return [colors[min(k, len(colors) - 1)] * self.color[min(k, len(self.color) - 1)] for k in range(count)]
+
+
+def lit_texture(job: Job) -> LitTexture | None:
+    """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
+
+    The scene is what ``lit_normals`` draws, with a texture that is looked up bilinearly.
+    """
+    scene, settings, geometry = job.scene, job.settings, job.geometry
+    if not isinstance(scene, Scene) or settings.texture_filter != "bilinear":
+        return None
+    texture = scene.meshes[0].texture
+    if texture is None or not is_plain(texture, settings.wrap):
+        return None
+    found = lit_color(job)
+    if found is None:
+        return None
+    light, color = found
+    w = corner_w(geometry)
+    places = _places(geometry)
+    position = _texel_positions(geometry, texture)
+    if not max(float(np.abs(of).max(initial=0)) for of in position) < FARTHEST:
+        return None
+    off = _position_error(places, position) + TEXEL_ROUNDING
+    strength = light.material.ambient + light.material.diffuse * sum(max(*of, 0.0) for _, of in light.lights)
+    if not error_of(job, color, off * STEEPEST * strength * float(max(color))) <= TOLERANCE:
+        return None
+    normals = pack_normals(job, light.camera, w, places.x, places.y, places.doubled_area)
+    if normals is None:
+        return None
+    inverse = [1 / of_corner for of_corner in w]
+    over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
+    planes = tuple(_plane(places, values) for values in (inverse, *over_w))
+    return LitTexture(normals, planes, light, color, SingleSampler(texture, settings.wrap))
+
+
+def _places(geometry: Geometry) -> Places:
+    """Return where the corners lie before snapping; those of thin triangles after it."""
+    primitives, (right, up) = geometry.primitives, geometry.shift
+    window = window_position(primitives.vertex_clip.T, geometry.vertices.size)
+    x, y = (window[:, 0] + right).take(primitives.corner), (window[:, 1] + up).take(primitives.corner)
+    thin_ones = is_thin(geometry)
+    thin = np.flatnonzero(thin_ones)
+    for unsnapped, snapped in ((x, geometry.window_x), (y, geometry.window_y)):
+        unsnapped[:, thin] = snapped.take(thin, axis=1)
+    doubled_area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+    return Places(x, y, doubled_area, thin_ones)
+
+
+def _texel_positions(geometry: Geometry, texture: Texture) -> list[list[Floats]]:
+    """Return the texture coordinates of the corners in texels: for u and v three times (P,) float64."""
+    values = geometry.primitives.values
+    rows, columns, _ = texture.pixels.shape
+    uv = values.rows[:, values.layout["uv"]]
+    return [
+        [(uv[:, axis] * size).take(index) for index in values.index] for axis, size in ((0, columns), (1, rows))
+    ]
+
+
+def _position_error(places: Places, position: list[list[Floats]]) -> float:
+    """Return by how many texels the position of a fragment of a triangle that is not thin may be off."""
+    extent = np.zeros(len(places.is_thin))
+    for first, second, third in position:
+        extent += np.abs(second - first)
+        extent += np.abs(third - first)
+    extent[places.is_thin] = 0
+    extent /= np.abs(places.doubled_area)
+    reach = float(np.abs(places.x).max(initial=0)) * float(np.abs(places.y).max(initial=0))
+    return float(extent.max(initial=0)) * reach * ROUNDING
+
+
+def _plane(places: Places, values: list[Floats]) -> Plane:
+    """Return the plane through values (P,) at the three corners."""
+    across, up = window_slopes(places.x, places.y, places.doubled_area, *values)
+    origin = values[0] - (across * places.x[0] + up * places.y[0])
+    return across, up, origin

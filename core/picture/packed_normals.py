@@ -1,0 +1,102 @@
+"""Normals of triangles in camera space, packed: a direction is linear over the window, three fields in one word.
+
+A normal divided by w is linear over the window, and dividing all of it by one number does not turn it; so the three
+components are packed into one 64-bit word, looked up for every visible pixel by three reads, and made a unit vector
+there: perspective-correct without a division by w.
+"""
+
+import numpy as np
+
+from core.arrays import Floats, Integers, Singles
+from core.geometry.matrices import world_to_camera
+from core.geometry_record import Geometry
+from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
+from core.picture.job import Job
+from core.picture.pixel_light import make_unit
+from core.raster.spans.arena import Arena
+from core.scene import Camera
+
+BITS = 19
+"""Bits of the fraction of a component."""
+OFFSET = 1.25
+"""Added to components, from -1 to 1, so that they are positive by more than rounding."""
+FIELD = 21
+"""Bits from one component to the next."""
+ALIKE = 0.2
+"""Least cosine between the normals of a triangle: with less, those between them become too short."""
+RATIO = 2.0
+"""Largest ratio of w within a triangle, likewise."""
+STEEPEST = 2.0**60
+"""Units of a component a pixel; steeper planes are seen edge-on."""
+
+
+def corner_w(geometry: Geometry) -> list[Floats]:
+    """Return w of the three corners, (P,) float64 each."""
+    return [geometry.primitives.vertex_clip[3].take(index) for index in geometry.primitives.corner]
+
+
+def pack_normals(
+    job: Job, camera: Camera, w: list[Floats], x: Floats, y: Floats, doubled_area: Floats
+) -> IntegerPlanes | None:
+    """Return the normals of all primitives as words over the window.
+
+    Parameters
+    ----------
+    w : list of three (P,) float64 arrays
+        From `corner_w`; all above 0.
+    x, y : (3, P) float64
+        Where the corners are taken to be in the window.
+    doubled_area : (P,) float64
+        Of the triangles between them.
+
+    Returns
+    -------
+    IntegerPlanes or None
+        ``None``: in some triangle w or the normals differ by more than `RATIO` and `ALIKE`, or a plane is too steep.
+    """
+    values = job.geometry.primitives.values
+    normal = values.rows[:, values.layout["normal"]] @ world_to_camera(camera)[:3, :3].T
+    corners = [np.ascontiguousarray(normal.T).take(index, axis=1) for index in values.index]
+    least = np.minimum(np.minimum(w[0], w[1]), w[2])
+    greatest = np.maximum(np.maximum(w[0], w[1]), w[2])
+    alike = [_cosine(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (2, 0))]
+    if not (
+        min(float(of.min(initial=1)) for of in alike) >= ALIKE
+        and float((greatest / least).max(initial=1)) <= RATIO
+    ):
+        return None
+    for corner, of_corner in zip(corners, w, strict=True):
+        corner *= least / of_corner
+    unit = 2.0**BITS
+    across, up = window_slopes(x, y, doubled_area, *(corner * unit for corner in corners))
+    if not max(float(np.abs(across).max(initial=0)), float(np.abs(up).max(initial=0))) < STEEPEST:
+        return None
+    fields = [
+        FieldPlane((corners[0][axis] + OFFSET) * unit, across[axis], up[axis], FIELD * axis)
+        for axis in range(3)
+    ]
+    return integer_planes(x[0], y[0], job.raster.center, fields)
+
+
+def unit_normals(planes: IntegerPlanes, job: Job, primitive: Integers, column: Integers, row: Integers) -> Singles:
+    """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the job's arena."""
+    return make_unit(_components(planes.at(primitive, column, row), job.arena), job.arena)
+
+
+def _cosine(a: Floats, b: Floats) -> Floats:
+    """Return the cosines (P,) between unit vectors (3, P); zero vectors have 0 with all others."""
+    cosine: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return cosine
+
+
+def _components(word: Integers, arena: Arena) -> Singles:
+    """Return the components (3, F) float32 of packed normals (F,) int64."""
+    components = arena("components", 3, len(word), dtype=np.float32)
+    field = arena("field", len(word), dtype=np.int64)
+    for axis, component in enumerate(components):
+        np.right_shift(word, FIELD * axis, out=field)
+        field &= (1 << FIELD) - 1
+        np.copyto(component, field, casting="unsafe")
+    components *= np.float32(2.0**-BITS)
+    components -= np.float32(OFFSET)
+    return components
