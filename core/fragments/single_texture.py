@@ -22,7 +22,7 @@ from core.fragments.texel_places import PLACES, AxisPlaces
 from core.methods import table
 from core.scene import Texture
 
-BLOCK = 8192
+BLOCK = 16384
 """Fragments that are looked up at once, so that their numbers stay in the processor's cache."""
 FARTHEST = 2.0**20
 """Texels from the origin that coordinates may lie: so many, and their fraction, float64 tells with 32 bits to spare."""
@@ -53,8 +53,9 @@ class SingleSampler:
         """1 for grey, else 3."""
         self._texels, self._columns, self._rows = _bordered(texture, wrap)
         row = self.channels * (self._columns.count + 1)
-        self._starts = (0, self.channels, row, row + self.channels)
-        self._single = np.empty((4, BLOCK), np.float32)
+        self._starts = ((0, self.channels), (row, row + self.channels))
+        self._weights = np.empty((2, BLOCK), np.float32)
+        self._four = np.empty((2, self.channels, 2, BLOCK), np.float32)
         self._double = np.empty((2, BLOCK))
         self._whole = np.empty((2, BLOCK), np.int32)
         self._index = np.empty(BLOCK, np.int64)
@@ -72,7 +73,7 @@ class SingleSampler:
         for start in range(0, len(x), BLOCK):
             part = slice(start, start + BLOCK)
             count = len(x[part])
-            across, up = self._single[0, :count], self._single[1, :count]
+            across, up = self._weights[:, :count]
             column = self._split(x[part], across, self._columns, 0)
             row = self._split(y[part], up, self._rows, 1)
             row *= self._columns.count + 1
@@ -80,8 +81,7 @@ class SingleSampler:
             row *= self.channels
             index = self._index[:count]
             np.copyto(index, row)
-            for channel in range(self.channels):
-                self._mix(channel, index, across, up, colors[channel, part])
+            self._mix(index, across, up, colors[:, part])
 
     def _split(self, position: Floats, fraction: Singles, places: AxisPlaces, axis: int) -> np.ndarray:
         """Write how far positions (F,) lie beyond the centre of the lower texel; return its place (F,) int32."""
@@ -96,23 +96,28 @@ class SingleSampler:
         places.find(whole, whole)
         return whole
 
-    def _mix(self, channel: int, index: Integers, across: Singles, up: Singles, mean: Singles) -> None:
-        """Write the means (F,) of one channel of the four texels around each fragment."""
-        right, top = self._single[2, : len(index)], self._single[3, : len(index)]
-        for near, far, start in ((mean, right, 0), (top, right, 2)):
-            self._texels[channel + self._starts[start] :].take(index, out=near, mode="clip")
-            self._texels[channel + self._starts[start + 1] :].take(index, out=far, mode="clip")
-            far -= near
-            far *= across
-            near += far
-        top -= mean
-        top *= up
-        mean += top
+    def _mix(self, index: Integers, across: Singles, up: Singles, means: Singles) -> None:
+        """Write the means (channels, F) of the four texels around each fragment."""
+        near, far = (texels[:, :, : len(index)] for texels in self._four)
+        for channel in range(self.channels):
+            for level, (left, right) in enumerate(self._starts):
+                self._texels[channel + left :].take(index, out=near[channel, level], mode="clip")
+                self._texels[channel + right :].take(index, out=far[channel, level], mode="clip")
+        far -= near
+        far *= across
+        near += far
+        lower, upper = near[:, 0], near[:, 1]
+        upper -= lower
+        upper *= up
+        np.add(lower, upper, out=means)
 
 
 @lru_cache(maxsize=4)
 def _bordered(texture: Texture, wrap: str) -> tuple[Singles, AxisPlaces, AxisPlaces]:
-    """Return the texels (rows * columns * channels,) float32 with one place more at the end of each axis, and its axes."""
+    """Return the texels (N,) float32 by row, column and channel, and the places along columns and rows.
+
+    Each axis has one texel more than places: the last place has a neighbour too.
+    """
     pixels = texture.pixels
     rows, columns = (PLACES[wrap](size) for size in pixels.shape[:2])
     wrapped = table.get("wrap", wrap).function

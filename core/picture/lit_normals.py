@@ -12,7 +12,7 @@ import numpy as np
 
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
-from core.picture.job import Job, Words, blocks
+from core.picture.job import Job, blocks
 from core.picture.light_errors import light_error, normal_error
 from core.picture.packed_normals import corner_w, pack_normals, unit_normals
 from core.picture.pixel_light import PixelLight, lit_pixels, pixel_light

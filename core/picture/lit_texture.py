@@ -1,14 +1,16 @@
-"""Phong's shading of a textured mesh: normals from packed words, texture coordinates from planes, both lit in float32.
+"""Phong's shading of a textured mesh: normals from packed words, texture coordinates from planes, lit in float32.
 
 Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
 float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
 precision (``single_texture``), normals and light are those of ``lit_normals``.
 
-How close the bytes are: `ROUNDING` of the window's extent squared, over the area, is what planes through far corners may
-be rounded by, theirs and those of ``render`` (``core.fragments.interpolation``). That moves the position in the texture,
-by less than a thousandth of a texel or this way is not taken; times the steepest that sRGB rises it is added to what the
-light may be off (``light_errors``). Left out are triangles hardly wider than snapping moves their corners: these are
-drawn as if their corners were the snapped ones, and their colours stay between those of the corners.
+How close the bytes are: planes through corners far from the origin are rounded, these and those of ``render``, by
+`ROUNDING` times x y over the area, as a part of what the corners differ by (``core.fragments.interpolation``). So the
+position in the texture is off by that many texels, the texture by no more, neighbours being 1 apart at most, and bytes
+by as much times the steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only
+where the sum stays within the tolerance is this way taken. Left out of the bound are triangles hardly wider than
+snapping moves their corners: they are drawn as if their corners were the snapped ones, and so their coordinates stay
+between those of the corners.
 """
 
 from dataclasses import dataclass
@@ -63,7 +65,7 @@ class LitTexture:
     color: tuple[np.float32, ...]
     """What the texture is multiplied with: linear grey, or red, green and blue."""
     sampler: SingleSampler
-    name = "lit texture"
+    name = "lit-texture"
     stage = "shade"
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
@@ -91,7 +93,9 @@ class LitTexture:
         if all(part == 1 for part in self.color):
             return list(colors)
         count = max(len(colors), len(self.color))
-        return [colors[min(k, len(colors) - 1)] * self.color[min(k, len(self.color) - 1)] for k in range(count)]
+        return [
+            colors[min(k, len(colors) - 1)] * self.color[min(k, len(self.color) - 1)] for k in range(count)
+        ]
 
 
 def lit_texture(job: Job) -> LitTexture | None:
@@ -123,8 +127,8 @@ def lit_texture(job: Job) -> LitTexture | None:
         return None
     inverse = [1 / of_corner for of_corner in w]
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
-    planes = tuple(_plane(places, values) for values in (inverse, *over_w))
-    return LitTexture(normals, planes, light, color, SingleSampler(texture, settings.wrap))
+    inverse_w, u, v = (_plane(places, values) for values in (inverse, *over_w))
+    return LitTexture(normals, (inverse_w, u, v), light, color, SingleSampler(texture, settings.wrap))
 
 
 def _places(geometry: Geometry) -> Places:
@@ -146,7 +150,8 @@ def _texel_positions(geometry: Geometry, texture: Texture) -> list[list[Floats]]
     rows, columns, _ = texture.pixels.shape
     uv = values.rows[:, values.layout["uv"]]
     return [
-        [(uv[:, axis] * size).take(index) for index in values.index] for axis, size in ((0, columns), (1, rows))
+        [(uv[:, axis] * size).take(index) for index in values.index]
+        for axis, size in ((0, columns), (1, rows))
     ]
 
 

@@ -78,7 +78,9 @@ def pack_normals(
     return integer_planes(x[0], y[0], job.raster.center, fields)
 
 
-def unit_normals(planes: IntegerPlanes, job: Job, primitive: Integers, column: Integers, row: Integers) -> Singles:
+def unit_normals(
+    planes: IntegerPlanes, job: Job, primitive: Integers, column: Integers, row: Integers
+) -> Singles:
     """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the job's arena."""
     return make_unit(_components(planes.at(primitive, column, row), job.arena), job.arena)
 

@@ -1,8 +1,8 @@
 """Light at pixels in float32, from directions in camera space; and the bytes of lit colours, through a table.
 
-The rule is that of ``core.fragments.lighting`` (Blinn-Phong), for lights from far away: the direction to the eye follows
-from the pixel alone, so a unit normal is all that is asked of a fragment. How far it may be from ``render``: see
-``light_errors``.
+The rule is that of ``core.fragments.lighting`` (Blinn-Phong), for lights from far away: the direction to the eye
+follows from the pixel alone, so a unit normal is all that is asked of a fragment. How far it may be from ``render``:
+see ``light_errors``.
 """
 
 from collections.abc import Sequence
