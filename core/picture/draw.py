@@ -1,5 +1,7 @@
 """Draw a picture: choose by what the scene holds, draw, and say which way was taken."""
 
+from dataclasses import replace
+from functools import partial
 from threading import local
 from weakref import WeakKeyDictionary
 
@@ -54,6 +56,7 @@ def draw_picture(
     region: tuple[int, int, int, int] | None = None,
     out: NDArray[np.uint8] | None = None,
     arena: Arena | None = None,
+    plain_colors: bool = False,
 ) -> Picture:
     """Draw a scene as the bytes of a screen.
 
@@ -71,6 +74,9 @@ def draw_picture(
         Memory for the pixels.
     arena : Arena, optional
         Memory to work in; one per thread by default.
+    plain_colors : bool
+        Attributes and light at every pixel, even where the triangles of the region allow cheaper colours: those of the
+        whole picture may not, see `Route`.
 
     Returns
     -------
@@ -110,7 +116,8 @@ def draw_picture(
         and settings.pixel_center == "half"
         and is_drawn_by_spans(finer_settings(settings))
     ):
-        return draw_supersampled(draw_picture, scene, settings, raster, encoding, pixels, arena)
+        draw_part = partial(draw_picture, plain_colors=plain_colors)
+        return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     geometry = process_geometry(scene, settings, counts, raster=raster)
@@ -119,13 +126,17 @@ def draw_picture(
     if settings.blend != "opaque":
         route = _draw_stacks(job)
     else:
-        colors = _choose_colors(job)
+        allowed = _choose_colors(job)
+        colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
         layer = None if with_depth else _draw_layer(job, colors)
         if layer is None:
             nearest, route = _draw_visible(job, colors)
             depth = read_only(nearest.depth().reshape(raster.shape)) if with_depth else None
         else:
             route = layer
+        # A part without triangles forbids nothing, as one colour a triangle does not.
+        name = allowed.name if allowed else "deferred"
+        route = replace(route, allowed=name if len(geometry.primitives) else PaletteColors.name)
     _count(counts, route, len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 

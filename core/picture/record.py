@@ -38,6 +38,9 @@ class Route:
     split: Split | None = None
     visible: int = 0
     """Pixels that something is seen at."""
+    allowed: str = ""
+    """The colours that all triangles of this picture, or of this part of one, allow; others than ``color`` where plain
+    colours were asked for. Empty: it was not looked at."""
 
     @property
     def depth_complexity(self) -> float:

@@ -26,7 +26,9 @@ from core import (
     Texture,
     draw_picture,
 )
+from core.picture import Route
 from core.picture.workers import BandWorkers
+from core.picture.workers.sharing import have_colors_of_whole
 from core.picture.workers.worker import memory_prefix
 from tests.core.meshes import icosphere, torus
 
@@ -48,6 +50,22 @@ def plain_ball() -> Scene:
     """Return a ball of one colour under two lights, that is lit pixel by pixel."""
     positions, triangles = icosphere(4)
     return replace(ball(size=(120, 90)), meshes=(Mesh(positions, triangles, normals=positions),))
+
+
+def textured_ball(with_torn_triangle: bool = False) -> Scene:
+    """Return a textured ball lit from far away; the triangle above it has normals that no word of normals bears."""
+    positions, triangles = icosphere(4)
+    normals = positions
+    if with_torn_triangle:
+        positions = np.concatenate([positions, [[-0.4, 0.98, 0.5], [0.4, 0.98, 0.5], [0.0, 1.1, 0.5]]])
+        normals = np.concatenate([normals, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
+        triangles = np.concatenate(
+            [triangles, [[len(positions) - 3, len(positions) - 2, len(positions) - 1]]]
+        )
+    texture = Texture(np.random.default_rng(4).random((32, 32, 3), np.float32))
+    mesh = Mesh(positions, triangles, normals, uvs=positions[:, :2] * 1.5, texture=texture)
+    lights = (DirectionalLight(np.array([-1.0, -1.0, -1.0])),)
+    return replace(ball(size=(220, 200)), meshes=(mesh,), lights=lights)
 
 
 def textured_rings() -> Scene:
@@ -126,12 +144,10 @@ SCENES = {
     "two rows": (loose_triangles(40, (300, 2)), SPANS),
     "one row": (loose_triangles(40, (300, 1)), SPANS),
     "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
+    "textured ball": (textured_ball(), replace(SPANS, cull="back")),
+    "textured ball below a torn triangle": (textured_ball(True), replace(SPANS, cull="back")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }
-
-
-DIFFER = ("smooth below, steep above", "ball in bytes", "ball in bytes, both sides")
-"""Scenes whose bands may go different ways, depending on the cut, so that one process has to draw them."""
 
 
 @pytest.fixture(scope="module")
@@ -153,8 +169,41 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
         assert together.statistics["raster"].outgoing == alone.statistics["raster"].outgoing
         assert together.statistics["cull"].outgoing == alone.statistics["cull"].outgoing
         assert together.route.visible == alone.route.visible
-    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason or name in DIFFER
+    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason
     assert not together.pixels.flags.writeable
+
+
+def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_cheap_ones() -> None:
+    smooth, torn = textured_ball(), textured_ball(with_torn_triangle=True)
+    assert draw_picture(torn, region=(0, 0, 220, 100)).route.color == "lit-texture"
+    expected = {id(scene): draw_picture(scene) for scene in (smooth, torn)}
+    assert [expected[id(scene)].route.color for scene in (smooth, torn)] == ["lit-texture", "deferred"]
+    assert (expected[id(torn)].pixels[:90] != expected[id(smooth)].pixels[:90]).any()
+    with BandWorkers(2, always=True) as workers:
+        assert workers.start(), workers.failure
+        for scene in (smooth, torn, torn, smooth, smooth, torn):
+            together = workers.draw(scene)
+            np.testing.assert_array_equal(together.pixels, expected[id(scene)].pixels)
+            assert together.route.color == expected[id(scene)].route.color
+            assert workers.sharing.process_count == 2
+
+
+@pytest.mark.parametrize(
+    ("allowed", "with_cheap", "with_plain"),
+    [
+        (["bytes", "bytes"], True, False),
+        (["bytes", "deferred"], False, True),
+        (["bytes", "palette"], True, False),
+        (["palette", "palette"], True, False),
+        (["palette", "deferred"], True, True),
+        (["deferred", "deferred"], True, True),
+        (["", "normals"], True, False),
+    ],
+)
+def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: bool, with_plain: bool) -> None:
+    routes = [Route("words", name or "normals", visible=1, allowed=name) for name in allowed]
+    assert have_colors_of_whole(routes, plain_colors=False) == with_cheap
+    assert have_colors_of_whole(routes, plain_colors=True) == with_plain
 
 
 @pytest.mark.parametrize("name", list(SCENES))
