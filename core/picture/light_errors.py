@@ -8,6 +8,8 @@ whose greatest value is that at cos^(5n/12). The encoding is concave: what the p
 never off by more in a sum.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from core.geometry_record import Geometry
@@ -43,7 +45,7 @@ def normal_error(geometry: Geometry) -> float:
 def light_error(
     turn: float,
     material: Material,
-    lights: tuple[DirectionalLight, ...],
+    lights: Sequence[DirectionalLight],
     brightest: float,
     encoding: str,
 ) -> float:

@@ -8,14 +8,13 @@ Used where the bytes stay within `TOLERANCE` of those of ``render`` before both 
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.job import Job, blocks
 from core.picture.light_errors import light_error, normal_error
 from core.picture.packed_normals import corner_w, pack_normals, unit_normals
 from core.picture.pixel_light import PixelLight, lit_pixels, pixel_light
+from core.picture.vertex_facts import Color, VertexFacts, vertex_facts
 from core.scene import DirectionalLight, Scene
 
 TOLERANCE = 1.0
@@ -28,7 +27,7 @@ class LitNormals:
 
     planes: IntegerPlanes
     light: PixelLight
-    albedo: tuple[np.float32, ...]
+    albedo: Color
     """Linear grey, or red, green and blue, of everything."""
     name = "normals"
     stage = "shade"
@@ -52,47 +51,45 @@ def lit_normals(job: Job) -> LitNormals | None:
 
     The scene is one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
     """
-    if job.has_texture:
+    mesh = None if job.has_texture else lit_mesh(job)
+    if mesh is None or not error_of(job, mesh) <= TOLERANCE:
         return None
-    found = lit_color(job)
-    if found is None:
-        return None
-    light, albedo = found
     geometry = job.geometry
-    if error_of(job, albedo) > TOLERANCE:
-        return None
-    w = corner_w(geometry)
     x, y = geometry.window_x, geometry.window_y
-    planes = pack_normals(job, light.camera, w, x, y, geometry.doubled_area)
-    return None if planes is None else LitNormals(planes, light, albedo)
+    planes = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(geometry), x, y, geometry.doubled_area)
+    return None if planes is None else LitNormals(planes, mesh.light, mesh.color)
 
 
-def lit_color(job: Job) -> tuple[PixelLight, tuple[np.float32, ...]] | None:
-    """Return the light of a job and the colour (1 or 3) that all vertices have, or ``None``.
+@dataclass(frozen=True, eq=False)
+class LitMesh:
+    """A mesh whose pixels differ in nothing but their normals, and maybe in what a texture shows there."""
 
-    The scene is one mesh, opaque, shaded by Phong's method, lit from far away, all of it in front of the eye.
+    scene: Scene
+    light: PixelLight
+    facts: VertexFacts
+    color: Color
+    """Linear grey, or red, green and blue, of all vertices."""
+
+
+def lit_mesh(job: Job) -> LitMesh | None:
+    """Return the one mesh of a scene, or ``None`` where something else differs from pixel to pixel.
+
+    It is opaque, of one colour, shaded by Phong's method, lit from far away, all of it in front of the eye.
     """
     scene, geometry, settings = job.scene, job.geometry, job.settings
     if not isinstance(scene, Scene) or settings.shading != "phong" or len(scene.meshes) != 1:
         return None
     if settings.interpolation != "perspective" or not geometry.is_projected.all():
         return None
-    values = geometry.primitives.values
-    colors = values.rows[:, values.layout["color"]]
-    if not len(colors) or (colors != colors[:1]).any() or colors[0, 3] != 1:
-        return None
     light = pixel_light(scene)
-    if light is None:
+    facts = vertex_facts(geometry.primitives.values, scene.meshes[0])
+    if light is None or facts.color is None:
         return None
-    red, green, blue = (np.float32(part) for part in colors[0, :3])
-    return light, (red,) if red == green == blue else (red, green, blue)
+    return LitMesh(scene, light, facts, facts.color)
 
 
-def error_of(job: Job, albedo: tuple[np.float32, ...], texture_error: float = 0.0) -> float:
-    """Return how many bytes a pixel may be off before rounding; ``texture_error`` is what the albedo adds."""
-    scene = job.scene
-    assert isinstance(scene, Scene)
-    lights = tuple(light for light in scene.lights if isinstance(light, DirectionalLight))
-    turn = normal_error(job.geometry)
-    brightest = float(max(albedo))
-    return light_error(turn, scene.meshes[0].material, lights, brightest, job.encoding) + texture_error
+def error_of(job: Job, mesh: LitMesh, texture_error: float = 0.0) -> float:
+    """Return how many bytes a pixel may be off before rounding; ``texture_error`` is what a texture adds."""
+    lights = [light for light in mesh.scene.lights if isinstance(light, DirectionalLight)]
+    turn, brightest = normal_error(job.geometry), float(max(mesh.color))
+    return light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error

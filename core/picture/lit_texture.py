@@ -18,7 +18,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.fragments.interpolation import plane_value
 from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
 from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
 from core.framebuffer.nearest import NearestFragments
@@ -27,11 +26,12 @@ from core.integer_planes import IntegerPlanes, window_slopes
 from core.picture.cleared import is_thin
 from core.picture.job import Job, blocks
 from core.picture.light_errors import STEEPEST
-from core.picture.lit_normals import TOLERANCE, error_of, lit_color
+from core.picture.lit_normals import TOLERANCE, LitMesh, error_of, lit_mesh
 from core.picture.packed_normals import corner_w, pack_normals, unit_normals
 from core.picture.pixel_light import PixelLight, lit_pixels
+from core.picture.vertex_facts import Color
 from core.raster.snapping import window_position
-from core.scene import Scene, Texture
+from core.scene import Texture
 
 ROUNDING = 2.0**-48
 """Rounding of planes, as a part of the products of coordinates in them, with room to spare."""
@@ -62,7 +62,7 @@ class LitTexture:
     coordinates: tuple[Plane, Plane, Plane]
     """1/w, and the position in texels over w."""
     light: PixelLight
-    color: tuple[np.float32, ...]
+    color: Color
     """What the texture is multiplied with: linear grey, or red, green and blue."""
     sampler: SingleSampler
     name = "lit-texture"
@@ -85,9 +85,13 @@ class LitTexture:
     def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
         """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
         x, y = job.raster.centers(column, row)
-        inverse_w, u, v = (plane_value(plane, primitive, x, y) for plane in self.coordinates)
-        u /= inverse_w
-        v /= inverse_w
+        inverse_w, u, v = job.arena("texture_position", 3, len(x))
+        term = job.arena("texture_term", len(x))
+        for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
+            _evaluate(plane, primitive, x, y, values, term)
+        np.divide(1, inverse_w, out=inverse_w)
+        u *= inverse_w
+        v *= inverse_w
         colors = job.arena("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
         self.sampler.write_colors(u, v, colors)
         if all(part == 1 for part in self.color):
@@ -103,32 +107,25 @@ def lit_texture(job: Job) -> LitTexture | None:
 
     The scene is what ``lit_normals`` draws, with a texture that is looked up bilinearly.
     """
-    scene, settings, geometry = job.scene, job.settings, job.geometry
-    if not isinstance(scene, Scene) or settings.texture_filter != "bilinear":
+    mesh = lit_mesh(job) if job.has_texture and job.settings.texture_filter == "bilinear" else None
+    texture = mesh.scene.meshes[0].texture if mesh else None
+    if mesh is None or texture is None or not is_plain(texture, job.settings.wrap):
         return None
-    texture = scene.meshes[0].texture
-    if texture is None or not is_plain(texture, settings.wrap):
+    if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
-    found = lit_color(job)
-    if found is None:
+    places = _places(job.geometry)
+    position = _texel_positions(job.geometry, mesh, texture)
+    if not error_of(job, mesh, _texture_bytes(mesh, _position_error(places, position))) <= TOLERANCE:
         return None
-    light, color = found
-    w = corner_w(geometry)
-    places = _places(geometry)
-    position = _texel_positions(geometry, texture)
-    if not max(float(np.abs(of).max(initial=0)) for of in position) < FARTHEST:
-        return None
-    off = _position_error(places, position) + TEXEL_ROUNDING
-    strength = light.material.ambient + light.material.diffuse * sum(max(*of, 0.0) for _, of in light.lights)
-    if not error_of(job, color, off * STEEPEST * strength * float(max(color))) <= TOLERANCE:
-        return None
-    normals = pack_normals(job, light.camera, w, places.x, places.y, places.doubled_area)
+    w = corner_w(job.geometry)
+    normals = pack_normals(job, mesh.light.camera, mesh.facts, w, places.x, places.y, places.doubled_area)
     if normals is None:
         return None
     inverse = [1 / of_corner for of_corner in w]
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
     inverse_w, u, v = (_plane(places, values) for values in (inverse, *over_w))
-    return LitTexture(normals, (inverse_w, u, v), light, color, SingleSampler(texture, settings.wrap))
+    sampler = SingleSampler(texture, job.settings.wrap)
+    return LitTexture(normals, (inverse_w, u, v), mesh.light, mesh.color, sampler)
 
 
 def _places(geometry: Geometry) -> Places:
@@ -144,14 +141,13 @@ def _places(geometry: Geometry) -> Places:
     return Places(x, y, doubled_area, thin_ones)
 
 
-def _texel_positions(geometry: Geometry, texture: Texture) -> list[list[Floats]]:
+def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> list[list[Floats]]:
     """Return the texture coordinates of the corners in texels: for u and v three times (P,) float64."""
-    values = geometry.primitives.values
     rows, columns, _ = texture.pixels.shape
-    uv = values.rows[:, values.layout["uv"]]
+    index = geometry.primitives.values.index
     return [
-        [(uv[:, axis] * size).take(index) for index in values.index]
-        for axis, size in ((0, columns), (1, rows))
+        [(of_vertices * size).take(of_corner) for of_corner in index]
+        for of_vertices, size in zip(mesh.facts.uv, (columns, rows), strict=True)
     ]
 
 
@@ -167,8 +163,26 @@ def _position_error(places: Places, position: list[list[Floats]]) -> float:
     return float(extent.max(initial=0)) * reach * ROUNDING
 
 
+def _texture_bytes(mesh: LitMesh, texels: float) -> float:
+    """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
+    material, lights = mesh.light.material, mesh.light.lights
+    strength = material.ambient + material.diffuse * sum(max(*color, 0.0) for _, color in lights)
+    return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))
+
+
 def _plane(places: Places, values: list[Floats]) -> Plane:
     """Return the plane through values (P,) at the three corners."""
     across, up = window_slopes(places.x, places.y, places.doubled_area, *values)
     origin = values[0] - (across * places.x[0] + up * places.y[0])
     return across, up, origin
+
+
+def _evaluate(plane: Plane, primitive: Integers, x: Floats, y: Floats, values: Floats, term: Floats) -> None:
+    """Write the ``values`` (F,) of the planes of primitives (F,) at pixel centres; ``term`` (F,) is memory."""
+    across, up, origin = plane
+    up.take(primitive, out=values, mode="clip")
+    values *= y
+    values += origin.take(primitive, out=term, mode="clip")
+    across.take(primitive, out=term, mode="clip")
+    term *= x
+    values += term

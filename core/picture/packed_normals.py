@@ -13,6 +13,7 @@ from core.geometry_record import Geometry
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
 from core.picture.job import Job
 from core.picture.pixel_light import make_unit
+from core.picture.vertex_facts import VertexFacts, cosine
 from core.raster.spans.arena import Arena
 from core.scene import Camera
 
@@ -36,12 +37,20 @@ def corner_w(geometry: Geometry) -> list[Floats]:
 
 
 def pack_normals(
-    job: Job, camera: Camera, w: list[Floats], x: Floats, y: Floats, doubled_area: Floats
+    job: Job,
+    camera: Camera,
+    facts: VertexFacts,
+    w: list[Floats],
+    x: Floats,
+    y: Floats,
+    doubled_area: Floats,
 ) -> IntegerPlanes | None:
     """Return the normals of all primitives as words over the window.
 
     Parameters
     ----------
+    facts : VertexFacts
+        Of the values at the vertices.
     w : list of three (P,) float64 arrays
         From `corner_w`; all above 0.
     x, y : (3, P) float64
@@ -59,12 +68,13 @@ def pack_normals(
     corners = [np.ascontiguousarray(normal.T).take(index, axis=1) for index in values.index]
     least = np.minimum(np.minimum(w[0], w[1]), w[2])
     greatest = np.maximum(np.maximum(w[0], w[1]), w[2])
-    alike = [_cosine(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (2, 0))]
-    if not (
-        min(float(of.min(initial=1)) for of in alike) >= ALIKE
-        and float((greatest / least).max(initial=1)) <= RATIO
-    ):
+    if not float((greatest / least).max(initial=1)) <= RATIO:
         return None
+    # Where nothing is cut the triangles are some of the mesh's, which mostly are alike all over.
+    if job.geometry.clipped is not None or not facts.least_cosine >= ALIKE:
+        pairs = ((0, 1), (1, 2), (2, 0))
+        if not min(float(cosine(corners[a], corners[b]).min(initial=1)) for a, b in pairs) >= ALIKE:
+            return None
     for corner, of_corner in zip(corners, w, strict=True):
         corner *= least / of_corner
     unit = 2.0**BITS
@@ -83,12 +93,6 @@ def unit_normals(
 ) -> Singles:
     """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the job's arena."""
     return make_unit(_components(planes.at(primitive, column, row), job.arena), job.arena)
-
-
-def _cosine(a: Floats, b: Floats) -> Floats:
-    """Return the cosines (P,) between unit vectors (3, P); zero vectors have 0 with all others."""
-    cosine: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return cosine
 
 
 def _components(word: Integers, arena: Arena) -> Singles:
