@@ -63,9 +63,8 @@ def pack_normals(
     IntegerPlanes or None
         ``None``: in some triangle w or the normals differ by more than `RATIO` and `ALIKE`, or a plane is too steep.
     """
-    values = job.geometry.primitives.values
-    normal = values.rows[:, values.layout["normal"]] @ world_to_camera(camera)[:3, :3].T
-    corners = [np.ascontiguousarray(normal.T).take(index, axis=1) for index in values.index]
+    normal = world_to_camera(camera)[:3, :3] @ facts.normals
+    corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
     least = np.minimum(np.minimum(w[0], w[1]), w[2])
     greatest = np.maximum(np.maximum(w[0], w[1]), w[2])
     if not float((greatest / least).max(initial=1)) <= RATIO:
@@ -75,14 +74,14 @@ def pack_normals(
         pairs = ((0, 1), (1, 2), (2, 0))
         if not min(float(cosine(corners[a], corners[b]).min(initial=1)) for a, b in pairs) >= ALIKE:
             return None
-    for corner, of_corner in zip(corners, w, strict=True):
-        corner *= least / of_corner
     unit = 2.0**BITS
-    across, up = window_slopes(x, y, doubled_area, *(corner * unit for corner in corners))
+    for corner, of_corner in zip(corners, w, strict=True):
+        corner *= least / of_corner * unit
+    across, up = window_slopes(x, y, doubled_area, *corners)
     if not max(float(np.abs(across).max(initial=0)), float(np.abs(up).max(initial=0))) < STEEPEST:
         return None
     fields = [
-        FieldPlane((corners[0][axis] + OFFSET) * unit, across[axis], up[axis], FIELD * axis)
+        FieldPlane(corners[0][axis] + OFFSET * unit, across[axis], up[axis], FIELD * axis)
         for axis in range(3)
     ]
     return integer_planes(x[0], y[0], job.raster.center, fields)

@@ -31,13 +31,17 @@ class VertexFacts:
         return (red,) if red == green == blue else (red, green, blue)
 
     @cached_property
+    def normals(self) -> Floats:
+        """(3, M) float64 unit normals in world space, a contiguous row for each component."""
+        return np.ascontiguousarray(self.rows[:, self._layout["normal"]].T)
+
+    @cached_property
     def least_cosine(self) -> float:
         """Least cosine between two normals of a triangle of the mesh.
 
         The backs of the vertices, if there are rows for them, have the same normals turned round, and cosines alike.
         """
-        normals = self.rows[: len(self._mesh.positions), self._layout["normal"]].T.copy()
-        corners = [normals.take(index, axis=1) for index in self._mesh.triangles.T]
+        corners = [self.normals.take(index, axis=1) for index in self._mesh.triangles.T]
         pairs = ((0, 1), (1, 2), (2, 0))
         return min(float(cosine(corners[a], corners[b]).min(initial=1)) for a, b in pairs)
 
