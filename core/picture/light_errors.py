@@ -33,13 +33,13 @@ def normal_error(geometry: Geometry) -> float:
     Notes
     -----
     A component of the packed normal drifts by half of its last bit a pixel from corner 0, and the shortest
-    interpolated normal has length sqrt((1 + 2 ALIKE) / 3) / RATIO.
+    interpolated normal has length sqrt((1 + 2 ALIKE) / 3) / RATIO. `SINGLE` is what float32 adds.
     """
     # Of one triangle, so that what holds for all bands of a picture holds for the picture.
     across, up = (np.abs(of[1:] - of[0]).max(axis=0) for of in (geometry.window_x, geometry.window_y))
     reach = float((across + up).max(initial=0)) + 2
     turn = np.sqrt(3) * reach * 2.0 ** -(BITS + 1) * RATIO / np.sqrt((1 + 2 * ALIKE) / 3)
-    return float(turn)
+    return float(turn) + SINGLE
 
 
 def light_error(
@@ -58,7 +58,6 @@ def light_error(
     brightest : float
         Greatest albedo there is.
     """
-    turn += SINGLE
     strengths = [max(float(light.color.max()), 0.0) for light in lights]
     diffuse = material.diffuse * turn * sum(strengths)
     error = _diffuse_bytes(diffuse, material.ambient, brightest, encoding)

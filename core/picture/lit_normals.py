@@ -8,12 +8,14 @@ Used where the bytes stay within `TOLERANCE` of those of ``render`` before both 
 
 from dataclasses import dataclass
 
+from core.arrays import Integers
 from core.framebuffer.nearest import NearestFragments
-from core.integer_planes import IntegerPlanes
-from core.picture.job import Job, blocks
+from core.picture.corner_places import CornerPlaces, corner_places
+from core.picture.job import Job
 from core.picture.light_errors import light_error, normal_error
-from core.picture.packed_normals import corner_w, pack_normals, unit_normals
-from core.picture.pixel_light import PixelLight, lit_pixels, pixel_light
+from core.picture.light_visible import LitPlanes
+from core.picture.packed_normals import corner_w, pack_normals
+from core.picture.pixel_light import PixelLight, pixel_light
 from core.picture.vertex_facts import Color, VertexFacts, vertex_facts
 from core.scene import DirectionalLight, Scene
 
@@ -23,10 +25,9 @@ TOLERANCE = 1.0
 
 @dataclass(frozen=True, eq=False)
 class LitNormals:
-    """Normals of P triangles in camera space, packed, and what lights them."""
+    """Normals of P triangles of one colour, and what lights them."""
 
-    planes: IntegerPlanes
-    light: PixelLight
+    planes: LitPlanes
     albedo: Color
     """Linear grey, or red, green and blue, of everything."""
     name = "normals"
@@ -34,16 +35,11 @@ class LitNormals:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        seen_count = 0
-        for part in blocks(len(job.pixels)):
-            place, primitive = nearest.seen_in(part)
-            if not len(place):
-                continue
-            seen_count += len(place)
-            column, row = job.raster.position(place)
-            normal = unit_normals(self.planes, job, primitive, column, row)
-            job.pixels[place] = lit_pixels(job, self.albedo, *self.light.at(job, normal, column, row))
-        return seen_count
+        return self.planes.light_visible(job, nearest, self._albedo)
+
+    def _albedo(self, primitive: Integers, column: Integers, row: Integers) -> Color:
+        """Return the colour, which is that of all primitives (F,) at all pixels."""
+        return self.albedo
 
 
 def lit_normals(job: Job) -> LitNormals | None:
@@ -52,12 +48,8 @@ def lit_normals(job: Job) -> LitNormals | None:
     The scene is one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
     """
     mesh = None if job.has_texture else lit_mesh(job)
-    if mesh is None or not error_of(job, mesh) <= TOLERANCE:
-        return None
-    geometry = job.geometry
-    x, y = geometry.window_x, geometry.window_y
-    planes = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(geometry), x, y, geometry.doubled_area)
-    return None if planes is None else LitNormals(planes, mesh.light, mesh.color)
+    planes = lit_planes(job, mesh, corner_places(job.geometry)) if mesh else None
+    return LitNormals(planes, mesh.color) if mesh and planes else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +80,18 @@ def lit_mesh(job: Job) -> LitMesh | None:
     return LitMesh(scene, light, facts, facts.color)
 
 
-def error_of(job: Job, mesh: LitMesh, texture_error: float = 0.0) -> float:
-    """Return how many bytes a pixel may be off before rounding; ``texture_error`` is what a texture adds."""
+def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: float = 0.0) -> LitPlanes | None:
+    """Return the normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
+
+    Parameters
+    ----------
+    texture_error : float
+        Bytes that what the light is multiplied with may be off.
+    """
     lights = [light for light in mesh.scene.lights if isinstance(light, DirectionalLight)]
     turn, brightest = normal_error(job.geometry), float(max(mesh.color))
-    return light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error
+    error = light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error
+    if not error <= TOLERANCE:
+        return None
+    normals = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(job.geometry), places)
+    return None if normals is None else LitPlanes(normals, mesh.light, turn)

@@ -14,23 +14,23 @@ between those of the corners.
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, Singles
+from core.arrays import Floats, Integers, Singles
 from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
 from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
 from core.framebuffer.nearest import NearestFragments
 from core.geometry_record import Geometry
-from core.integer_planes import IntegerPlanes, window_slopes
-from core.picture.cleared import is_thin
-from core.picture.job import Job, blocks
+from core.integer_planes import window_slopes
+from core.picture.corner_places import CornerPlaces, corner_places
+from core.picture.job import Job
 from core.picture.light_errors import STEEPEST
-from core.picture.lit_normals import TOLERANCE, LitMesh, error_of, lit_mesh
-from core.picture.packed_normals import corner_w, pack_normals, unit_normals
-from core.picture.pixel_light import PixelLight, lit_pixels
+from core.picture.light_visible import LitPlanes
+from core.picture.lit_normals import LitMesh, lit_mesh, lit_planes
+from core.picture.packed_normals import corner_w
 from core.picture.vertex_facts import Color
-from core.raster.snapping import window_position
 from core.scene import Texture
 
 ROUNDING = 2.0**-48
@@ -41,27 +41,12 @@ Plane = tuple[Floats, Floats, Floats]
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
-    """Where the corners of P triangles are in the window."""
-
-    x: Floats
-    """(3, P) float64 pixels."""
-    y: Floats
-    """(3, P) float64."""
-    doubled_area: Floats
-    """(P,) float64, not 0."""
-    is_thin: Flags
-    """(P,) bool, see ``core.picture.cleared``."""
-
-
-@dataclass(frozen=True, eq=False)
 class LitTexture:
     """Normals and texture coordinates of P triangles, and what lights them."""
 
-    normals: IntegerPlanes
+    planes: LitPlanes
     coordinates: tuple[Plane, Plane, Plane]
     """1/w, and the position in texels over w."""
-    light: PixelLight
     color: Color
     """What the texture is multiplied with: linear grey, or red, green and blue."""
     sampler: SingleSampler
@@ -70,17 +55,7 @@ class LitTexture:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        seen_count = 0
-        for part in blocks(len(job.pixels)):
-            place, primitive = nearest.seen_in(part)
-            if not len(place):
-                continue
-            seen_count += len(place)
-            column, row = job.raster.position(place)
-            albedo = self._albedo(job, primitive, column, row)
-            normal = unit_normals(self.normals, job, primitive, column, row)
-            job.pixels[place] = lit_pixels(job, albedo, *self.light.at(job, normal, column, row))
-        return seen_count
+        return self.planes.light_visible(job, nearest, partial(self._albedo, job))
 
     def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
         """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
@@ -113,32 +88,17 @@ def lit_texture(job: Job) -> LitTexture | None:
         return None
     if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
-    places = _places(job.geometry)
+    places = corner_places(job.geometry)
     position = _texel_positions(job.geometry, mesh, texture)
-    if not error_of(job, mesh, _texture_bytes(mesh, _position_error(places, position))) <= TOLERANCE:
+    error = _texture_bytes(mesh, _position_error(places, position))
+    planes = lit_planes(job, mesh, places, error)
+    if planes is None:
         return None
-    w = corner_w(job.geometry)
-    normals = pack_normals(job, mesh.light.camera, mesh.facts, w, places.x, places.y, places.doubled_area)
-    if normals is None:
-        return None
-    inverse = [1 / of_corner for of_corner in w]
+    inverse = [1 / of_corner for of_corner in corner_w(job.geometry)]
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
     inverse_w, u, v = (_plane(places, values) for values in (inverse, *over_w))
     sampler = SingleSampler(texture, job.settings.wrap)
-    return LitTexture(normals, (inverse_w, u, v), mesh.light, mesh.color, sampler)
-
-
-def _places(geometry: Geometry) -> Places:
-    """Return where the corners lie before snapping; those of thin triangles after it."""
-    primitives, (right, up) = geometry.primitives, geometry.shift
-    window = window_position(primitives.vertex_clip.T, geometry.vertices.size)
-    x, y = (window[:, 0] + right).take(primitives.corner), (window[:, 1] + up).take(primitives.corner)
-    thin_ones = is_thin(geometry)
-    thin = np.flatnonzero(thin_ones)
-    for unsnapped, snapped in ((x, geometry.window_x), (y, geometry.window_y)):
-        unsnapped[:, thin] = snapped.take(thin, axis=1)
-    doubled_area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
-    return Places(x, y, doubled_area, thin_ones)
+    return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
 
 
 def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> list[list[Floats]]:
@@ -151,7 +111,7 @@ def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> lis
     ]
 
 
-def _position_error(places: Places, position: list[list[Floats]]) -> float:
+def _position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
     """Return by how many texels the position of a fragment of a triangle that is not thin may be off."""
     extent = np.zeros(len(places.is_thin))
     for first, second, third in position:
@@ -170,7 +130,7 @@ def _texture_bytes(mesh: LitMesh, texels: float) -> float:
     return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))
 
 
-def _plane(places: Places, values: list[Floats]) -> Plane:
+def _plane(places: CornerPlaces, values: list[Floats]) -> Plane:
     """Return the plane through values (P,) at the three corners."""
     across, up = window_slopes(places.x, places.y, places.doubled_area, *values)
     origin = values[0] - (across * places.x[0] + up * places.y[0])

@@ -11,6 +11,7 @@ from core.arrays import Floats, Integers, Singles
 from core.geometry.matrices import world_to_camera
 from core.geometry_record import Geometry
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
+from core.picture.corner_places import CornerPlaces
 from core.picture.job import Job
 from core.picture.pixel_light import make_unit
 from core.picture.vertex_facts import VertexFacts, cosine
@@ -41,9 +42,7 @@ def pack_normals(
     camera: Camera,
     facts: VertexFacts,
     w: list[Floats],
-    x: Floats,
-    y: Floats,
-    doubled_area: Floats,
+    places: CornerPlaces,
 ) -> IntegerPlanes | None:
     """Return the normals of all primitives as words over the window.
 
@@ -53,10 +52,8 @@ def pack_normals(
         Of the values at the vertices.
     w : list of three (P,) float64 arrays
         From `corner_w`; all above 0.
-    x, y : (3, P) float64
-        Where the corners are taken to be in the window.
-    doubled_area : (P,) float64
-        Of the triangles between them.
+    places : CornerPlaces
+        Where the corners lie in the window.
 
     Returns
     -------
@@ -77,14 +74,14 @@ def pack_normals(
     unit = 2.0**BITS
     for corner, of_corner in zip(corners, w, strict=True):
         corner *= least / of_corner * unit
-    across, up = window_slopes(x, y, doubled_area, *corners)
+    across, up = window_slopes(places.x, places.y, places.doubled_area, *corners)
     if not max(float(np.abs(across).max(initial=0)), float(np.abs(up).max(initial=0))) < STEEPEST:
         return None
     fields = [
         FieldPlane(corners[0][axis] + OFFSET * unit, across[axis], up[axis], FIELD * axis)
         for axis in range(3)
     ]
-    return integer_planes(x[0], y[0], job.raster.center, fields)
+    return integer_planes(places.x[0], places.y[0], job.raster.center, fields)
 
 
 def unit_normals(

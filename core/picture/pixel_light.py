@@ -20,6 +20,11 @@ from core.scene import Camera, DirectionalLight, Light, Material, Scene
 
 LEVELS = 1 << 14
 """Linear colours that are told apart."""
+OPPOSITE = -7 / 8
+"""Cosine between the directions to eye and light below which their sum is shorter than 1/2, and off by more than twice
+the angle that they are."""
+UNSEEN = 1e-5
+"""Light that changes no byte by more than a thirtieth."""
 
 FarLight = tuple[Singles, tuple[float, ...]]
 """Unit direction to a light in camera space, (3,) float32, and its colour."""
@@ -33,13 +38,17 @@ class PixelLight:
     lights: tuple[FarLight, ...]
     camera: Camera
 
-    def at(self, job: Job, normal: Singles, column: Integers, row: Integers) -> tuple[Singles, Singles]:
-        """Return the light that falls on points, and the light that they mirror.
+    def at(
+        self, job: Job, normal: Singles, turn: float, column: Integers, row: Integers
+    ) -> tuple[Singles, Singles, Integers]:
+        """Return the light that falls on points, the light that they mirror, and where that is in doubt.
 
         Parameters
         ----------
         normal : (3, F) float32 array
             Unit normals in camera space.
+        turn : float
+            Angle that they may be off, in radians.
         column, row : (F,) int64 arrays
             The pixels.
 
@@ -47,6 +56,9 @@ class PixelLight:
         -------
         diffuse, specular : (1 or 3, F) float32 arrays
             One row where light is grey; in the job's arena.
+        doubtful : (D,) int64 array
+            Points, maybe twice, whose highlight ends within ``turn``, or whose light comes from beyond them so straight
+            that it has no half-way to the eye: there a small error is a large one.
         """
         arena, material, count = job.arena, self.material, normal.shape[1]
         is_gray = all(len(set(color)) == 1 for _, color in self.lights)
@@ -55,8 +67,14 @@ class PixelLight:
         diffuse.fill(material.ambient)
         specular.fill(0)
         to_eye = self._to_eye(job, column, row)
+        doubtful = [np.empty(0, np.int64)]
         for to_light, color in self.lights:
             cosine, power = self._terms(normal, to_eye, to_light, arena)
+            if material.specular:
+                found = _at_the_edge(cosine, to_eye, to_light, turn, arena)
+                doubtful.append(found[power.take(found) * material.specular * max(color) > UNSEEN])
+                power *= cosine > 0
+            np.maximum(cosine, np.float32(0), out=cosine)
             for channel in range(channels):
                 if len(self.lights) == 1 and channel == channels - 1:
                     product = cosine
@@ -67,7 +85,7 @@ class PixelLight:
                 if material.specular:
                     np.multiply(power, np.float32(material.specular * color[channel]), out=product)
                     specular[channel] += product
-        return diffuse, specular
+        return diffuse, specular, np.concatenate(doubtful)
 
     def _to_eye(self, job: Job, column: Integers, row: Integers) -> Singles:
         """Return the unit directions (3, F) float32 from pixels to the eye, in camera space."""
@@ -89,7 +107,7 @@ class PixelLight:
     def _terms(
         self, normal: Singles, to_eye: Singles, to_light: Singles, arena: Arena
     ) -> tuple[Singles, Singles]:
-        """Return the cosine to a light, 0 or more, and the power of the highlight, (F,) float32 each."""
+        """Return the cosine to a light, and the power of a highlight wherever it shines, (F,) float32 each."""
         cosine = _dot(normal, to_light, arena("cosine", normal.shape[1], dtype=np.float32), arena)
         power = arena("power", normal.shape[1], dtype=np.float32)
         if self.material.specular:
@@ -100,9 +118,17 @@ class PixelLight:
             np.log2(power, out=power)
             power *= np.float32(self.material.shininess)
             np.exp2(power, out=power)
-            power *= cosine > 0
-        np.maximum(cosine, np.float32(0), out=cosine)
         return cosine, power
+
+
+def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: float, arena: Arena) -> Integers:
+    """Return the points (D,) of which a turn of the normal decides whether they mirror a light; see `PixelLight.at`."""
+    facing = _dot(to_eye, to_light, arena("facing", len(cosine), dtype=np.float32), arena)
+    is_opposite = facing < np.float32(OPPOSITE)
+    is_opposite &= cosine > -np.float32(turn)
+    np.abs(cosine, out=facing)
+    is_opposite |= facing <= np.float32(turn)
+    return np.flatnonzero(is_opposite)
 
 
 def pixel_light(scene: Scene) -> PixelLight | None:

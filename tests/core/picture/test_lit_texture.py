@@ -101,6 +101,17 @@ def test_any_view_of_any_material(
     assert_close(scene_of(mesh, noise(seed=seed), camera))
 
 
+@pytest.mark.parametrize("grazing", [-1e-6, -1e-9, 0.0, 1e-9, 1e-6])
+def test_highlights_that_end_abruptly(grazing: float) -> None:
+    """A sheet that faces the eye, and light along it: whether it is mirrored or not, less than rounding decides."""
+    corners = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+    normals = np.tile([0.0, 0.0, 1.0], (4, 1))
+    sheet = Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]), normals, uvs=corners[:, :2])
+    mesh = replace(sheet, material=Material(0.3, 0.3, 1.0, 3.0))
+    lights = (DirectionalLight(np.array([1.0, 0.3, grazing]), np.ones(3)),)
+    assert_close(scene_of(mesh, camera=Camera(np.array([0.2, 0.1, 6.0]), np.zeros(3)), lights=lights))
+
+
 @pytest.mark.parametrize("region", [(0, 0, 160, 40), (33, 21, 50, 60), (159, 119, 1, 1)])
 def test_a_part_has_the_bytes_of_the_whole(region: tuple[int, int, int, int]) -> None:
     scene = scene_of(torus())
