@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles, read_only
+from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.geometry.matrices import world_to_camera
 from core.picture.job import Job, Words
@@ -123,12 +123,15 @@ class PixelLight:
 
 def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: float, arena: Arena) -> Integers:
     """Return the points (D,) of which a turn of the normal decides whether they mirror a light; see `PixelLight.at`."""
-    facing = _dot(to_eye, to_light, arena("facing", len(cosine), dtype=np.float32), arena)
-    is_opposite = facing < np.float32(OPPOSITE)
-    is_opposite &= cosine > -np.float32(turn)
-    np.abs(cosine, out=facing)
-    is_opposite |= facing <= np.float32(turn)
-    return np.flatnonzero(is_opposite)
+    size = np.abs(cosine, out=arena("cosine_size", len(cosine), dtype=np.float32))
+    is_at_edge: Flags = size <= np.float32(turn)
+    # Light from this side of the window is never opposite to an eye that looks at most 60 degrees past its middle.
+    if to_light[2] < 0 or to_eye[2].min(initial=1) < 0.5:
+        facing = _dot(to_eye, to_light, size, arena)
+        is_opposite: Flags = facing < np.float32(OPPOSITE)
+        is_opposite &= cosine > -np.float32(turn)
+        is_at_edge |= is_opposite
+    return np.flatnonzero(is_at_edge)
 
 
 def pixel_light(scene: Scene) -> PixelLight | None:
