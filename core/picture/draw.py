@@ -94,8 +94,8 @@ def draw_picture(
 
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
     `Route` has the colours ``palette`` or ``deferred``; with ``bytes``, ``normals`` and ``lit-texture`` they are up to
-    one away, with ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` and the
-    texture coordinates of ``lit-texture`` stay between those of the corners, where `render` extrapolates.
+    one away, with ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay
+    between those of the corners, where `render` extrapolates.
     """
     settings = settings or Settings()
     raster = make_raster(scene.size, settings.pixel_center, region)

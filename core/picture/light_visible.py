@@ -1,8 +1,9 @@
 """Light once for every visible pixel, from packed normals; and what is in doubt once more, as ``render`` has it.
 
 A highlight ends where the light goes behind the surface, and it may end abruptly. There the least turn of a normal
-decides between a highlight and none, and no bound holds: the few pixels that are so close to it are coloured once more,
-with the attributes and the light of every other picture.
+decides between a highlight and none, and no bound holds. Nor does one for triangles hardly wider than snapping moves
+their corners: attributes belong to the unsnapped ones, and pixels may lie far outside of these. The few pixels that are
+so are coloured once more, with the attributes and the light of every other picture.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Integers, Singles
+from core.arrays import Flags, Integers, Singles
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.fragment_colors import FragmentColors
@@ -30,6 +31,8 @@ class LitPlanes:
     light: PixelLight
     turn: float
     """Angle that a normal may be off, in radians."""
+    is_thin: Flags
+    """(P,) bool, triangles that are not drawn where they are, see ``corner_places``."""
 
     def light_visible(self, job: Job, nearest: NearestFragments, albedo: Albedo) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
@@ -45,6 +48,7 @@ class LitPlanes:
             normal = unit_normals(self.normals, job, primitive, column, row)
             diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
             job.pixels[place] = lit_pixels(job, color, diffuse, specular)
+            in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_thin.take(primitive))])
             if len(in_doubt):
                 doubtful.append((place.take(in_doubt), primitive.take(in_doubt)))
         if doubtful:

@@ -94,4 +94,4 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
     if not error <= TOLERANCE:
         return None
     normals = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(job.geometry), places)
-    return None if normals is None else LitPlanes(normals, mesh.light, turn)
+    return None if normals is None else LitPlanes(normals, mesh.light, turn, places.is_thin)

@@ -8,9 +8,8 @@ How close the bytes are: planes through corners far from the origin are rounded,
 `ROUNDING` times x y over the area, as a part of what the corners differ by (``core.fragments.interpolation``). So the
 position in the texture is off by that many texels, the texture by no more, neighbours being 1 apart at most, and bytes
 by as much times the steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only
-where the sum stays within the tolerance is this way taken. Left out of the bound are triangles hardly wider than
-snapping moves their corners: they are drawn as if their corners were the snapped ones, and so their coordinates stay
-between those of the corners.
+where the sum stays within the tolerance is this way taken. Triangles hardly wider than snapping moves their corners
+have no such bound: their pixels are coloured once more, exactly (``light_visible``).
 """
 
 from dataclasses import dataclass
