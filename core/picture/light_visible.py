@@ -35,7 +35,7 @@ class LitPlanes:
     """(P,) bool, triangles that are not drawn where they are, see ``corner_places``."""
 
     def light_visible(self, job: Job, nearest: NearestFragments, albedo: Albedo) -> int:
-        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
+        """Write the lit colour of what is seen at the (H*W,) pixels, and return how many are seen; the others stay."""
         seen_count = 0
         doubtful: list[tuple[Integers, Integers]] = []
         for part in blocks(len(job.pixels)):

@@ -14,7 +14,7 @@ COLOR = {
     "bytes": 5e-9,
     "texture": 25e-9,
     "normals": 35e-9,
-    "lit-texture": 80e-9,
+    "lit-texture": 85e-9,
     "deferred": 120e-9,
 }
 """Seconds for the colour of a pixel, by ``Route.color``."""
