@@ -16,6 +16,7 @@ COLORS = {
     "palette": "one for each triangle",
     "bytes": "corner colours interpolated as bytes",
     "normals": "light once per visible pixel, from packed normals",
+    "lit-texture": "light and texture once per visible pixel, in single precision",
     "texture": "packed texels",
     "deferred": "attributes and light once per visible pixel",
 }

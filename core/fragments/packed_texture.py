@@ -36,12 +36,12 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats, Integers, Singles, read_only
 from core.byte_words import FIELDS, OPAQUE, let_meet
+from core.fragments.texel_places import PLACES, AxisPlaces, Wholes
 from core.methods import table
 from core.scene import Texture
 
 Words = NDArray[np.uint32]
 Bytes = NDArray[np.uint8]
-Wholes = NDArray[np.int32]
 Coordinates = Floats | Singles
 
 LEVELS = 8192
@@ -58,38 +58,6 @@ _HALF = sum(1 << (low + fraction - 1) for low, fraction in FIELDS)
 """Half a byte in each field: cutting off the fraction rounds."""
 FARTHEST = 2.0**30
 """Positions in 1/256 of a texel that 32-bit numbers hold with room to spare."""
-
-
-@dataclass(frozen=True)
-class AxisPlaces:
-    """The different places that a lower left texel has along one axis, whatever the coordinate."""
-
-    size: int
-    """Texels."""
-    first: int
-    """Texel index of the first place."""
-    count: int
-    """Places; then they repeat, or the texture has ended."""
-    repeats: bool
-
-    def find(self, index: Wholes, place: Wholes) -> None:
-        """Write the ``place`` (F,) of texel indices (F,), 0 to count - 1."""
-        if not self.repeats:
-            np.subtract(index, self.first, out=place)
-            np.maximum(place, 0, out=place)
-            np.minimum(place, self.count - 1, out=place)
-        elif self.count & (self.count - 1):
-            np.remainder(index, self.count, out=place)
-        else:
-            np.bitwise_and(index, self.count - 1, out=place)
-
-
-PLACES = {
-    "repeat": lambda size: AxisPlaces(size, 0, size, True),
-    "mirror": lambda size: AxisPlaces(size, 0, 2 * size, True),
-    "clamp": lambda size: AxisPlaces(size, -1, size + 1, False),
-}
-"""By wrap: the places along an axis of so many texels."""
 
 
 @dataclass(frozen=True, eq=False)

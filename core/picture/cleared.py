@@ -45,7 +45,7 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
     if depth_format.is_planar and _all_linear(geometry, difference):
         return True  # planes through the snapped corners do not leave the corners' depths
     # In a triangle that is not thin, snapping moves the depth by less than it differs between the corners.
-    doubtful = np.flatnonzero(_is_thin(geometry) | (farthest + difference >= limit))
+    doubtful = np.flatnonzero(is_thin(geometry) | (farthest + difference >= limit))
     return bool((farthest.take(doubtful) + _extrapolated(geometry, doubtful) < limit).all())
 
 
@@ -59,7 +59,7 @@ def _all_linear(geometry: Geometry, difference: Floats) -> bool:
     return steepest <= SLOPE_LIMIT * float(np.abs(geometry.doubled_area).min(initial=np.inf))
 
 
-def _is_thin(geometry: Geometry) -> Flags:
+def is_thin(geometry: Geometry) -> Flags:
     """Return (P,) bool."""
     x, y = geometry.window_x, geometry.window_y
     length = np.maximum(x.max(axis=0) - x.min(axis=0), y.max(axis=0) - y.min(axis=0))

@@ -1,5 +1,7 @@
 """Draw a picture: choose by what the scene holds, draw, and say which way was taken."""
 
+from dataclasses import replace
+from functools import partial
 from threading import local
 from weakref import WeakKeyDictionary
 
@@ -19,6 +21,7 @@ from core.picture.deferred import shade_visible
 from core.picture.job import Job, Words, encode
 from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
+from core.picture.lit_texture import LitTexture, lit_texture
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Picture, Route, Split
 from core.picture.supersampled import draw_supersampled
@@ -32,7 +35,7 @@ from core.scene import AnyScene, ClipScene, Mesh
 from core.settings import Settings
 from core.timing import timed
 
-Colors = LayerColors | LitNormals
+Colors = LayerColors | LitNormals | LitTexture
 
 ENCODINGS = ("srgb", "linear")
 
@@ -53,6 +56,7 @@ def draw_picture(
     region: tuple[int, int, int, int] | None = None,
     out: NDArray[np.uint8] | None = None,
     arena: Arena | None = None,
+    plain_colors: bool = False,
 ) -> Picture:
     """Draw a scene as the bytes of a screen.
 
@@ -70,6 +74,9 @@ def draw_picture(
         Memory for the pixels.
     arena : Arena, optional
         Memory to work in; one per thread by default.
+    plain_colors : bool
+        Attributes and light at every pixel, even where the triangles of the region allow cheaper colours: those of the
+        whole picture may not, see `Route`.
 
     Returns
     -------
@@ -86,9 +93,9 @@ def draw_picture(
     more away than they are.
 
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
-    `Route` has the colours ``palette`` or ``deferred``; with ``bytes`` and ``normals`` they are up to one away, with
-    ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay between those of
-    the corners, where `render` extrapolates.
+    `Route` has the colours ``palette`` or ``deferred``; with ``bytes``, ``normals`` and ``lit-texture`` they are up to
+    one away, with ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay
+    between those of the corners, where `render` extrapolates.
     """
     settings = settings or Settings()
     raster = make_raster(scene.size, settings.pixel_center, region)
@@ -109,7 +116,8 @@ def draw_picture(
         and settings.pixel_center == "half"
         and is_drawn_by_spans(finer_settings(settings))
     ):
-        return draw_supersampled(draw_picture, scene, settings, raster, encoding, pixels, arena)
+        draw_part = partial(draw_picture, plain_colors=plain_colors)
+        return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     geometry = process_geometry(scene, settings, counts, raster=raster)
@@ -118,13 +126,17 @@ def draw_picture(
     if settings.blend != "opaque":
         route = _draw_stacks(job)
     else:
-        colors = _choose_colors(job)
+        allowed = _choose_colors(job)
+        colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
         layer = None if with_depth else _draw_layer(job, colors)
         if layer is None:
             nearest, route = _draw_visible(job, colors)
             depth = read_only(nearest.depth().reshape(raster.shape)) if with_depth else None
         else:
             route = layer
+        # A part without triangles forbids nothing, as one colour a triangle does not.
+        name = allowed.name if allowed else "deferred"
+        route = replace(route, allowed=name if len(geometry.primitives) else PaletteColors.name)
     _count(counts, route, len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
@@ -153,7 +165,7 @@ def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
     """Draw without depth, if that can be right; ``None``: it is not."""
     if (
         colors is None
-        or isinstance(colors, LitNormals)
+        or isinstance(colors, LitNormals | LitTexture)
         or not colors.fits_layer
         or not _may_be_one_layer(job)
     ):
@@ -183,7 +195,7 @@ def _choose_colors(job: Job) -> Colors | None:
         if of_triangles is not None:
             return PaletteColors(job.encode(of_triangles))
     with job.timed("interpolate"):
-        return byte_colors(job) or lit_normals(job) or texture_colors(job)
+        return byte_colors(job) or lit_normals(job) or lit_texture(job) or texture_colors(job)
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:

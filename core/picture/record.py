@@ -33,11 +33,14 @@ class Route:
     picture of all samples, drawn by any of these, and resolved."""
     color: str
     """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
-    lit once per visible pixel; ``texture``: packed texels in bands; ``deferred``: attributes and light once per visible
-    pixel, as ``render`` has them."""
+    lit once per visible pixel; ``lit-texture``: the same times a texture, read in single precision; ``texture``: packed
+    texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
     split: Split | None = None
     visible: int = 0
     """Pixels that something is seen at."""
+    allowed: str = ""
+    """The colours that all triangles of this picture, or of this part of one, allow; others than ``color`` where plain
+    colours were asked for. Empty: it was not looked at."""
 
     @property
     def depth_complexity(self) -> float:

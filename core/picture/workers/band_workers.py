@@ -17,7 +17,7 @@ from core.picture.draw import draw_picture
 from core.picture.record import Picture
 from core.picture.workers.balance import even_cuts, moved_cuts, rows_of
 from core.picture.workers.pace import Pace
-from core.picture.workers.sharing import BandTime, Sharing, joined_counts, joined_route
+from core.picture.workers.sharing import BandTime, Sharing, have_colors_of_whole, joined_counts, joined_route
 from core.picture.workers.worker import Worker, WorkerFailedError
 from core.picture.workers.worth import Load, load_of
 from core.scene import AnyScene
@@ -45,7 +45,12 @@ class _Order:
     with_depth: bool
     out: NDArray[np.uint8] | None
 
-    def draw(self, out: NDArray[np.uint8] | None, region: tuple[int, int, int, int] | None = None) -> Picture:
+    def draw(
+        self,
+        out: NDArray[np.uint8] | None,
+        region: tuple[int, int, int, int] | None = None,
+        plain_colors: bool = False,
+    ) -> Picture:
         """Draw a region, or all, in this process; pixels go to ``out`` (H, W, 4)."""
         return draw_picture(
             self.scene,
@@ -54,6 +59,7 @@ class _Order:
             with_depth=self.with_depth,
             region=region,
             out=out,
+            plain_colors=plain_colors,
         )
 
     @property
@@ -100,6 +106,7 @@ class BandWorkers:
         self._cuts = even_cuts(self.processes)
         self._start_count = 0
         self._failure = ""
+        self._plain_colors = False
         self._load: Load | None = None
         self._pace = Pace()
         self._sharing = Sharing(reason="no picture yet")
@@ -185,7 +192,7 @@ class BandWorkers:
         start, is_tried = perf_counter(), not reason
         if is_tried:
             try:
-                picture, bands = self._draw_bands(order)
+                picture, bands = self._draw_in_one_way(order)
                 reason = "" if bands else "colours of the bands were worked out in different ways"
             except WorkerFailedError as problem:
                 self._give_up(problem)
@@ -247,19 +254,31 @@ class BandWorkers:
         self._failure = str(problem)
         _close_all(self._workers)
 
+    def _draw_in_one_way(self, order: _Order) -> tuple[Picture, tuple[BandTime, ...]]:
+        """Draw with all workers, all bands with the colours of the whole picture; no bands: that cannot be told.
+
+        What all of them must draw alike is learned from the bands, and stays so for the pictures to come: an orbit
+        draws a band twice only where it changes.
+        """
+        picture, bands = self._draw_bands(order)
+        if not bands:
+            self._plain_colors = not self._plain_colors
+            picture, bands = self._draw_bands(order)
+        return picture, bands
+
     def _draw_bands(self, order: _Order) -> tuple[Picture, tuple[BandTime, ...]]:
-        """Draw with all workers; no bands: the picture is not to be used, see below."""
+        """Draw with all workers; no bands: their colours are not those of the whole picture."""
         start = perf_counter()
         scene, (height, width, _) = order.scene, order.shape
         rows = rows_of(self._cuts, height)
         for worker, (first, end) in zip(self._workers, rows[1:], strict=True):
             region = (0, first, width, end - first)
-            worker.ask(scene, order.settings, order.encoding, order.with_depth, region)
+            worker.ask(scene, order.settings, order.encoding, order.with_depth, self._plain_colors, region)
         asking = perf_counter() - start
         pixels = np.empty(order.shape, np.uint8) if order.out is None else order.out
         end = rows[0][1]
         try:
-            own = order.draw(pixels[:end], (0, 0, width, end))
+            own = order.draw(pixels[:end], (0, 0, width, end), self._plain_colors)
         except Exception:
             # The scene is to blame: they say the same, and stay.
             for worker in self._workers:
@@ -269,10 +288,7 @@ class BandWorkers:
         seconds = perf_counter() - start
         done = [worker.answer(SECONDS_TO_ANSWER + 10 * seconds) for worker in self._workers]
         routes = [own.route, *(band.route for band in done)]
-        # One colour a triangle looks the same whichever way it is worked out.
-        ways = {route.color for route in routes if route.visible} - {"palette"}
-        if len(ways) > 1:
-            # A colour may be a byte away from that of the whole picture, whose triangles are more.
+        if not have_colors_of_whole(routes, self._plain_colors):
             return own, ()
         statistics = joined_counts([own.statistics, *(band.statistics for band in done)])
         with timed(statistics["resolve"]):

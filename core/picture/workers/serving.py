@@ -31,6 +31,7 @@ class BandOrder:
     settings: Settings
     encoding: str
     with_depth: bool
+    plain_colors: bool
     region: tuple[int, int, int, int]
     """First column, first row, columns, rows."""
     memory: str
@@ -107,6 +108,7 @@ def _draw_band(order: BandOrder, memory: SharedMemory) -> Picture:
         order.settings,
         encoding=order.encoding,
         with_depth=order.with_depth,
+        plain_colors=order.plain_colors,
         region=order.region,
         out=band_pixels(memory, rows, columns, order.with_depth),
     )

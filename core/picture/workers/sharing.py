@@ -55,6 +55,29 @@ def joined_counts(statistics: Sequence[dict[str, StageCount]]) -> dict[str, Stag
     return counts
 
 
+def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
+    """Tell whether bands have the colours that one process gives the whole picture.
+
+    Parameters
+    ----------
+    routes : sequence of Route
+        Of all bands.
+    plain_colors : bool
+        Whether they were asked for colours of attributes and light at every pixel.
+
+    Notes
+    -----
+    Cheaper colours are right where all triangles allow them, so the whole picture has them if all of its bands do. Of
+    the cheaper ones a scene has one kind at most, by what its vertices carry; one colour a triangle is the same bytes
+    whichever way it is worked out.
+    """
+    if not all(route.allowed for route in routes):
+        # Parts of a supersampled picture choose for themselves.
+        return not plain_colors and len({route.color for route in routes if route.visible} - {"palette"}) <= 1
+    allowed = {route.allowed for route in routes} - {"palette"}
+    return "deferred" in allowed if plain_colors else len(allowed) <= 1
+
+
 def joined_route(routes: Sequence[Route]) -> Route:
     """Return the route of a picture out of those of its bands; a triangle in two bands went its way twice."""
     # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.

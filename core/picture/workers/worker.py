@@ -90,15 +90,16 @@ class Worker:
         settings: Settings,
         encoding: str,
         with_depth: bool,
+        plain_colors: bool,
         region: tuple[int, int, int, int],
     ) -> None:
-        """Ask for a band: ``region`` is first column, first row, columns, rows."""
+        """Ask for a band: ``region`` is first column, first row, columns, rows; for the rest see `draw_picture`."""
         width, height = scene.size
         self.is_asked = True
         try:
             # Room for the whole picture, since the next band may be higher.
             memory = self._memory_of(byte_count(height, width, with_depth))
-            order = BandOrder(scene, settings, encoding, with_depth, region, memory.name)
+            order = BandOrder(scene, settings, encoding, with_depth, plain_colors, region, memory.name)
             self._connection.send(self._sender.message(order))
         except OSError as problem:
             raise WorkerFailedError(self._why_it_ended(problem)) from problem

@@ -9,7 +9,14 @@ TRIANGLE, PIXEL = 60e-9, 1e-9
 follow, to within a factor of two."""
 FRAGMENT = {"layer": 6e-9, "words": 8e-9, "stacks": 60e-9, "frame": 250e-9, "supersampled": 8e-9}
 """Seconds for a covered pixel of a triangle, by ``Route.visibility``."""
-COLOR = {"palette": 1e-9, "bytes": 5e-9, "texture": 25e-9, "normals": 35e-9, "deferred": 120e-9}
+COLOR = {
+    "palette": 1e-9,
+    "bytes": 5e-9,
+    "texture": 25e-9,
+    "normals": 35e-9,
+    "lit-texture": 85e-9,
+    "deferred": 120e-9,
+}
 """Seconds for the colour of a pixel, by ``Route.color``."""
 COLORS_EVERY_FRAGMENT = ("stacks", "frame")
 """Here the colour is part of what a fragment takes."""

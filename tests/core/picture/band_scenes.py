@@ -25,6 +25,22 @@ def plain_ball() -> Scene:
     return replace(ball(size=(120, 90)), meshes=(Mesh(positions, triangles, normals=positions),))
 
 
+def textured_ball(with_torn_triangle: bool = False) -> Scene:
+    """Return a textured ball lit from far away; the triangle above it has normals that no word of normals bears."""
+    positions, triangles = icosphere(4)
+    normals = positions
+    if with_torn_triangle:
+        positions = np.concatenate([positions, [[-0.4, 0.98, 0.5], [0.4, 0.98, 0.5], [0.0, 1.1, 0.5]]])
+        normals = np.concatenate([normals, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
+        triangles = np.concatenate(
+            [triangles, [[len(positions) - 3, len(positions) - 2, len(positions) - 1]]]
+        )
+    texture = Texture(np.random.default_rng(4).random((32, 32, 3), np.float32))
+    mesh = Mesh(positions, triangles, normals, uvs=positions[:, :2] * 1.5, texture=texture)
+    lights = (DirectionalLight(np.array([-1.0, -1.0, -1.0])),)
+    return replace(ball(size=(220, 200)), meshes=(mesh,), lights=lights)
+
+
 def textured_rings() -> Scene:
     positions, triangles = torus(24, 12)
     generator = np.random.default_rng(3)
@@ -101,5 +117,7 @@ SCENES = {
     "two rows": (loose_triangles(40, (300, 2)), SPANS),
     "one row": (loose_triangles(40, (300, 1)), SPANS),
     "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
+    "textured ball": (textured_ball(), replace(SPANS, cull="back")),
+    "textured ball below a torn triangle": (textured_ball(True), replace(SPANS, cull="back")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from core import Camera, draw_picture
+from core.picture import Route
 from core.picture.workers import BandWorkers
-from tests.core.picture.band_scenes import SCENES, SPANS, ball
-
-DIFFER = ("smooth below, steep above", "ball in bytes", "ball in bytes, both sides")
-"""Scenes whose bands may go different ways, depending on the cut, so that one process has to draw them."""
+from core.picture.workers.sharing import have_colors_of_whole
+from tests.core.picture.band_scenes import SCENES, SPANS, ball, textured_ball
 
 
 @pytest.fixture(scope="module")
@@ -35,8 +34,41 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
         assert together.statistics["raster"].outgoing == alone.statistics["raster"].outgoing
         assert together.statistics["cull"].outgoing == alone.statistics["cull"].outgoing
         assert together.route.visible == alone.route.visible
-    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason or name in DIFFER
+    assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason
     assert not together.pixels.flags.writeable
+
+
+def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_cheap_ones() -> None:
+    smooth, torn = textured_ball(), textured_ball(with_torn_triangle=True)
+    assert draw_picture(torn, region=(0, 0, 220, 100)).route.color == "lit-texture"
+    expected = {id(scene): draw_picture(scene) for scene in (smooth, torn)}
+    assert [expected[id(scene)].route.color for scene in (smooth, torn)] == ["lit-texture", "deferred"]
+    assert (expected[id(torn)].pixels[:90] != expected[id(smooth)].pixels[:90]).any()
+    with BandWorkers(2, always=True) as workers:
+        assert workers.start(), workers.failure
+        for scene in (smooth, torn, torn, smooth, smooth, torn):
+            together = workers.draw(scene)
+            np.testing.assert_array_equal(together.pixels, expected[id(scene)].pixels)
+            assert together.route.color == expected[id(scene)].route.color
+            assert workers.sharing.process_count == 2
+
+
+@pytest.mark.parametrize(
+    ("allowed", "with_cheap", "with_plain"),
+    [
+        (["bytes", "bytes"], True, False),
+        (["bytes", "deferred"], False, True),
+        (["bytes", "palette"], True, False),
+        (["palette", "palette"], True, False),
+        (["palette", "deferred"], True, True),
+        (["deferred", "deferred"], True, True),
+        (["", "normals"], True, False),
+    ],
+)
+def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: bool, with_plain: bool) -> None:
+    routes = [Route("words", name or "normals", visible=1, allowed=name) for name in allowed]
+    assert have_colors_of_whole(routes, plain_colors=False) == with_cheap
+    assert have_colors_of_whole(routes, plain_colors=True) == with_plain
 
 
 @pytest.mark.parametrize("name", list(SCENES))

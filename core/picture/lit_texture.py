@@ -1,0 +1,147 @@
+"""Phong's shading of a textured mesh: normals from packed words, texture coordinates from planes, lit in float32.
+
+Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
+float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
+precision (``single_texture``), normals and light are those of ``lit_normals``.
+
+How close the bytes are: planes through corners far from the origin are rounded, these and those of ``render``, by
+`ROUNDING` times x y over the area, as a part of what the corners differ by (``core.fragments.interpolation``). So the
+position in the texture is off by that many texels, the texture by no more, neighbours being 1 apart at most, and bytes
+by as much times the steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only
+where the sum stays within the tolerance is this way taken. Triangles hardly wider than snapping moves their corners
+have no such bound: their pixels are coloured once more, exactly (``light_visible``).
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from core.arrays import Floats, Integers, Singles
+from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
+from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
+from core.framebuffer.nearest import NearestFragments
+from core.geometry_record import Geometry
+from core.integer_planes import window_slopes
+from core.picture.corner_places import CornerPlaces, corner_places
+from core.picture.job import Job
+from core.picture.light_errors import STEEPEST
+from core.picture.light_visible import LitPlanes
+from core.picture.lit_normals import LitMesh, lit_mesh, lit_planes
+from core.picture.packed_normals import corner_w
+from core.picture.vertex_facts import Color
+from core.scene import Texture
+
+ROUNDING = 2.0**-48
+"""Rounding of planes, as a part of the products of coordinates in them, with room to spare."""
+
+Plane = tuple[Floats, Floats, Floats]
+"""Change per column, per row, and value at the window's origin, (P,) float64 each."""
+
+
+@dataclass(frozen=True, eq=False)
+class LitTexture:
+    """Normals and texture coordinates of P triangles, and what lights them."""
+
+    planes: LitPlanes
+    coordinates: tuple[Plane, Plane, Plane]
+    """1/w, and the position in texels over w."""
+    color: Color
+    """What the texture is multiplied with: linear grey, or red, green and blue."""
+    sampler: SingleSampler
+    name = "lit-texture"
+    stage = "shade"
+
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
+        return self.planes.light_visible(job, nearest, partial(self._albedo, job))
+
+    def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
+        """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
+        x, y = job.raster.centers(column, row)
+        inverse_w, u, v = job.arena("texture_position", 3, len(x))
+        term = job.arena("texture_term", len(x))
+        for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
+            _evaluate(plane, primitive, x, y, values, term)
+        np.divide(1, inverse_w, out=inverse_w)
+        u *= inverse_w
+        v *= inverse_w
+        colors = job.arena("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
+        self.sampler.write_colors(u, v, colors)
+        if all(part == 1 for part in self.color):
+            return list(colors)
+        count = max(len(colors), len(self.color))
+        return [
+            colors[min(k, len(colors) - 1)] * self.color[min(k, len(self.color) - 1)] for k in range(count)
+        ]
+
+
+def lit_texture(job: Job) -> LitTexture | None:
+    """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
+
+    The scene is what ``lit_normals`` draws, with a texture that is looked up bilinearly.
+    """
+    mesh = lit_mesh(job) if job.has_texture and job.settings.texture_filter == "bilinear" else None
+    texture = mesh.scene.meshes[0].texture if mesh else None
+    if mesh is None or texture is None or not is_plain(texture, job.settings.wrap):
+        return None
+    if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
+        return None
+    places = corner_places(job.geometry)
+    position = _texel_positions(job.geometry, mesh, texture)
+    error = _texture_bytes(mesh, _position_error(places, position))
+    planes = lit_planes(job, mesh, places, error)
+    if planes is None:
+        return None
+    inverse = [1 / of_corner for of_corner in corner_w(job.geometry)]
+    over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
+    inverse_w, u, v = (_plane(places, values) for values in (inverse, *over_w))
+    sampler = SingleSampler(texture, job.settings.wrap)
+    return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
+
+
+def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> list[list[Floats]]:
+    """Return the texture coordinates of the corners in texels: for u and v three times (P,) float64."""
+    rows, columns, _ = texture.pixels.shape
+    index = geometry.primitives.values.index
+    return [
+        [(of_vertices * size).take(of_corner) for of_corner in index]
+        for of_vertices, size in zip(mesh.facts.uv, (columns, rows), strict=True)
+    ]
+
+
+def _position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
+    """Return by how many texels the position of a fragment of a triangle that is not thin may be off."""
+    extent = np.zeros(len(places.is_thin))
+    for first, second, third in position:
+        extent += np.abs(second - first)
+        extent += np.abs(third - first)
+    extent[places.is_thin] = 0
+    extent /= np.abs(places.doubled_area)
+    reach = float(np.abs(places.x).max(initial=0)) * float(np.abs(places.y).max(initial=0))
+    return float(extent.max(initial=0)) * reach * ROUNDING
+
+
+def _texture_bytes(mesh: LitMesh, texels: float) -> float:
+    """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
+    material, lights = mesh.light.material, mesh.light.lights
+    strength = material.ambient + material.diffuse * sum(max(*color, 0.0) for _, color in lights)
+    return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))
+
+
+def _plane(places: CornerPlaces, values: list[Floats]) -> Plane:
+    """Return the plane through values (P,) at the three corners."""
+    across, up = window_slopes(places.x, places.y, places.doubled_area, *values)
+    origin = values[0] - (across * places.x[0] + up * places.y[0])
+    return across, up, origin
+
+
+def _evaluate(plane: Plane, primitive: Integers, x: Floats, y: Floats, values: Floats, term: Floats) -> None:
+    """Write the ``values`` (F,) of the planes of primitives (F,) at pixel centres; ``term`` (F,) is memory."""
+    across, up, origin = plane
+    up.take(primitive, out=values, mode="clip")
+    values *= y
+    values += origin.take(primitive, out=term, mode="clip")
+    across.take(primitive, out=term, mode="clip")
+    term *= x
+    values += term
