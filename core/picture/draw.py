@@ -6,7 +6,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.supersampling import finer_settings, side_of
+from core.antialiased.sample_counts import side_of
+from core.antialiased.supersampling import finer_settings
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
@@ -102,9 +103,8 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    side = side_of(settings.antialiasing)
     if (
-        side > 1
+        side_of(settings)
         and not with_depth
         and settings.pixel_center == "half"
         and is_drawn_by_spans(finer_settings(settings))

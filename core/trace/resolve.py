@@ -5,13 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from core.antialiased.exact_area import draw_pieces, piece_sum
+from core.antialiased.sample_counts import positions_of
 from core.antialiased.sampled import grown, inner_of
-from core.antialiased.supersampling import side_of
 from core.arrays import Flags, Floats, Integers, Singles
 from core.frame import STAGES, StageCount
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
-from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
 from core.geometry_stages import process_geometry
 from core.listing import Listing, listing
 from core.pipeline import draw
@@ -135,8 +134,7 @@ def last_drawn(source: TraceSource) -> Integers | None:
 def _samples(source: TraceSource) -> Parts:
     """Return the samples that every pixel is made of, in the order of the sum; those beyond the border weigh 0."""
     settings = source.settings
-    side = side_of(settings.antialiasing)
-    weights = filter_weights(grid_positions(side) if side > 1 else ROTATED_GRID, settings.resolve_filter)
+    weights = filter_weights(positions_of(settings), settings.resolve_filter)
     wide = grown(source.raster, reach_of(weights))
     samples = draw(source.scene, settings, wide, last_drawn(source)).samples
     assert samples is not None

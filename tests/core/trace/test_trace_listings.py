@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, trace
 from core.antialiased.exact_area import piece_sum
-from core.antialiased.supersampling import side_of
+from core.antialiased.sample_counts import side_of
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
 from core.fragments.level_of_detail import level_of_detail
@@ -533,9 +533,9 @@ class OnePart:
 def check_all(traced: Trace) -> None:
     """Execute the listings of all stages: of several samples, on what the rows of each were made from."""
     source = traced.source
-    side = side_of(source.settings.antialiasing)
+    side = side_of(source.settings)
     check_resolve(traced)
-    if side > 1:
+    if side:
         parts = [(finer_source(source, side), CHECKS)]
     elif source.settings.antialiasing == "msaa-4":
         samples = sources_of_samples(source)
