@@ -49,7 +49,8 @@ from core.surface import shade_fragments
 from core.texture_slopes import slopes_at
 
 PARALLEL = 2.0**-40
-"""Depths that differ by less all over a pixel are those of one plane: rounding must not cut it."""
+"""Depths that differ by less all over a pixel are those of one plane: rounding must neither cut it nor put another
+triangle of the plane in front."""
 BAND = 1 << 16
 """Pixels whose pieces are worked on together."""
 
@@ -289,12 +290,15 @@ class PiecePainter:
         )
 
     def _is_nearer(self, new: Integers, old: Integers, x: Floats, y: Floats) -> Flags:
-        """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting."""
+        """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting.
+
+        Triangles of one plane differ by rounding there, and the first of them stays.
+        """
         geometry = self._geometry
         by_w = geometry.vertices.view_range is not None
         plane, sign = (geometry.inverse_w_plane, 1.0) if by_w else (geometry.depth_plane, -1.0)
         value, there = (sign * plane_value(plane, of, x, y) for of in (new, np.maximum(old, 0)))
-        return value > there
+        return value - there > PARALLEL * np.abs(there)
 
     def centroids(self, drawn: DrawnPieces) -> tuple[Floats, Floats]:
         """Return where in the window the centroids of pieces lie, x and y (P,)."""
