@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.area_overlays import area_overlays
 from app.clip_overlays import clip_overlays
 from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
 from app.scene_edits import move_corner
@@ -26,6 +27,7 @@ RESULTS = ("picture", "triangles")
 DEFAULT_OVERLAYS = {
     "bin": frozenset({"blocks"}),
     "raster": frozenset({"tie", "nan", "spans", "clip window", "clipped lines"}),
+    "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
 """Overlays that are on at first, by stage."""
 
@@ -161,6 +163,7 @@ class GridPresenter(QObject):
         spans = span_overlay(trace, session.trace.source.raster, position)
         if spans is not None:
             found.append(spans)
+        found += area_overlays(trace, session.trace.source.raster, position)
         found += clip_overlays(trace, session.trace.source.raster, position)
         lines = edge_overlay(self._geometry)
         if lines is not None:

@@ -25,6 +25,8 @@ from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
+from core.framebuffer.pixel_pieces import SQUARE
+from core.framebuffer.polygon_cut import cut_polygon, polygon_area
 from core.framebuffer.resolve import weighted_mean
 from core.geometry.after_divide import divide_corner
 from core.geometry.culling import cull_verdict
@@ -500,9 +502,32 @@ def check_resolve(traced: Trace) -> None:
             with np.errstate(invalid="ignore", over="ignore"):
                 mixed = [rules[kind](*((v, weights) if kind == "average" else (weights, v))) for v in values]
             assert equal(mixed, found.columns["linear"][row])
-    for row in range(found.steps.row_count):
+    if "cut" in found.steps.kinds:
+        check_cuts(found)
+    for row in rows_of_kind(found, found.steps.kinds[0]):
         linear, shown = found.columns["linear"][row], found.columns["bytes"][row]
         assert [srgb_byte(float(value)) for value in linear[:3]] == shown[:3].tolist()
+
+
+def check_cuts(found: StageTrace) -> None:
+    """Cut the squares of pixels again, edge by edge, and measure what is left."""
+    c = found.columns
+    for kind in ("cut", "piece"):
+        for row in rows_of_kind(found, kind):
+            before, after = (
+                [(float(x), float(y)) for x, y in c[name][row] if np.isfinite(x)]
+                for name in ("before", "polygon")
+            )
+            if kind == "piece":
+                assert polygon_area(after) == c["piece_area"][row]
+                continue
+            if c["edge"][row] == 0:
+                assert before == [tuple(corner) for corner in SQUARE.tolist()]
+            else:
+                previous = c["polygon"][row - 1]
+                assert np.array_equal(previous, c["before"][row], equal_nan=True)
+            assert cut_polygon(before, *(float(c[name][row]) for name in ("a", "b", "value"))) == after
+            assert len(after) == c["corner_count"][row]
 
 
 CHECKS = (
