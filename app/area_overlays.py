@@ -28,7 +28,7 @@ def area_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
     polygon = columns["before" if is_cut and operation == 0 else "polygon"][row]
     corners = polygon[np.isfinite(polygon[:, 0])] + center
     sides = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
-    found.append(SegmentOverlay("cut polygon", sides, title="cut polygon"))
+    found.append(SegmentOverlay("cut polygon", sides, title="cut polygon", is_polygon=True))
     return found
 
 

@@ -42,9 +42,10 @@ def _story_of_samples(
     for _, samples in groups[:MOST_GROUPS]:
         history = why(source, column, row, triangle, sample=samples[0])
         name = samples_name(samples)
-        verdicts.append(f"{name}: {of_sample(verdict_sentence(history))}")
+        told = of_sample(verdict_sentence(history))
+        verdicts.append(f"{name}: {told}" if len(groups) > 1 else told)
         lines += [
-            (_of_samples(entry, name), of_triangle)
+            (_of_samples(entry, name if len(groups) > 1 else ""), of_triangle)
             for entry, of_triangle in _lines(history)
             if entry.title != "Initial value"
         ]
@@ -70,9 +71,9 @@ def _groups(source: TraceSource, column: int, row: int) -> list[tuple[int, list[
 
 
 def _of_samples(entry: HistoryEntry, name: str) -> HistoryEntry:
-    """Return a line as one of some samples."""
+    """Return a line as one of some samples; of all of them it needs no ``name``."""
     return HistoryEntry(
-        f"{name}: {entry.title}",
+        f"{entry.title}, {name[0].lower()}{name[1:]}" if name else entry.title,
         entry.before,
         entry.out,
         entry.after,
