@@ -20,6 +20,13 @@ _CUTS: Mapping[str, VariableText] = {
     ),
     "corner_count": VariableText("corners left", "Corners of what is left; 0: nothing that has an area."),
     "piece_area": VariableText("area", "Of what is left, in pixels."),
+    "primitive": VariableText("number drawn", "Which of the drawn triangles, pieces counted apart, it is."),
+    "part_area": VariableText(
+        "part #", "Area of a part that the pixel is in by now, in pixels; 0: there is none.", spread="parts"
+    ),
+    "part_primitive": VariableText(
+        "part # shows", "Number of the drawn triangle that is seen in the part; −1: none.", spread="parts"
+    ),
     "seen_area": VariableText("in front", "Area of it that is in front of what was there before."),
     "covered_area": VariableText("covered", "Area of the pixel that shows any triangle by now."),
 }

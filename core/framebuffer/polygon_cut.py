@@ -6,6 +6,7 @@ I. Sutherland, G. Hodgman, *Reentrant polygon clipping*, 1974.
 E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 from core.framebuffer.pixel_pieces import FLAT, ON_LINE
@@ -42,3 +43,14 @@ def polygon_area(polygon: Polygon) -> float:
         x0, y0 = polygon[0]
         doubled += (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
     return 0.5 * doubled  #: area
+
+
+def shown_areas(areas: Sequence[float], primitives: Sequence[int], new: int) -> tuple[float, float]:
+    """Return how much of a pixel shows the ``new`` primitive, and how much any; -1 shows the background."""
+    front, covered = 0.0, 0.0
+    for area, primitive in zip(areas, primitives, strict=True):
+        if primitive == new:
+            front += area  #: seen
+        if primitive >= 0:
+            covered += area  #: cover
+    return front, covered

@@ -22,7 +22,7 @@ from core.framebuffer.pixel_pieces import (
     split_pieces,
     whole_pixels,
 )
-from core.framebuffer.polygon_cut import cut_polygon, polygon_area
+from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.listing import listing
 from core.steps import Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
@@ -38,7 +38,7 @@ OPERATIONS = {
     ),
     "piece": (
         Operation("area", "area", ("polygon", "corner_count", "piece_area")),
-        Operation("seen", "seen", ("seen_area",)),
+        Operation("seen", "seen", ("part_area", "part_primitive", "primitive", "seen_area")),
         Operation("cover", "cover", ("covered_area",)),
     ),
 }
@@ -60,6 +60,12 @@ class PixelCuts:
     """(F,) float64, the area of what passed the depth test, in pixels."""
     covered: Floats
     """(F,) float64, how much of the pixel shows any triangle after this one."""
+    part_area: Floats
+    """(F, M) float64, areas of the parts that the pixel is in then; 0 where there is none."""
+    part_primitive: Integers
+    """(F, M) int64, what each part shows, -1: nothing."""
+    primitive: Integers
+    """(F,) int64, the primitive that was drawn."""
 
 
 def cuts_of(
@@ -79,6 +85,7 @@ def cuts_of(
     fragment, place, rank = [none], [none], [none]
     seen: list[Floats] = [np.empty(0)]
     covered: list[Floats] = [np.empty(0)]
+    parts = []
     for number, layer in enumerate(layers):
         count, there = len(layer.fragment), layer.there
         area, of_pixel = area_of(there.pieces), there.pieces.number
@@ -88,6 +95,7 @@ def cuts_of(
         rank.append(np.full(count, number))
         seen.append(_sums(of_pixel, area * shows_new, count))
         covered.append(_sums(of_pixel, area * (there.primitive >= 0), count))
+        parts.append(_side_by_side(of_pixel, area, there.primitive, count))
     joined, at = np.concatenate(fragment), np.concatenate(place)
     triangle = triangle_of.take(squares.primitive.take(joined))
     order = np.lexsort((np.concatenate(rank), at))
@@ -102,12 +110,33 @@ def cuts_of(
         (first, second, third),
         np.concatenate(seen)[order],
         np.concatenate(covered)[order],
+        _joined_parts([areas for areas, _ in parts], 0.0)[order],
+        _joined_parts([shown for _, shown in parts], -1)[order],
+        squares.primitive.take(taken),
     )
 
 
 def _sums(number: Integers, areas: Floats, count: int) -> Floats:
     """Return the sums (count,) of areas (P,) by number (P,)."""
     return np.bincount(number, areas, count).astype(np.float64)
+
+
+def _side_by_side(number: Integers, area: Floats, primitive: Integers, count: int) -> tuple[Floats, Integers]:
+    """Return areas and primitives of parts (P,) by number, (count, M) each, in their order."""
+    order = np.argsort(number, kind="stable")
+    sorted_number = number[order]
+    place = np.arange(len(order)) - np.searchsorted(sorted_number, sorted_number)
+    most = int(place.max(initial=0)) + 1
+    areas, primitives = np.zeros((count, most)), np.full((count, most), -1)
+    areas[sorted_number, place], primitives[sorted_number, place] = area[order], primitive[order]
+    return areas, primitives
+
+
+def _joined_parts(of_layers: list[NDArray[Any]], missing: float) -> NDArray[Any]:
+    """Return the parts (n, M) of all layers, one after another, filled up with ``missing``."""
+    most = max((of_layer.shape[1] for of_layer in of_layers), default=1)
+    room = [np.pad(of, ((0, 0), (0, most - of.shape[1])), constant_values=missing) for of in of_layers]
+    return np.concatenate(room) if room else np.empty((0, most))
 
 
 def with_cuts(found: StageTrace, cuts: PixelCuts) -> StageTrace:
@@ -156,6 +185,9 @@ def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
         "piece_area": area,
         "seen_area": cuts.seen,
         "covered_area": cuts.covered,
+        "part_area": cuts.part_area,
+        "part_primitive": cuts.part_primitive,
+        "primitive": cuts.primitive,
     }
     parts.append((np.arange(count), of_piece))
 
@@ -177,7 +209,11 @@ def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
         kind=kind[order],
         operations=OPERATIONS,
         columns=columns,
-        listings={"cut": listing(cut_polygon), "piece.area": listing(polygon_area)},
+        listings={
+            "cut": listing(cut_polygon),
+            "piece": listing(shown_areas),
+            "piece.area": listing(polygon_area),
+        },
         pixel=found.pixel[place],
     )
 

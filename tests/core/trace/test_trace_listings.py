@@ -26,7 +26,7 @@ from core.framebuffer.depth import depth_test
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.framebuffer.pixel_pieces import SQUARE
-from core.framebuffer.polygon_cut import cut_polygon, polygon_area
+from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.framebuffer.resolve import weighted_mean
 from core.geometry.after_divide import divide_corner
 from core.geometry.culling import cull_verdict
@@ -520,6 +520,9 @@ def check_cuts(found: StageTrace) -> None:
             )
             if kind == "piece":
                 assert polygon_area(after) == c["piece_area"][row]
+                parts = c["part_area"][row].tolist(), c["part_primitive"][row].tolist()
+                shown = shown_areas(*parts, int(c["primitive"][row]))
+                assert shown == (c["seen_area"][row], c["covered_area"][row])
                 continue
             if c["edge"][row] == 0:
                 assert before == [tuple(corner) for corner in SQUARE.tolist()]
