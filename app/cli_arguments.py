@@ -50,8 +50,8 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="choose methods (rasterscope methods lists them), block_size=N or correction_interval=N; the "
-        "others are those of the state file, or the defaults",
+        help="choose methods (rasterscope methods lists them), block_size=N, correction_interval=N or "
+        "samples_across=N; the others are those of the state file, or the defaults",
     )
 
 

@@ -15,6 +15,7 @@ from app.cli_arguments import (
     overflow_told,
     size_from_text,
 )
+from app.drawing_memory import check_memory
 from app.file_writing import whole_file
 from core import Frame, render
 from core.arrays import Singles
@@ -34,9 +35,6 @@ examples:
   rasterscope render teapot.obj -o teapot.png --size 640x480 --set shading=flat cull=back
   rasterscope render shared-edge -o edge.png --set fill=blocks block_size=4 --buffers edge.npz
 """
-BYTES_PER_PIXEL = {"opaque": 380}
-BYTES_PER_BLENDED_PIXEL = 530
-"""Memory that drawing takes at its peak where every pixel is textured, lit and seen; measured at 4096x4096."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     if options.size is not None:
         scene = replace(scene, size=options.size)
     blend, _ = blend_choice(settings)
-    check_memory(scene.size, blend)
+    check_memory(scene.size, settings)
     with overflow_told():
         frame = render(scene, settings)
 
@@ -102,19 +100,6 @@ def picture_bytes(color: Singles, blend: str) -> Bytes:
         straight = np.divide(color[..., :3], alpha, out=color[..., :3].copy(), where=is_partial)
         color = np.concatenate([straight, alpha], axis=2)
     return to_display(color).pixels
-
-
-def check_memory(size: tuple[int, int], blend: str) -> None:
-    """Raise ValueError for a picture that may not fit into the memory of this machine."""
-    needed = size[0] * size[1] * BYTES_PER_PIXEL.get(blend, BYTES_PER_BLENDED_PIXEL)
-    if not hasattr(os, "sysconf"):
-        return
-    present = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    if needed > present:
-        raise ValueError(
-            f"a picture of {size[0]}x{size[1]} pixels may take {needed / 2**30:.0f} GiB of memory, "
-            f"this machine has {present / 2**30:.0f}"
-        )
 
 
 def is_device(path: str) -> bool:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from core import STAGES, Settings, Trace, trace
+from core.antialiased.sample_counts import sample_count
 from core.arrays import Floats
 from core.scene import AnyScene, ClipScene
 from core.trace import TraceSource, scene_triangle_count
@@ -16,8 +17,6 @@ VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "compare")
 """Names of the main views."""
 TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
-SAMPLES = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16}
-"""Samples of a pixel, each of which is stepped."""
 LONGEST_RUN = 1_500_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
 TESTS_PER_SECOND = 250_000
@@ -85,7 +84,7 @@ class Document:
     def most_tests(self) -> int:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
-        pixels = self.raster.columns * self.raster.rows * SAMPLES.get(self.settings.antialiasing, 1)
+        pixels = self.raster.columns * self.raster.rows * sample_count(self.settings)
         if self.settings.fill == "brute-force" and self.settings.polygon_mode == "fill":
             return triangles * pixels
         return min(triangles, 60) * pixels // 4

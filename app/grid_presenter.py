@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.area_overlays import area_overlays
 from app.clip_overlays import clip_overlays
 from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
+from app.sample_records import sample_dots
 from app.scene_edits import move_corner
 from app.session import Session
 from core.arrays import Integers
@@ -26,6 +28,7 @@ RESULTS = ("picture", "triangles")
 DEFAULT_OVERLAYS = {
     "bin": frozenset({"blocks"}),
     "raster": frozenset({"tie", "nan", "spans", "clip window", "clipped lines"}),
+    "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
 """Overlays that are on at first, by stage."""
 
@@ -82,8 +85,6 @@ class GridPresenter(QObject):
         """Show another run: outlines, rulers, buffers."""
         session = self._session
         self._grid.set_pixel_center(session.document.settings.pixel_center)
-        samples = session.trace.source.picture.samples
-        self._grid.show_samples(None if samples is None else samples.position)
         self._show_outlines()
         self.refresh_step()
         self.refresh_pointing()
@@ -105,6 +106,8 @@ class GridPresenter(QObject):
         main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
         self._strip.show_chosen(main.name)
         self._grid.show_buffer(main)
+        stage_trace, at = session.stage_trace, session.cursor.position
+        self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
         self._ranges.show_buffer(main)
         overlays = self._overlays()
         shown = self._shown_overlays.get(stage, frozenset({"nan"}))
@@ -161,6 +164,7 @@ class GridPresenter(QObject):
         spans = span_overlay(trace, session.trace.source.raster, position)
         if spans is not None:
             found.append(spans)
+        found += area_overlays(trace, session.trace.source.raster, position)
         found += clip_overlays(trace, session.trace.source.raster, position)
         lines = edge_overlay(self._geometry)
         if lines is not None:

@@ -2,46 +2,114 @@
 
 import numpy as np
 
+from core.antialiased.sample_counts import sample_count
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.trace import TraceSource
-from core.why import PixelState, why
+from core.why import PixelHistory, PixelState, why
 from widgets.marks import Mark
 from widgets.pixel_history import HistoryEntry, PixelStory, PixelValue
+from widgets.why_samples import of_sample, samples_name, samples_verdict
 from widgets.why_sentences import count_sentences, event_reason, event_title, verdict_sentence
+
+MOST_GROUPS = 4
+"""Groups of samples whose histories are told; those of more triangles in a pixel are only counted."""
+Lines = list[tuple[HistoryEntry, int | None]]
+"""The lines of a history, each with its triangle."""
 
 
 def story_of(
     source: TraceSource, column: int, row: int, triangle: int | None = None
 ) -> tuple[PixelStory, list[int | None]]:
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
+    if sample_count(source.settings) > 1:
+        return _story_of_samples(source, column, row, triangle)
     history = why(source, column, row, triangle)
-    entries, triangles = [], []
+    lines = _lines(history)
+    mark = Mark.COVERED if history.final.triangle >= 0 else Mark.REJECTED
+    verdict = verdict_sentence(history)
+    if source.settings.antialiasing == "area":
+        verdict = f"At the pixel's centre, whatever its pieces are: {verdict}"
+    return _story(column, row, verdict, mark, lines)
+
+
+def _story_of_samples(
+    source: TraceSource, column: int, row: int, triangle: int | None
+) -> tuple[PixelStory, list[int | None]]:
+    """Return the histories of the samples of a pixel, one for all samples that show the same triangle."""
+    groups = _groups(source, column, row)
+    lines: Lines = []
+    verdicts = []
+    for _, samples in groups[:MOST_GROUPS]:
+        history = why(source, column, row, triangle, sample=samples[0])
+        name = samples_name(samples)
+        told = of_sample(verdict_sentence(history))
+        verdicts.append(f"{name}: {told}" if len(groups) > 1 else told)
+        lines += [
+            (_of_samples(entry, name if len(groups) > 1 else ""), of_triangle)
+            for entry, of_triangle in _lines(history)
+            if entry.title != "Initial value"
+        ]
+    rest = groups[MOST_GROUPS:]
+    if rest:
+        told = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more triangles"
+        lines.append((HistoryEntry(told), None))
+    verdict = samples_verdict(groups, sample_count(source.settings))
+    if triangle is not None or len(groups) == 1:
+        verdict = f"{verdict} {' '.join(verdicts)}"
+    mark = Mark.COVERED if any(shown >= 0 for shown, _ in groups) else Mark.REJECTED
+    return _story(column, row, verdict, mark, lines)
+
+
+def _groups(source: TraceSource, column: int, row: int) -> list[tuple[int, list[int]]]:
+    """Return the triangles that samples of a pixel show, -1 for none, and the samples: most samples first."""
+    samples = source.picture.samples
+    assert samples is not None
+    first_column, first_row, _, _ = source.raster.bounds
+    shown = samples.primitive[:, row - first_row, column - first_column]
+    found = [(int(number), np.flatnonzero(shown == number).tolist()) for number in np.unique(shown)]
+    return sorted(found, key=lambda group: (-len(group[1]), group[0] < 0, group[0]))
+
+
+def _of_samples(entry: HistoryEntry, name: str) -> HistoryEntry:
+    """Return a line as one of some samples; of all of them it needs no ``name``."""
+    return HistoryEntry(
+        f"{entry.title}, {name[0].lower()}{name[1:]}" if name else entry.title,
+        entry.before,
+        entry.out,
+        entry.after,
+        entry.mark,
+        of_sample(entry.reason),
+        entry.is_rejected,
+    )
+
+
+def _lines(history: PixelHistory) -> Lines:
+    """Return one line for every event, and for every reason why triangles are not listed."""
+    lines: Lines = []
     for event in history.events:
         is_fragment = event.kind not in ("initial", "clear")
         mark = None
         if is_fragment:
             mark = Mark.REJECTED if event.is_rejected else Mark.COVERED
-        entries.append(
-            HistoryEntry(
-                event_title(event),
-                _value(event.before),
-                _value(event.out),
-                _value(event.after),
-                mark,
-                event_reason(event),
-                event.is_rejected,
-            )
+        entry = HistoryEntry(
+            event_title(event),
+            _value(event.before),
+            _value(event.out),
+            _value(event.after),
+            mark,
+            event_reason(event),
+            event.is_rejected,
         )
-        triangles.append(event.triangle if event.triangle >= 0 else None)
-    for sentence in count_sentences(history):
-        entries.append(HistoryEntry(sentence, is_rejected=True))
-        triangles.append(None)
-    mark = Mark.COVERED if history.final.triangle >= 0 else Mark.REJECTED
-    verdict = verdict_sentence(history)
-    if source.settings.antialiasing != "none":
-        verdict = f"At the pixel's centre, whatever its samples are: {verdict}"
-    story = PixelStory(column, row, verdict, mark, tuple(entries))
-    return story, triangles
+        lines.append((entry, event.triangle if event.triangle >= 0 else None))
+    lines += [(HistoryEntry(text, is_rejected=True), None) for text in count_sentences(history)]
+    return lines
+
+
+def _story(
+    column: int, row: int, verdict: str, mark: Mark, lines: Lines
+) -> tuple[PixelStory, list[int | None]]:
+    entries = tuple(entry for entry, _ in lines)
+    return PixelStory(column, row, verdict, mark, entries), [triangle for _, triangle in lines]
 
 
 def _value(state: PixelState | None) -> PixelValue | None:

@@ -17,6 +17,7 @@ from widgets.stage_texts import FAMILY_TITLES
 NUMBERS_OFFERED = {
     "block_size": ((1, 2, 4, 8, 16, 32), "{0} × {0} pixels"),
     "correction_interval": ((1, 2, 4, 8, 16, 32, 64), "every {0} pixels"),
+    "samples_across": (tuple(range(1, 9)), "{0} × {0} samples"),
 }
 """Settings that are numbers: the ones to choose from, and how they are called."""
 
@@ -115,7 +116,11 @@ def settings_records(document: Document) -> list[Setting]:
 
 def _in_order() -> list[str]:
     """Return families and numbers as the panel lists them: a number behind the family that it belongs to."""
-    number_of = {"fill": "block_size", "interpolation": "correction_interval"}
+    number_of = {
+        "fill": "block_size",
+        "interpolation": "correction_interval",
+        "antialiasing": "samples_across",
+    }
     return [name for family in families() for name in (family, number_of.get(family, "")) if name]
 
 
@@ -141,6 +146,8 @@ def _no_effect(document: Document, family: str) -> str:
         return "Only affine interpolation that is corrected has an interval."
     if family == "correction_interval" and wireframe:
         return "Lines are interpolated with perspective at every pixel."
+    if family == "samples_across" and settings.antialiasing != "ssaa-n":
+        return "Only supersampling with n x n samples leaves their number open."
     if family in ("fill", "fill_rule", "block_size") and wireframe:
         return "Wireframes are not filled."
     if family in ("line", "line_clipping") and not wireframe:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 from core.methods import table
 
-WHOLE_NUMBERS = {"block_size": 256, "correction_interval": 256}
+WHOLE_NUMBERS = {"block_size": 256, "correction_interval": 256, "samples_across": 8}
 """Settings that are whole numbers from 1 on, and the largest that each may be."""
 
 
@@ -41,6 +41,8 @@ class Settings:
     """Pixels on a side of a block (fills by blocks), 1 to 256."""
     correction_interval: int = 16
     """Columns between corrections (interpolation ``affine-n``), 1 to 256."""
+    samples_across: int = 3
+    """Samples on a side of a pixel (antialiasing ``ssaa-n``), 1 to 8."""
 
     def __post_init__(self) -> None:
         for family in families():

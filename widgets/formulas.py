@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from core.trace import Explanation
 from widgets import (
+    formulas_area_cuts,
     formulas_clip_order,
     formulas_frame,
     formulas_line_clipping,
@@ -28,6 +29,7 @@ FORMULAS: Mapping[str, Callable[[StepValues], Formula | None]] = {
     **formulas_pixel.FORMULAS,
     **formulas_frame.FORMULAS,
     **formulas_smooth_lines.BLEND_FORMULAS,
+    **formulas_area_cuts.FORMULAS,
     **formulas_samples.FORMULAS,
 }
 """``stage.kind.operation`` to the maker of its formula; all interpolated values share one, ``value``."""

@@ -21,6 +21,7 @@ from widgets.grid_paint import (
 from widgets.grid_view import GridPlacement
 from widgets.image import buffer_image, value_range
 from widgets.overlay_paint import paint_above, paint_below
+from widgets.sample_dots import SampleDots, paint_samples
 from widgets.theme import Theme
 
 Cells = tuple[int, int, int, int]
@@ -44,7 +45,7 @@ class GridCanvas:
         self._overlays: tuple[Overlay, ...] = ()
         self._geometry: GridGeometry | None = None
         self._hidden: NDArray[np.bool_] | None = None
-        self._samples: NDArray[np.float64] | None = None
+        self._samples: SampleDots | None = None
         self._pixmap: QPixmap | None = None
         self._painted: tuple[GridPlacement, QRect, Theme] | None = None
         self._dirty: Cells | None = None
@@ -120,10 +121,20 @@ class GridCanvas:
             return False
         return self._forget(True)
 
-    def set_samples(self, samples: NDArray[np.float64] | None) -> bool:
-        """Show several sample positions, (S, 2) inside of a pixel, y up; None is the one in the middle."""
-        self._samples = samples
-        return self._forget(True)
+    @property
+    def samples(self) -> SampleDots | None:
+        """The samples that are shown, or None: one in the middle."""
+        return self._samples
+
+    def set_samples(self, samples: SampleDots | None) -> bool:
+        """Show several samples in every pixel; None is the one in the middle."""
+        before, self._samples = self._samples, samples
+        if samples is None or before is None:
+            return self._forget(before is not samples)
+        is_other = not np.array_equal(before.position, samples.position)
+        if is_other or before.shown.shape != samples.shown.shape:
+            return self._forget(True)
+        return self._add_dirty(bounds((before.shown != samples.shown).any(axis=0)))
 
     def paint(self, painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
         """Paint from the kept picture, after painting again what changed in it."""
@@ -183,8 +194,10 @@ class GridCanvas:
         paint_nan(painter, placement, buffer, theme)
         paint_below(painter, placement, self._overlays, theme)
         if not self._is_compact or placement.cell >= COMPACT_LINE_CELL:
-            has_centres = not self._is_compact and centres_are_free(placement, buffer, theme)
-            paint_lines(painter, placement, theme, self._samples, has_centres)
+            is_free = not self._is_compact and centres_are_free(placement, buffer, theme)
+            paint_lines(painter, placement, theme, self._samples is None and is_free)
+            if self._samples is not None:
+                paint_samples(painter, placement, self._samples, cells)
         paint_border(painter, placement, theme)
         paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden)
         paint_above(painter, placement, self._overlays, theme)

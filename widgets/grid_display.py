@@ -15,6 +15,7 @@ from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
 from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
+from widgets.sample_dots import SampleDots
 from widgets.theme import current_theme, theme_notifier
 
 
@@ -138,10 +139,10 @@ class GridDisplay(QWidget):
         if self._canvas.set_hidden(hidden):
             self.update()
 
-    def show_samples(self, samples: NDArray[np.float64] | None) -> None:
-        """Show several sample positions per pixel, (S, 2) from 0 to 1, y up; None: the one in the middle."""
+    def show_samples(self, samples: SampleDots | None) -> None:
+        """Show several samples in every pixel, and who has them; None: the one in the middle."""
         if self._canvas.set_samples(samples):
-            self.update()
+            self._update_dirty()
 
     def set_pixel_center(self, name: str) -> None:
         """Say where centres lie: "half" at (i + 0.5, j + 0.5), "integer" at (i, j)."""
@@ -163,6 +164,15 @@ class GridDisplay(QWidget):
         """Return whether the values are written into the cells at this zoom."""
         buffer = self._canvas.buffer
         return buffer is not None and has_numbers(self.placement(), buffer, current_theme())
+
+    def samples_text(self, pixel: tuple[int, int]) -> str:
+        """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
+        samples, hidden = self._canvas.samples, self._canvas.hidden
+        column, row = pixel
+        if samples is None or (hidden is not None and hidden[row, column]):
+            return ""
+        _, rows, columns = samples.shown.shape
+        return samples.text_at(column, row) if column < columns and row < rows else ""
 
     def value_text(self, pixel: tuple[int, int], digits: int = 4) -> str:
         """Return the value of a pixel as text: "?" where it is covered, empty outside of the raster."""

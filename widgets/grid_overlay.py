@@ -158,6 +158,8 @@ class SegmentOverlay:
     extended: bool = False
     """Whether the whole line through both ends is drawn, dashed."""
     title: str = "lines"
+    is_polygon: bool = False
+    """Whether they are the sides of one polygon in order, whose inside is tinted."""
 
     def __post_init__(self) -> None:
         if self.segments.ndim != 3 or self.segments.shape[1:] != (2, 2):

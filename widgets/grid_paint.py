@@ -1,4 +1,4 @@
-"""How the cells of a pixel grid are painted: colour, then lines, sample centres, numbers as zoom grows."""
+"""How the cells of a pixel grid are painted: colour, then lines, centres, numbers as zoom grows."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,27 +42,20 @@ def paint_lines(
     painter: QPainter,
     placement: GridPlacement,
     theme: Theme,
-    samples: NDArray[np.float64] | None,
     has_centres: bool,
 ) -> None:
-    """Paint grid lines and sample centres where the cells are large enough.
-
-    ``samples`` are (S, 2) positions inside of a pixel, 0 to 1, y up; None is the one in the middle, which is
-    left out without ``has_centres``.
-    """
+    """Paint grid lines, and with ``has_centres`` the pixels' centres, where the cells are large enough."""
     raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
     shown = raster.intersected(QRectF(placement.viewport))
     cell = placement.cell
     if cell >= LINE_CELL:
         strength = min(0.25 + 0.02 * (cell - LINE_CELL), 0.6)
         ratio = painter.device().devicePixelRatioF()
-        has_centre = samples is None and has_centres and cell >= CENTRE_CELL
+        has_centre = has_centres and cell >= CENTRE_CELL
         painter.save()
         painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
         painter.fillRect(shown, QBrush(cell_tile(cell, round(strength, 2), has_centre, theme, ratio)))
         painter.restore()
-    if samples is not None and cell >= CENTRE_CELL * len(samples) ** 0.5:
-        _paint_samples(painter, placement, samples)
 
 
 def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> None:
@@ -72,21 +65,6 @@ def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> N
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(theme.grid_line), 1.0))
     painter.drawRect(raster.adjusted(-0.5, -0.5, 0.5, 0.5))
-    painter.restore()
-
-
-def _paint_samples(painter: QPainter, placement: GridPlacement, samples: NDArray[np.float64]) -> None:
-    """Paint several sample positions per cell."""
-    column0, row0, column1, row1 = placement.visible_cells()
-    columns, rows = np.meshgrid(np.arange(column0, column1), np.arange(row0, row1))
-    x = placement.left + (columns.ravel()[:, None] + samples[:, 0]) * placement.cell
-    y = placement.bottom - (rows.ravel()[:, None] + samples[:, 1]) * placement.cell
-    points = [QPointF(*place) for place in np.stack((x.ravel(), y.ravel()), axis=1).tolist()]
-    painter.save()
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    for color, width in (("#ffffff", 3.6), ("#000000", 2.0)):
-        painter.setPen(QPen(QColor(color), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        painter.drawPoints(points)
     painter.restore()
 
 

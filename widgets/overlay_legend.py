@@ -140,6 +140,8 @@ def _look(overlay: Overlay) -> str:
         return "Hatched: rejected. Filled: accepted whole. Dashed: split. Dotted: tested pixel by pixel"
     if isinstance(overlay, SpanOverlay):
         return "A bar with two ends through the middle of the row"
+    if overlay.is_polygon:
+        return "A tinted polygon"
     return "Dashed thin lines" if overlay.extended else "Thin lines"
 
 
@@ -154,6 +156,10 @@ def _sample(overlay: Overlay) -> Overlay:
         return BlockOverlay(overlay.key, blocks, (BlockState.REJECTED, BlockState.ACCEPTED))
     if isinstance(overlay, SpanOverlay):
         return SpanOverlay(overlay.key, np.array([[0, 0, 1]]))
+    if overlay.is_polygon:
+        corners = np.array([[0.1, 0.1], [0.9, 0.1], [0.1, 0.9]])
+        sides = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+        return SegmentOverlay(overlay.key, sides, is_polygon=True)
     edges = sorted(set(overlay.edges)) or [-1]
     height = (np.arange(len(edges)) + 0.5) / len(edges)
     ends = np.array([[[-0.3, y - 0.1], [1.3, y + 0.1]] for y in height])

@@ -269,12 +269,24 @@ def _paint_segments(
     painter: QPainter, placement: GridPlacement, overlay: SegmentOverlay, theme: Theme
 ) -> None:
     """Paint window segments, or the whole lines through them, in the colours of their edges."""
+    if overlay.is_polygon:
+        _tint_polygon(painter, placement, overlay, theme)
     lines, source = widget_lines(overlay.segments, placement, overlay.extended)
     edges = np.array(overlay.edges or (-1,) * len(overlay.segments))[source]
     style = Qt.PenStyle.DashLine if overlay.extended else Qt.PenStyle.SolidLine
     for edge in (-1, 0, 1, 2):
         color = QColor(theme.text if edge < 0 else theme.vertex[edge])
         _stroke(painter, [lines[index] for index in np.flatnonzero(edges == edge)], color, 1.5, theme, style)
+
+
+def _tint_polygon(painter: QPainter, placement: GridPlacement, overlay: SegmentOverlay, theme: Theme) -> None:
+    """Tint the inside of a polygon."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(_faded(theme.covered, 0.6))
+    painter.drawPolygon(QPolygonF([placement.to_widget(x, y) for x, y in overlay.segments[:, 0].tolist()]))
+    painter.restore()
 
 
 def _stroke(

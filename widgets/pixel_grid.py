@@ -242,9 +242,8 @@ class PixelGrid(GridDisplay):
                 QToolTip.hideText()
             else:
                 lines = [f"{buffer.label} at ({pixel[0]}, {pixel[1]})", self.value_text(pixel, digits=0)]
-                QToolTip.showText(
-                    event.globalPos(), "\n".join(lines + [buffer.description] * bool(buffer.description))
-                )
+                lines += [text for text in (self.samples_text(pixel), buffer.description) if text]
+                QToolTip.showText(event.globalPos(), "\n".join(lines))
             return True
         return super().event(event)
 

@@ -12,6 +12,7 @@ import numpy as np
 from core.steps import Level
 from core.trace import Explanation
 from widgets import (
+    sentences_area_cuts,
     sentences_clip_order,
     sentences_edges,
     sentences_line_clipping,
@@ -36,6 +37,7 @@ SENTENCES: Mapping[str, Callable[[StepValues], str]] = {
     **sentences_line_clipping.SENTENCES,
     **sentences_pixel.SENTENCES,
     **sentences_smooth_lines.BLEND_SENTENCES,
+    **sentences_area_cuts.SENTENCES,
     **sentences_samples.SENTENCES,
 }
 """``stage.kind.operation`` to the maker of its sentence; all interpolated values share one, ``value``."""

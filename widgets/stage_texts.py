@@ -124,6 +124,7 @@ FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
     "depth": ("Depth", "Framebuffer"),
     "blend": ("Blending", "Framebuffer"),
     "antialiasing": ("Antialiasing", "Framebuffer"),
+    "samples_across": ("Samples", "Framebuffer"),
     "resolve_filter": ("Resolve by", "Framebuffer"),
 }
 """What the families of methods are called, and the heading that they stand under."""

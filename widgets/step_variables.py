@@ -11,6 +11,7 @@ from widgets.depth_variables import DEPTH_VARIABLES
 from widgets.fragment_variables import CORRECTED_VARIABLES, MIPMAP_VARIABLES
 from widgets.line_clipping_variables import CLIPPING_KINDS, CLIPPING_VARIABLES
 from widgets.number_bits import in_its_numbers
+from widgets.resolve_variables import RESOLVE_VARIABLES
 from widgets.step_values import ATTRIBUTES, key_fields
 from widgets.variable_text import GIVEN, VariableText
 from widgets.variables import Value, Variable
@@ -276,16 +277,7 @@ TEXTS: Mapping[str, Mapping[str, VariableText]] = {
     },
     "resolve": {
         **_PIXEL,
-        "samples": VariableText(
-            "colour #", "Linear red, green, blue, alpha of the sample or piece.", spread="parts"
-        ),
-        "sample_weights": VariableText(
-            "weight #", "What the sample weighs, or the area of the piece.", spread="parts"
-        ),
-        "linear": VariableText("linear", "Linear red, green, blue, alpha of the colour buffer."),
-        "clipped": VariableText("cut off", "Red, green, blue between 0 and 1."),
-        "encoded": VariableText("sRGB", "Red, green, blue on the sRGB curve."),
-        "bytes": VariableText("bytes", "Red, green, blue, alpha from 0 to 255."),
+        **RESOLVE_VARIABLES,
     },
 }
 """Variables of each stage in the order of the algorithm; what is not here stays hidden."""
@@ -371,6 +363,7 @@ def _rows(text: VariableText, now: Any, before: Any) -> list[Variable]:
             k if is_of_edges else None,
         )
         for k, element in enumerate(elements)
+        if text.spread != "corners" or np.isfinite(element).all()
     ]
 
 

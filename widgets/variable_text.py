@@ -16,7 +16,8 @@ class VariableText:
     after: str = "itself"
     """The variable that must be known before this one is shown; `GIVEN`: none."""
     spread: str = ""
-    """Elements of an array that get rows of their own: ``edges`` (0, 1, 2, coloured) or ``parts``."""
+    """Elements of an array with rows of their own: ``edges`` (0, 1, 2, coloured), ``parts``, or those of ``corners``
+    that are numbers."""
     edge: int | None = None
     """0, 1 or 2 where the variable belongs to that edge."""
     previous: str = ""

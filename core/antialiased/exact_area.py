@@ -17,7 +17,7 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978.
 L. Carpenter, *The A-buffer, an antialiased hidden surface method*, 1984.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -49,7 +49,8 @@ from core.surface import shade_fragments
 from core.texture_slopes import slopes_at
 
 PARALLEL = 2.0**-40
-"""Depths that differ by less all over a pixel are those of one plane: rounding must not cut it."""
+"""Depths that differ by less all over a pixel are those of one plane: rounding must neither cut it nor put another
+triangle of the plane in front."""
 BAND = 1 << 16
 """Pixels whose pieces are worked on together."""
 
@@ -120,6 +121,17 @@ def join_drawn(parts: list[DrawnPieces]) -> DrawnPieces:
     )
 
 
+class DrawnLayer(NamedTuple):
+    """What one layer of the stacks has done."""
+
+    fragment: Integers
+    """(n,) int64, which of the squares' fragments was drawn in each of the first n pixels."""
+    finished: DrawnPieces
+    """Pieces of pixels that have no more fragments: those of the layers before."""
+    there: DrawnPieces
+    """Pieces of the n pixels, this layer drawn."""
+
+
 class ColoredPieces(NamedTuple):
     """All pieces of the pixels that triangles touch, when everything is drawn."""
 
@@ -139,17 +151,19 @@ def draw_pieces(
     scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
 ) -> ColoredPieces:
     """Cut the pixels of a raster and draw into their pieces."""
+    return piece_painter(scene, geometry, settings, raster, counts).draw()
+
+
+def piece_painter(
+    scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+) -> "PiecePainter":
+    """Return what draws into the pieces of a raster's pixels, before anything is cut."""
     with timed(counts["raster"]):
         squares, tested = touched_squares(geometry.edges, raster)
         counts["raster"].incoming += tested
         counts["raster"].outgoing += len(squares.primitive)
         stacks = stack_fragments(raster.index(squares.column, squares.row))
-    painter = PiecePainter(scene, geometry, settings, raster, squares, stacks, counts)
-    drawn = painter.draw()
-    pixel = stacks.pixel.take(drawn.pieces.number)
-    return ColoredPieces(
-        pixel, area_of(drawn.pieces), drawn.primitive, painter.final_colors(drawn), stacks.pixel
-    )
+    return PiecePainter(scene, geometry, settings, raster, squares, stacks, counts)
 
 
 def sum_areas(pieces: ColoredPieces, pixel_count: int) -> Singles:
@@ -184,44 +198,61 @@ class PiecePainter:
         counts: dict[str, StageCount],
     ) -> None:
         self._scene, self._geometry, self._settings, self._raster = scene, geometry, settings, raster
-        self._squares, self._stacks, self._counts = squares, stacks, counts
+        self.squares, self.stacks, self._counts = squares, stacks, counts
         self._format: DepthFormat = table.get("depth", settings.depth).function()
         how = settings.interpolation, settings.provoking, settings.correction_interval
         self._interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
         self._center_x, self._center_y = raster.centers(*raster.position(stacks.pixel))
 
-    def draw(self) -> DrawnPieces:
-        """Draw everything; return the pieces of all pixels that something touches."""
-        count = len(self._stacks.pixel)
+    def draw(self, watch: Callable[[DrawnLayer], None] | None = None) -> ColoredPieces:
+        """Draw everything, every layer shown to ``watch``; return the pieces of all pixels that something touches."""
+        finished, there = [], self._untouched()
+        for layer in self.layers():
+            finished.append(layer.finished)
+            there = layer.there
+            if watch is not None:
+                watch(layer)
+        return self.colored(join_drawn([*finished, there]))
+
+    def colored(self, drawn: DrawnPieces) -> ColoredPieces:
+        """Return all pieces with their colours when everything is drawn."""
+        pixel = self.stacks.pixel.take(drawn.pieces.number)
+        colors = self.final_colors(drawn)
+        return ColoredPieces(pixel, area_of(drawn.pieces), drawn.primitive, colors, self.stacks.pixel)
+
+    def _untouched(self) -> DrawnPieces:
+        """Return the squares of all pixels that something touches, the background in them."""
+        count = len(self.stacks.pixel)
         color = None
         if self._settings.blend != "opaque":
             color = np.empty((count, 4), np.float32)
             color[:] = self._scene.background
-        there = DrawnPieces(whole_pixels(np.arange(count)), np.full(count, -1), color)
-        finished = []
-        for reached, fragment in self._stacks.layers():
+        return DrawnPieces(whole_pixels(np.arange(count)), np.full(count, -1), color)
+
+    def layers(self) -> Iterator[DrawnLayer]:
+        """Draw layer by layer: the first triangle of every pixel, the second, and so on."""
+        there = self._untouched()
+        for reached, fragment in self.stacks.layers():
             is_active = there.pieces.number < reached
-            if not is_active.all():
-                finished.append(there.select(~is_active))
-                there = there.select(is_active)
+            finished, there = there.select(~is_active), there.select(is_active)
             there = self._draw_layer(there, fragment.take(there.pieces.number))
-        return join_drawn([*finished, there])
+            yield DrawnLayer(fragment, finished, there)
 
     def _draw_layer(self, there: DrawnPieces, fragment: Integers) -> DrawnPieces:
         """Draw one triangle into every piece; ``fragment`` (P,) says which."""
         with timed(self._counts["raster"]):
             every = np.arange(len(there.pieces))
-            is_whole = self._squares.is_whole.take(fragment)
+            is_whole = self.squares.is_whole.take(fragment)
             numbered = replace(there.pieces, number=every)
             inside, outside = numbered.select(~is_whole), []
             for k in range(3):
                 of = fragment.take(inside.number)
-                a, b, value = (values[of, k] for values in self._squares.edge_parts)
+                a, b, value = (values[of, k] for values in self.squares.edge_parts)
                 inside, beyond = split_pieces(inside, a, b, value)
                 outside.append(there.take(beyond))
             inside = join_pieces([numbered.select(is_whole), inside])
             inside = self._cut_by_depth(inside, there, fragment)
-            primitive = self._squares.primitive.take(fragment.take(inside.number))
+            primitive = self.squares.primitive.take(fragment.take(inside.number))
         drawn = self._paint(there.take(inside), primitive)
         return join_drawn([drawn, *outside])
 
@@ -231,18 +262,18 @@ class PiecePainter:
         ``inside`` are parts of ``there`` (P,), numbered by it, of the triangles of ``fragment`` (P,).
         """
         depth = self._geometry.depth_plane
-        reaches_out = ~self._geometry.is_in_range.take(self._squares.primitive)
+        reaches_out = ~self._geometry.is_in_range.take(self.squares.primitive)
         if reaches_out.any():
             for side, limit in ((1.0, 0.0), (-1.0, 1.0)):
                 of = fragment.take(inside.number)
-                a, b, value = self._plane_at(depth, self._squares.primitive.take(of), there, inside)
+                a, b, value = self._plane_at(depth, self.squares.primitive.take(of), there, inside)
                 is_cut = reaches_out.take(of)
                 parts = (a * side * is_cut, b * side * is_cut, np.where(is_cut, (value - limit) * side, 1.0))
                 inside = join_pieces(list(split_pieces(inside, *parts)))
         if not self._geometry.uses_depth_test:
             return inside
         primitive, shown = (
-            self._squares.primitive.take(fragment.take(inside.number)),
+            self.squares.primitive.take(fragment.take(inside.number)),
             there.primitive.take(inside.number),
         )
         new, old = (self._plane_at(depth, of, there, inside) for of in (primitive, np.maximum(shown, 0)))
@@ -289,12 +320,15 @@ class PiecePainter:
         )
 
     def _is_nearer(self, new: Integers, old: Integers, x: Floats, y: Floats) -> Flags:
-        """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting."""
+        """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting.
+
+        Triangles of one plane differ by rounding there, and the first of them stays.
+        """
         geometry = self._geometry
         by_w = geometry.vertices.view_range is not None
         plane, sign = (geometry.inverse_w_plane, 1.0) if by_w else (geometry.depth_plane, -1.0)
         value, there = (sign * plane_value(plane, of, x, y) for of in (new, np.maximum(old, 0)))
-        return value > there
+        return value - there > PARALLEL * np.abs(there)
 
     def centroids(self, drawn: DrawnPieces) -> tuple[Floats, Floats]:
         """Return where in the window the centroids of pieces lie, x and y (P,)."""

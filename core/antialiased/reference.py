@@ -30,7 +30,7 @@ def many_samples(scene: AnyScene, settings: Settings, side: int = REFERENCE_SIDE
     settings : Settings
         All but their antialiasing and filter matter.
     side : int
-        A power of two; ``side`` times the picture must be a raster that can be drawn.
+        ``side`` times the picture must be a raster that can be drawn.
     """
     raster = make_raster(scene.size, settings.pixel_center)
     boxed = replace(settings, resolve_filter="box")

@@ -13,6 +13,7 @@ from functools import partial
 import numpy as np
 
 from core.antialiased.centers import draw_geometry
+from core.antialiased.sample_counts import side_of
 from core.antialiased.sampled import SampledPicture, resolve_region
 from core.arrays import Integers
 from core.frame import STAGES, Frame, Samples, StageCount
@@ -41,7 +42,7 @@ def supersample_by_2(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
 ) -> Frame:
     """Draw with 2 x 2 samples a pixel; ``chosen`` (T,) triangles, or all."""
-    return supersample(scene, settings, raster, chosen, side_of("ssaa-4"))
+    return supersample(scene, settings, raster, chosen, side_of(settings))
 
 
 @method(
@@ -56,18 +57,28 @@ def supersample_by_4(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
 ) -> Frame:
     """Draw with 4 x 4 samples a pixel; ``chosen`` (T,) triangles, or all."""
-    return supersample(scene, settings, raster, chosen, side_of("ssaa-16"))
+    return supersample(scene, settings, raster, chosen, side_of(settings))
 
 
-def side_of(antialiasing: str) -> int:
-    """Return how many samples a method of supersampling has on a side of a pixel; 1: it is none."""
-    return {"ssaa-4": 2, "ssaa-16": 4}.get(antialiasing, 1)
+@method(
+    "antialiasing",
+    "ssaa-n",
+    "Supersampling, n x n samples",
+    source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
+    exact_for="areas in n * n parts of a pixel, shading included; n is samples_across",
+    breaks_where="edges that are nearly level or upright: n steps a pixel; n * n times the work",
+)
+def supersample_by_n(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+) -> Frame:
+    """Draw with ``samples_across`` x ``samples_across`` samples a pixel; ``chosen`` (T,) triangles, or all."""
+    return supersample(scene, settings, raster, chosen, side_of(settings))
 
 
 def supersample(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None, side: int
 ) -> Frame:
-    """Draw with ``side`` x ``side`` samples a pixel, a power of two; ``chosen`` (T,) triangles, or all."""
+    """Draw with ``side`` x ``side`` samples a pixel; ``chosen`` (T,) triangles, or all."""
     finer, plain = finer_scene(scene, side), finer_settings(settings)
 
     def draw_samples(wide: Raster) -> SampledPicture:

@@ -1,7 +1,8 @@
 """Resolving: the colour of a pixel from those of the samples in and around it.
 
 Every sample is weighed by its distance from the pixel's centre, x and y apart, and the sum is divided by that of the
-weights. All weights are dyadic fractions. Colours are linear: a mean of sRGB bytes would be too dark.
+weights. The weights are dyadic fractions where the samples' places are; the tent's for 3 x 3 samples are rounded.
+Colours are linear: a mean of sRGB bytes would be too dark.
 
 At the image's border the samples beyond it do not exist: the weights of those within are all that is summed, so a
 picture of one colour keeps it.

@@ -1,9 +1,9 @@
 """Where in a pixel its samples lie.
 
-Positions are from the pixel's lower left corner, x to the right and y up, 0 to 1. All of them are multiples of 1/8
-pixel and so of the 1/256 that corners are snapped to: moving the corners by the way from a sample to the pixel's centre
-is exact, and the coverage of the moved corners at the centre is the coverage of the sample, by the very arithmetic of
-the edge functions and spans.
+Positions are from the pixel's lower left corner, x to the right and y up, 0 to 1. Those of four samples (the rotated
+grid) are multiples of 1/8 pixel and so of the 1/256 that corners are snapped to: moving the corners by the way from a
+sample to the pixel's centre is exact, and the coverage of the moved corners at the centre is the coverage of the
+sample, by the very arithmetic of the edge functions and spans.
 
 References
 ----------

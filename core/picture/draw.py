@@ -8,7 +8,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.supersampling import finer_settings, side_of
+from core.antialiased.sample_counts import sample_count, side_of
+from core.antialiased.supersampling import finer_settings
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
 from core.framebuffer.nearest import NearestFragments
@@ -22,6 +23,7 @@ from core.picture.job import Job, Words, encode
 from core.picture.layer import LayerColors, draw_layer
 from core.picture.lit_normals import LitNormals, lit_normals
 from core.picture.lit_texture import LitTexture, lit_texture
+from core.picture.multisampled import draw_multisampled
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Picture, Route, Split
 from core.picture.supersampled import draw_supersampled
@@ -93,9 +95,9 @@ def draw_picture(
     more away than they are.
 
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
-    `Route` has the colours ``palette`` or ``deferred``; with ``bytes``, ``normals`` and ``lit-texture`` they are up to
-    one away, with ``texture`` up to two. In a triangle that is hardly wider than snapping moves it, ``bytes`` stay
-    between those of the corners, where `render` extrapolates.
+    `Route` has the colours ``palette`` or ``deferred``, as multisampled pictures always have; with ``bytes``,
+    ``normals`` and ``lit-texture`` they are up to one away, with ``texture`` up to two. In a triangle that is hardly
+    wider than snapping moves it, ``bytes`` stay between those of the corners, where `render` extrapolates.
     """
     settings = settings or Settings()
     raster = make_raster(scene.size, settings.pixel_center, region)
@@ -109,15 +111,24 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    side = side_of(settings.antialiasing)
     if (
-        side > 1
+        side_of(settings)
         and not with_depth
         and settings.pixel_center == "half"
         and is_drawn_by_spans(finer_settings(settings))
     ):
         draw_part = partial(draw_picture, plain_colors=plain_colors)
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
+    if (
+        settings.antialiasing == "msaa-4"
+        and not with_depth
+        and settings.blend == "opaque"
+        and is_drawn_by_spans(replace(settings, antialiasing="none"))
+    ):
+        route = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
+        _count(counts, route, len(pixels))
+        counts["resolve"].incoming = sample_count(settings) * len(pixels)
+        return Picture(_bytes(pixels, raster), None, counts, route)
     if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     geometry = process_geometry(scene, settings, counts, raster=raster)

@@ -30,7 +30,8 @@ class Route:
     visibility: str
     """``layer``: no pixel belongs to two triangles, so none is hidden; ``words``: nearest of all fragments;
     ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``; ``supersampled``: a
-    picture of all samples, drawn by any of these, and resolved."""
+    picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
+    and what they show averaged where they differ."""
     color: str
     """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
     lit once per visible pixel; ``lit-texture``: the same times a texture, read in single precision; ``texture``: packed

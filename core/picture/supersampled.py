@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from core.antialiased.sample_counts import side_of
 from core.antialiased.sampled import grown, inner_of
 from core.antialiased.supersampling import (
     bands_of,
@@ -16,7 +17,6 @@ from core.antialiased.supersampling import (
     finer_scene,
     finer_settings,
     samples_by_place,
-    side_of,
 )
 from core.arrays import Flags, Singles, read_only
 from core.frame import STAGES, StageCount
@@ -53,7 +53,7 @@ def draw_supersampled(
     draw_picture : callable
         Draws the samples, as a picture of n times the size.
     """
-    side = side_of(settings.antialiasing)
+    side = side_of(settings)
     finer, plain = finer_scene(scene, side), finer_settings(settings)
     weights = filter_weights(grid_positions(side), settings.resolve_filter)
     counts = {stage: StageCount() for stage in STAGES}

@@ -15,7 +15,7 @@ from core.trace.stage_trace import StageTrace, no_pixels
 
 @dataclass(frozen=True, eq=False)
 class InsertedRows:
-    """I rows about no pixel, in order."""
+    """I rows, in order; about no pixel, where they have none."""
 
     before: Integers
     """(I,) int64, rising: the row of the trace that each stands before; R: after all."""
@@ -30,6 +30,8 @@ class InsertedRows:
     columns: Mapping[str, NDArray[Any]]
     """Name to (I, ...) array; a column that the trace does not have is empty (NaN, -1, no text) in its rows."""
     listings: Mapping[str, Listing]
+    pixel: Integers | None = None
+    """(I, 2) int64 column and row; ``None``: about no pixel."""
 
 
 def insert_rows(found: StageTrace, group: Integers, rows: InsertedRows) -> StageTrace:
@@ -62,7 +64,7 @@ def insert_rows(found: StageTrace, group: Integers, rows: InsertedRows) -> Stage
         steps=steps,
         columns=columns,
         triangle=triangle,
-        pixel=merged(found.pixel, no_pixels(added)),
+        pixel=merged(found.pixel, no_pixels(added) if rows.pixel is None else rows.pixel),
         listings={**found.listings, **rows.listings},
         marks={name: merged(flags, np.zeros(added, bool)) for name, flags in found.marks.items()},
         buffers=tuple(replace(track, rows=place[track.rows]) for track in found.buffers),
@@ -71,5 +73,5 @@ def insert_rows(found: StageTrace, group: Integers, rows: InsertedRows) -> Stage
 
 def empty_like(values: NDArray[Any], count: int) -> NDArray[Any]:
     """Return ``count`` rows of no value like those of a column (R, ...): NaN, -1, False or an empty text."""
-    missing: Any = {"f": np.nan, "i": -1, "b": False}.get(values.dtype.kind, "")
+    missing: Any = {"f": np.nan, "i": -1, "u": 0, "b": False}.get(values.dtype.kind, "")
     return np.full((count, *values.shape[1:]), missing, values.dtype)

@@ -4,19 +4,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.antialiased.exact_area import draw_pieces, piece_sum
+from core.antialiased.exact_area import DrawnLayer, piece_painter, piece_sum
+from core.antialiased.sample_counts import positions_of
 from core.antialiased.sampled import grown, inner_of
-from core.antialiased.supersampling import side_of
 from core.arrays import Flags, Floats, Integers, Singles
 from core.frame import STAGES, StageCount
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
-from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
 from core.geometry_stages import process_geometry
 from core.listing import Listing, listing
 from core.pipeline import draw
 from core.steps import Operation, Steps, ends_of
 from core.trace.blend import trace_blend
+from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -55,18 +55,20 @@ class Parts(NamedTuple):
 def trace_resolve(source: TraceSource) -> StageTrace:
     """Return one row for every pixel of the raster: its samples to a colour, linear colour to sRGB bytes."""
     antialiasing = source.settings.antialiasing
-    parts, kind, method = None, "encode", ""
+    parts, cuts, kind, method = None, None, "encode", ""
     if antialiasing == "none":
         blend = trace_blend(source)
         linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)
     elif antialiasing == "area":
-        parts, kind, method = _pieces(source), "areas", "antialiasing=area"
+        parts, cuts = _pieces(source)
+        kind, method = "areas", "antialiasing=area"
         linear = _piece_sums(parts)
     else:
         parts, kind = _samples(source), "average"
         method = f"resolve_filter={source.settings.resolve_filter}"
         linear = _means(parts)
-    return _rows(source, linear, parts, kind, method)
+    found = _rows(source, linear, parts, kind, method)
+    return found if cuts is None else with_cuts(found, cuts)
 
 
 def _rows(source: TraceSource, linear: Singles, parts: Parts | None, kind: str, method: str) -> StageTrace:
@@ -135,8 +137,7 @@ def last_drawn(source: TraceSource) -> Integers | None:
 def _samples(source: TraceSource) -> Parts:
     """Return the samples that every pixel is made of, in the order of the sum; those beyond the border weigh 0."""
     settings = source.settings
-    side = side_of(settings.antialiasing)
-    weights = filter_weights(grid_positions(side) if side > 1 else ROTATED_GRID, settings.resolve_filter)
+    weights = filter_weights(positions_of(settings), settings.resolve_filter)
     wide = grown(source.raster, reach_of(weights))
     samples = draw(source.scene, settings, wide, last_drawn(source)).samples
     assert samples is not None
@@ -159,16 +160,22 @@ def _samples(source: TraceSource) -> Parts:
     )
 
 
-def _pieces(source: TraceSource) -> Parts:
-    """Return the pieces that every pixel is made of, in the order of the sum; missing ones weigh 0."""
+def _pieces(source: TraceSource) -> tuple[Parts, PixelCuts | None]:
+    """Return the pieces that every pixel is made of, and how they were cut; outlines are not cut.
+
+    They stand in the order of the sum; missing ones weigh 0.
+    """
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(source.scene, source.settings, counts, last_drawn(source))
     count = source.raster.shape[0] * source.raster.shape[1]
     if geometry.outlines is not None:
         frame = draw(source.scene, source.settings, source.raster, last_drawn(source))
         whole = np.ones((count, 1))
-        return Parts(frame.color.reshape(-1, 1, 4), whole, frame.primitive.reshape(-1, 1).astype(np.int64))
-    pieces = draw_pieces(source.scene, geometry, source.settings, source.raster, counts)
+        shown = frame.primitive.reshape(-1, 1).astype(np.int64)
+        return Parts(frame.color.reshape(-1, 1, 4), whole, shown), None
+    painter = piece_painter(source.scene, geometry, source.settings, source.raster, counts)
+    layers: list[DrawnLayer] = []
+    pieces = painter.draw(layers.append)
     order = np.argsort(pieces.pixel, kind="stable")
     pixel = pieces.pixel[order]
     place = np.arange(len(pixel)) - np.searchsorted(pixel, pixel)
@@ -183,7 +190,8 @@ def _pieces(source: TraceSource) -> Parts:
     triangle[at] = (
         np.where(shown >= 0, geometry.primitives.triangle[np.maximum(shown, 0)], -1) if len(shown) else -1
     )
-    return Parts(samples, weights, triangle)
+    cuts = cuts_of(painter, layers, geometry.primitives.triangle, source.triangle)
+    return Parts(samples, weights, triangle), cuts
 
 
 def _means(parts: Parts) -> Singles:

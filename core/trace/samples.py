@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.supersampling import side_of
+from core.antialiased.sample_counts import side_of
 from core.arrays import Floats, Integers
 from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
 from core.raster.edge_functions import edge_value
@@ -35,8 +35,8 @@ def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace
     """Trace a stage before the samples are resolved; ``source`` has an antialiasing with samples."""
     if stage in BEFORE_SAMPLES:
         return tracer(source)
-    side = side_of(source.settings.antialiasing)
-    if side > 1:
+    side = side_of(source.settings)
+    if side:
         return _by_pixel(tracer(finer_source(source, side)), source, side)
     if stage == "edges":
         return tracer(source)

@@ -1,21 +1,25 @@
 """Why a pixel looks as it does: its history from the vertices to the blended colour, for every triangle.
 
 The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
-Triangles whose box does not contain the pixel are only counted. Of several samples a pixel, and of exact areas, it is
-the history of the pixel's centre.
+Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
+own; of exact areas it is that of the pixel's centre.
 """
 
+from core.antialiased.sample_counts import sample_count
 from core.blend_choice import blend_choice
 from core.framebuffer.depth import DepthFormat
 from core.methods import table
 from core.trace.source import TraceSource
+from core.why.at_samples import candidates_at
 from core.why.candidates import PixelCandidates, whole_geometry
 from core.why.events import list_events
 from core.why.records import Link, PixelEvent, PixelHistory, PixelState
 from core.why.verdict import pixel_verdict, triangle_verdict
 
 
-def why(source: TraceSource, column: int, row: int, triangle: int | None = None) -> PixelHistory:
+def why(
+    source: TraceSource, column: int, row: int, triangle: int | None = None, sample: int | None = None
+) -> PixelHistory:
     """Return the history of a pixel in the picture of the whole scene.
 
     Parameters
@@ -26,11 +30,14 @@ def why(source: TraceSource, column: int, row: int, triangle: int | None = None)
         The pixel, row 0 at the bottom.
     triangle : int, optional
         A triangle of the scene: it is listed even if it is far away, and the verdict is about it.
+    sample : int, optional
+        One of several samples of the pixel, instead of its centre. Of n x n samples, columns and rows in the events
+        are those of samples.
 
     Raises
     ------
     ValueError
-        For a pixel outside the image, or a triangle that is not there.
+        For a pixel outside the image, a triangle or a sample that is not there.
 
     Examples
     --------
@@ -49,14 +56,20 @@ def why(source: TraceSource, column: int, row: int, triangle: int | None = None)
     count = len(geometry.assembled)
     if triangle is not None and not 0 <= triangle < count:
         raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
-    candidates = PixelCandidates(scene, settings, geometry, column, row, triangle)
+    if sample is None:
+        candidates = PixelCandidates(scene, settings, geometry, column, row, triangle)
+    else:
+        samples = sample_count(settings)
+        if samples == 1 or not 0 <= sample < samples:
+            raise ValueError(f"sample must be 0 to {samples - 1} of several, got {sample} of {samples}")
+        candidates = candidates_at(source, column, row, triangle, sample)
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
     events, counts, cover_count = list_events(candidates, depth_format)
     if triangle is None:
         verdict = pixel_verdict(events, counts, blend_choice(settings)[0])
     else:
         verdict = triangle_verdict(events, triangle)
-    return PixelHistory(column, row, triangle, verdict, events, counts, cover_count)
+    return PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
 
 
 __all__ = ["Link", "PixelEvent", "PixelHistory", "PixelState", "why"]

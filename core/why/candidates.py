@@ -87,6 +87,8 @@ class PixelCandidates:
     row: int
     focus: int | None
     """A triangle that is a candidate in any case."""
+    colored_by: Geometry | None = None
+    """Where colours are taken from, if not from ``geometry``: at the pixel's centre, for any of its samples."""
 
     @cached_property
     def raster(self) -> Raster:
@@ -202,17 +204,22 @@ class PixelCandidates:
             return np.empty(0, np.int64)
         return self._undrawn(np.setdiff1d(self.geometry.kept.triangle, self.geometry.primitives.triangle))
 
+    def placed(self, clip: Floats) -> CornerPositions:
+        """Return the corners of triangles (C, 3, 4) in the window, moved as the geometry is."""
+        corners = place_corners(clip, self.scene.size, self.settings.coverage)
+        shift = self.geometry.shift
+        return corners.moved(*shift) if any(shift) else corners
+
     def unclipped(self, triangle: Integers) -> EdgeFunctions:
         """Return the edge functions that triangles (C,) would have as they are."""
-        clip = self.geometry.assembled.clip[triangle]
-        corners = place_corners(clip, self.scene.size, self.settings.coverage)
+        corners = self.placed(self.geometry.assembled.clip[triangle])
         return set_up_edges(corners, self.settings.fill_rule)
 
     def _undrawn(self, triangle: Integers) -> Integers:
         """Choose those whose box contains the pixel; one that crosses the eye must cover it too."""
         # A box first, for all; edge functions for those that are left.
         clip = self.geometry.assembled.clip
-        corners = place_corners(clip[triangle], self.scene.size, self.settings.coverage)
+        corners = self.placed(clip[triangle])
         x, y = self.center
         near = boxes_reach(corners, (x, y), 0)
         near &= (corners.homogeneous[..., 2] > 0).any(axis=1)

@@ -55,9 +55,10 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     geometry, settings, raster = candidates.geometry, candidates.settings, candidates.raster
     fragments = candidates.fragments
     primitive, count = fragments.primitive, len(fragments)
-    weights, values = fragment_values(geometry, settings, fragments, raster)
+    of_colors = candidates.colored_by or geometry
+    weights, values = fragment_values(of_colors, settings, fragments, raster)
     mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
-    slopes = texture_slopes(geometry, settings, raster, fragments, values)
+    slopes = texture_slopes(of_colors, settings, raster, fragments, values)
     surface = shade_fragments(candidates.scene, settings, layout, mesh, values, slopes)
 
     # Only what is in range gets to the depth test.

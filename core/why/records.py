@@ -75,6 +75,8 @@ class PixelHistory:
     """Triangles that are not listed one by one: how many, by the key of their reason."""
     cover_count: int
     """Fragments here that are in depth range."""
+    sample: int | None = None
+    """Which of several samples it is the history of; ``None``: the pixel's centre."""
 
     @property
     def final(self) -> PixelState:

@@ -11,6 +11,7 @@ import pytest
 
 from app.open_any import open_any
 from app.state_files import State, save_state
+from core import Settings
 from tests.app.cli_runs import ROOT, refused, run_program
 from tests.app.mesh_writing import SQUARE, stl_binary, write
 
@@ -110,12 +111,45 @@ def test_a_method_that_the_scene_cannot_serve(tmp_path):
 
 
 def test_a_picture_larger_than_the_memory_is_refused(monkeypatch):
-    import app.cli_render
+    import app.drawing_memory as memory
 
-    monkeypatch.setattr(app.cli_render, "BYTES_PER_BLENDED_PIXEL", 1 << 50)
-    app.cli_render.check_memory((64, 48), "opaque")
+    monkeypatch.setattr(memory, "BYTES_PER_BLENDED_PIXEL", 1 << 50)
+    memory.check_memory((64, 48), Settings())
     with pytest.raises(ValueError, match=r"a picture of 64x48 pixels may take .* GiB of memory"):
-        app.cli_render.check_memory((64, 48), "over")
+        memory.check_memory((64, 48), Settings(blend="over"))
+
+
+@pytest.mark.skipif(not hasattr(os, "sysconf"), reason="the memory of the machine is not known")
+def test_samples_count_as_memory(monkeypatch):
+    import app.drawing_memory as memory
+
+    present = {"SC_PHYS_PAGES": 1 << 18, "SC_PAGE_SIZE": 4096}
+    monkeypatch.setattr(os, "sysconf", present.__getitem__)
+    cases = {
+        Settings(): 380,
+        Settings(antialiasing="area"): 380,
+        Settings(antialiasing="msaa-4"): 650,
+        Settings(antialiasing="ssaa-n", samples_across=1): 380,
+        Settings(antialiasing="ssaa-16"): 16 * 130,
+        Settings(antialiasing="ssaa-n", samples_across=8, blend="over"): 64 * 150,
+    }
+    for settings, bytes_of_pixel in cases.items():
+        side = int((2**30 / bytes_of_pixel) ** 0.5)
+        memory.check_memory((side, side), settings)
+        with pytest.raises(ValueError, match="may take 1 GiB of memory, this machine has 1"):
+            memory.check_memory((side + 1, side + 1), settings)
+
+
+@pytest.mark.skipif(not hasattr(os, "sysconf"), reason="the memory of the machine is not known")
+def test_too_many_samples_are_refused_before_drawing(tmp_path):
+    line = refused(
+        1, "render", "cube", "-o", "out.png", "--size", "16000x16000", "--set", "antialiasing=ssaa-n",
+        "samples_across=8", cwd=tmp_path,
+    )  # fmt: skip
+    assert (
+        "a picture of 16000x16000 pixels with 64 samples each may take 1984 GiB of memory, this machine has"
+        in line
+    )
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such permissions and devices")

@@ -451,12 +451,6 @@ def test_integer_centres_move_the_triangle(grid: PixelGrid) -> None:
         grid.set_pixel_center("corner")
 
 
-def test_several_samples_are_drawn(grid: PixelGrid) -> None:
-    plain = picture(grid)
-    grid.show_samples(np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]))
-    assert picture(grid) != plain
-
-
 def test_the_view_is_written_as_vectors(grid: PixelGrid) -> None:
     grid.show_geometry(TRIANGLE)
     target = QBuffer()

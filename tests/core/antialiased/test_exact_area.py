@@ -10,7 +10,12 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
+from core.antialiased.exact_area import draw_pieces
 from core.antialiased.reference import many_samples
+from core.frame import STAGES, StageCount
+from core.geometry_stages import process_geometry
+from core.raster.schedule import make_raster
+from lessons.scenes import make_scene
 from tests.core.framebuffer.test_pixel_pieces import area, clipped
 from tests.core.trace.trace_cases import SCENES
 
@@ -94,6 +99,23 @@ def test_many_samples_are_the_mean_of_a_large_picture():
     height, width = scene.size[1], scene.size[0]
     mean = larger.reshape(height, side, width, side, 4).mean(axis=(1, 3))
     assert np.abs(many_samples(scene, Settings(), side) - mean).max() <= 1e-6
+
+
+def test_rays_keep_the_first_of_triangles_in_one_plane():
+    """Triangles 0, 1 and 5 of the scene are the same corners in different orders: their planes differ by rounding."""
+    exact = render(SCENES["clip"], Settings(antialiasing="area", visibility="ray-casting")).color
+    dense = many_samples(SCENES["clip"], Settings(visibility="ray-casting"), 16)
+    assert np.abs(exact - dense).max() < 0.02
+
+
+def test_neighbours_cut_no_slivers_of_rounding():
+    scene = replace(make_scene("torus"), size=(120, 90))
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(scene, Settings(), counts)
+    pieces = draw_pieces(scene, geometry, Settings(), make_raster(scene.size, "half"), counts)
+    assert len(pieces.area) > 3 * len(pieces.touched)
+    assert pieces.area.min() > 1e-15
+    assert np.abs(np.bincount(pieces.pixel, pieces.area)[pieces.touched] - 1).max() <= 1e-12
 
 
 def test_a_wireframe_has_no_area():

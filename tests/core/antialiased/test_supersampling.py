@@ -13,7 +13,7 @@ from core.pipeline import draw
 from core.raster.schedule import make_raster
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
 
-SIDES = {"ssaa-4": 2, "ssaa-16": 4}
+SIDES = {"ssaa-4": 2, "ssaa-16": 4, "ssaa-n": 3}
 
 
 @pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
@@ -37,6 +37,41 @@ def test_samples_are_the_pixels_of_the_larger_picture(name, choice):
     assert np.array_equal(frame.attributes, finer.attributes[::2, ::2])
 
 
+@pytest.mark.parametrize("resolve_filter", ["box", "tent"])
+@pytest.mark.parametrize("side", range(1, 9))
+def test_any_number_of_samples_across(side, resolve_filter):
+    scene = SCENES["lit"]
+    settings = Settings(antialiasing="ssaa-n", samples_across=side, resolve_filter=resolve_filter)
+    frame = render(scene, settings)
+    larger = render(replace(scene, size=(side * scene.size[0], side * scene.size[1])))
+    assert np.array_equal(frame.samples.primitive[-1], larger.primitive[side - 1 :: side, side - 1 :: side])
+    assert np.array_equal(frame.samples.color[0], larger.color[::side, ::side])
+    named = {1: "none", 2: "ssaa-4", 4: "ssaa-16"}.get(side)
+    if named is not None and resolve_filter == "box":
+        same = render(scene, replace(settings, antialiasing=named))
+        assert frame.color.tobytes() == same.color.tobytes()
+        pictures = [draw_picture(scene, replace(settings, antialiasing=name)) for name in ("ssaa-n", named)]
+        assert np.abs(pictures[0].pixels.astype(int) - pictures[1].pixels).max() <= (1 if side == 1 else 0)
+    picture = draw_picture(scene, settings)
+    assert picture.route.visibility == "supersampled"
+    assert np.abs(picture.pixels.astype(int) - to_display(frame.color).pixels).max() <= 2
+
+
+@pytest.mark.parametrize("resolve_filter", ["box", "tent"])
+@pytest.mark.parametrize("side", range(1, 9))
+def test_a_picture_of_one_colour_keeps_it(side, resolve_filter):
+    color = np.full((1, 3, 4), [0.1, 0.7, 1 / 3, 1])
+    scene = ClipScene([[[-1, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]]], color, (5, 4))
+    settings = Settings(antialiasing="ssaa-n", samples_across=side, resolve_filter=resolve_filter)
+    assert (render(scene, settings).color == render(scene).color).all()
+
+
+@pytest.mark.parametrize("wrong", [0, 9, 2.0, "3"])
+def test_a_number_of_samples_that_cannot_be_is_refused(wrong):
+    with pytest.raises(ValueError, match=f"samples_across must be a whole number from 1 to 8, got {wrong!r}"):
+        Settings(samples_across=wrong)
+
+
 @pytest.mark.parametrize("antialiasing", list(SIDES))
 def test_the_box_averages_the_samples_of_a_pixel(antialiasing):
     frame = render(SCENES["lit"], Settings(antialiasing=antialiasing, blend="over"))
@@ -51,7 +86,7 @@ def test_centres_on_whole_numbers_have_their_samples_around_them():
     scene = ClipScene(
         [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]], size=(8, 8)
     )
-    for antialiasing in ("ssaa-4", "ssaa-16", "msaa-4", "area"):
+    for antialiasing in ("ssaa-4", "ssaa-16", "ssaa-n", "msaa-4", "area"):
         frame = render(scene, Settings(antialiasing=antialiasing, pixel_center="integer"))
         wanted = np.zeros((8, 8))
         wanted[3:6, 3:6] = 1
@@ -59,7 +94,7 @@ def test_centres_on_whole_numbers_have_their_samples_around_them():
 
 
 @pytest.mark.parametrize("resolve_filter", ["box", "tent"])
-@pytest.mark.parametrize("antialiasing", ["ssaa-4", "ssaa-16", "msaa-4", "area"])
+@pytest.mark.parametrize("antialiasing", ["ssaa-4", "ssaa-16", "ssaa-n", "msaa-4", "area"])
 @pytest.mark.parametrize("pixel_center", ["half", "integer"])
 def test_a_region_is_the_crop_of_the_picture(antialiasing, resolve_filter, pixel_center):
     scene = SCENES["clip"]

@@ -10,12 +10,13 @@ from core import Camera, DirectionalLight, Scene, Settings, draw_picture
 from core.raster.spans.arena import Arena
 from lessons.shapes import sphere
 
-PER_PIXEL, PER_TRIANGLE, FIXED = 24, 900, 24_000_000
+PER_PIXEL, PER_TRIANGLE, FIXED = {"none": 24, "msaa-4": 40}, 900, 24_000_000
 
 
 @pytest.mark.parametrize(("columns", "side"), [(64, 1024), (512, 512)])
 @pytest.mark.parametrize("shading", ["phong", "gouraud"])
-def test_memory_of_a_picture(columns: int, side: int, shading: str) -> None:
+@pytest.mark.parametrize("antialiasing", list(PER_PIXEL))
+def test_memory_of_a_picture(columns: int, side: int, shading: str, antialiasing: str) -> None:
     mesh, arena = sphere(columns=columns, rows=columns // 2), Arena()
     scene = Scene(
         (mesh,),
@@ -23,7 +24,7 @@ def test_memory_of_a_picture(columns: int, side: int, shading: str) -> None:
         (DirectionalLight(np.array([0.4, -0.8, -0.7])),),
         (side, side),
     )
-    settings = Settings(depth="fixed-38", shading=shading)
+    settings = Settings(depth="fixed-38", shading=shading, antialiasing=antialiasing)
     draw_picture(scene, settings, arena=arena)
     turned = replace(scene, camera=Camera(np.array([1.1, 0.8, 2.8]), np.zeros(3)))
     tracemalloc.start()
@@ -33,4 +34,4 @@ def test_memory_of_a_picture(columns: int, side: int, shading: str) -> None:
     finally:
         tracemalloc.stop()
     held = peak + arena.byte_count
-    assert held <= PER_PIXEL * side * side + PER_TRIANGLE * len(mesh.triangles) + FIXED
+    assert held <= PER_PIXEL[antialiasing] * side * side + PER_TRIANGLE * len(mesh.triangles) + FIXED

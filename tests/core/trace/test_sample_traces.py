@@ -7,7 +7,7 @@ from core import Settings, render, trace
 from core.raster.edge_functions import covers
 from tests.core.trace.trace_cases import SCENES
 
-SAMPLED = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16}
+SAMPLED = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16, "ssaa-n": 9}
 
 
 def track(traced, stage, name):

@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
 from core.antialiased.exact_area import piece_sum
-from core.antialiased.supersampling import side_of
+from core.antialiased.sample_counts import side_of
 from core.framebuffer.display import srgb_byte
+from core.framebuffer.pixel_pieces import SQUARE
+from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.framebuffer.resolve import weighted_mean
 from core.methods import table
 from core.trace import TRACERS, StageTrace, Trace, TraceSource
@@ -35,9 +37,35 @@ def check_resolve(traced: Trace) -> None:
             with np.errstate(invalid="ignore", over="ignore"):
                 mixed = [rules[kind](*((v, weights) if kind == "average" else (weights, v))) for v in values]
             assert equal(mixed, found.columns["linear"][row])
-    for row in range(found.steps.row_count):
+    if "cut" in found.steps.kinds:
+        check_cuts(found)
+    for row in rows_of_kind(found, found.steps.kinds[0]):
         linear, shown = found.columns["linear"][row], found.columns["bytes"][row]
         assert [srgb_byte(float(value)) for value in linear[:3]] == shown[:3].tolist()
+
+
+def check_cuts(found: StageTrace) -> None:
+    """Cut the squares of pixels again, edge by edge, and measure what is left."""
+    c = found.columns
+    for kind in ("cut", "piece"):
+        for row in rows_of_kind(found, kind):
+            before, after = (
+                [(float(x), float(y)) for x, y in c[name][row] if np.isfinite(x)]
+                for name in ("before", "polygon")
+            )
+            if kind == "piece":
+                assert polygon_area(after) == c["piece_area"][row]
+                parts = c["part_area"][row].tolist(), c["part_primitive"][row].tolist()
+                shown = shown_areas(*parts, int(c["primitive"][row]))
+                assert shown == (c["seen_area"][row], c["covered_area"][row])
+                continue
+            if c["edge"][row] == 0:
+                assert before == [tuple(corner) for corner in SQUARE.tolist()]
+            else:
+                previous = c["polygon"][row - 1]
+                assert np.array_equal(previous, c["before"][row], equal_nan=True)
+            assert cut_polygon(before, *(float(c[name][row]) for name in ("a", "b", "value"))) == after
+            assert len(after) == c["corner_count"][row]
 
 
 CHECKS = (
@@ -68,9 +96,9 @@ class OnePart:
 def check_all(traced: Trace) -> None:
     """Execute the listings of all stages: of several samples, on what the rows of each were made from."""
     source = traced.source
-    side = side_of(source.settings.antialiasing)
+    side = side_of(source.settings)
     check_resolve(traced)
-    if side > 1:
+    if side:
         parts = [(finer_source(source, side), CHECKS)]
     elif source.settings.antialiasing == "msaa-4":
         samples = sources_of_samples(source)

@@ -134,6 +134,8 @@ MIXES = [
     {"polygon_mode": "wireframe", "texture_filter": "trilinear"},
     {"polygon_mode": "wireframe", "interpolation": "affine", "texture_filter": "mipmap-nearest"},
     {"polygon_mode": "wireframe", "interpolation": "affine-n", "texture_filter": "trilinear"},
+    {"antialiasing": "ssaa-n", "samples_across": 1, "blend": "over"},
+    {"antialiasing": "ssaa-n", "samples_across": 5, "resolve_filter": "tent", "pixel_center": "integer"},
     {"fill": "incremental", "coverage": "float16", "blend": "over", "pixel_center": "integer"},
     {"fill": "incremental", "coverage": "exact", "fill_rule": "inclusive"},
     {"fill": "blocks", "block_size": 3, "coverage": "fixed-24.8", "interpolation": "affine"},
