@@ -12,7 +12,8 @@ from core.study.planner.everything import everything_on
 from core.study.planner.facts import facts_of
 from core.study.planner.reasons import surface_reasons, value_reasons
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
-from core.study.planner.surface_choice import SurfaceChoice, choose_surfaces
+from core.study.planner.surface_choice import SurfaceChoice, choose_surfaces, is_translucent
+from core.study.planner.surfaces import may_be_seen
 from core.study.planner.tessellation import tessellations
 from core.study.planner.touched import Touched, touch
 from core.study.planner.value_choice import ValueChoice, choose_values
@@ -118,7 +119,8 @@ WIREFRAME = "Outlines have no areas whose colours could be bounded, so nothing i
 
 def _look(scene: AnyScene, everything: Settings) -> tuple[Touched, ColorRanges]:
     touched = touch(scene, replace(everything, polygon_mode="fill"))
-    return touched, color_ranges(touched, scene, everything)
+    is_blended = is_translucent(touched, scene) or everything.blend == "additive"
+    return touched, color_ranges(touched, scene, everything, may_be_seen(touched, is_blended))
 
 
 def _decisions(

@@ -128,8 +128,8 @@ def range_around(
     is_whole = ~(level < top - 1) | ~np.isfinite(middle).all(axis=1) | (wrap != "repeat")
     # Sides that are no power of two leave a smaller last block, and beyond it texels go on at the start.
     is_whole |= (height & (height - 1) != 0) or (width & (width - 1) != 0)
-    least = np.broadcast_to(ranges.low[0].min(axis=(0, 1)), (len(low), texture.pixels.shape[2])).copy()
-    most = np.broadcast_to(ranges.high[0].max(axis=(0, 1)), least.shape).copy()
+    least = np.broadcast_to(ranges.low[-1][0, 0], (len(low), texture.pixels.shape[2])).copy()
+    most = np.broadcast_to(ranges.high[-1][0, 0], least.shape).copy()
     number = np.where(is_whole, -1, np.maximum(level, 0)).astype(np.int64)
     for k in np.unique(number[number >= 0]).tolist():
         chosen = np.flatnonzero(number == k)

@@ -25,6 +25,7 @@ from core.methods import table
 from core.raster.snapping import snap
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.planner.pieces import Pieces, pieces_of
 
 MARGIN = 1 / 64
 """Pixels by which squares are grown: more than twice snapping to 1/256 pixel moves anything."""
@@ -65,11 +66,18 @@ class Touched:
     facing: Floats
     """(P,) float64, twice the signed area in the window; positive: a front."""
     size: tuple[int, int]
+    pieces: Pieces
+    """Of the pairs."""
 
     @property
     def pixel_count(self) -> int:
         """Pixels of the picture."""
         return self.size[0] * self.size[1]
+
+    def take(self, index: Integers) -> "Touched":
+        """Return the look at the pairs ``index`` (R,) only; pieces stay those of all."""
+        of_pairs = ("pixel", "primitive", "x", "y", "near", "far", "is_outlined", "is_drawn")
+        return replace(self, **{name: getattr(self, name).take(index) for name in of_pairs})
 
 
 def touch(scene: AnyScene, settings: Settings) -> Touched:
@@ -110,7 +118,7 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     empty = np.empty(0, np.int64)
     primitive = np.concatenate([empty, *(part[0] for part in found)])
     pixel = np.concatenate([empty, *(part[1] for part in found)])
-    order = np.lexsort((primitive, pixel))
+    order = np.argsort(pixel * np.int64(len(geometry.primitives)) + primitive, kind="stable")
     primitive, pixel = primitive[order], pixel[order]
     x_of_pixel = np.concatenate([np.empty(0), *(part[2] for part in found)])[order]
     y_of_pixel = np.concatenate([np.empty(0), *(part[3] for part in found)])[order]
@@ -132,6 +140,7 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
         component,
         facing,
         scene.size,
+        pieces_of(pixel, component.take(primitive), facing.take(primitive), far, is_outlined),
     )
 
 

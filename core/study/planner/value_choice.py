@@ -44,18 +44,17 @@ class ValueChoice:
 class Budget:
     """What is left of the tolerance, at the pairs that can be seen."""
 
-    def __init__(self, colors: ColorRanges, seen: Flags, left: float) -> None:
-        self._low, self._seen = colors.low[seen], seen
+    def __init__(self, colors: ColorRanges, left: float) -> None:
+        self._low = colors.low
         self._spent = np.zeros_like(self._low)
         self.left = left
 
     def cost(self, error: Floats) -> float:
         """Return what an error (Q, 3) of linear light costs, in 1/255."""
-        here = error[self._seen]
-        if not here.size:
+        if not error.any():
             return 0.0
-        dark = np.maximum(self._low - self._spent - np.nan_to_num(here, nan=np.inf, posinf=np.inf), 0.0)
-        found = float(byte_error(dark, here).max())
+        dark = np.maximum(self._low - self._spent - np.nan_to_num(error, nan=np.inf, posinf=np.inf), 0.0)
+        found = float(byte_error(dark, error).max())
         return 0.0 if found < ROUNDING else found
 
     def choose(self, options: dict[str, Floats], dearest: str) -> ValueChoice:
@@ -65,7 +64,7 @@ class Budget:
             cost = self.cost(error)
             if cost <= self.left:
                 self.left -= cost
-                self._spent += error[self._seen]
+                self._spent += error
                 return ValueChoice(name, cost, tuple(rejected))
             rejected.append((name, cost))
         return ValueChoice(dearest, 0.0, tuple(rejected))
@@ -96,7 +95,9 @@ def choose_values(
     side : int
         Samples on a side of a pixel.
     """
-    budget = Budget(colors, seen, left)
+    index = np.flatnonzero(seen)
+    touched, colors = touched.take(index), colors.take(index)
+    budget = Budget(colors, left)
     shading = ValueChoice(settings.shading, 0.0, ())
     if isinstance(scene, Scene) and settings.shading != "unlit":
         errors = {}

@@ -131,7 +131,10 @@ def test_any_number_of_samples_shows_colors_of_the_candidates() -> None:
     everything = replace(everything_on(scene), blend="opaque")
     touched = touch(scene, everything)
     found = surfaces(
-        touched, color_ranges(touched, scene, everything), scene.background, format_margin("z-16")
+        touched,
+        color_ranges(touched, scene, everything, touched.is_drawn),
+        scene.background,
+        format_margin("z-16"),
     )
     pictures = [
         measuring.shown(scene, replace(everything, antialiasing=name, depth=depth))
