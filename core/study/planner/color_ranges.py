@@ -7,7 +7,7 @@ its corners by `SNAPPED`: the square is grown by more, and the range of the corn
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -82,15 +82,23 @@ class Hull:
         )
 
 
-def color_ranges(touched: Touched, scene: AnyScene, settings: Settings, chosen: Flags) -> ColorRanges:
-    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time; of the others nothing is known."""
+def color_ranges(
+    touched: Touched, scene: AnyScene, settings: Settings, chosen: Flags, stays_inside: bool = True
+) -> ColorRanges:
+    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time; of the others nothing is known.
+
+    Where colours are taken at the pixels' centres, they may be those of places beyond the triangle: it does not
+    ``stay inside``, and its corners bound nothing.
+    """
     index = np.flatnonzero(chosen)
     seen = touched.take(index)
     rows, lod = np.empty((6, len(index), 3)), np.empty(len(index))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         corners = _corner_hull(touched, scene)
+        if not stays_inside:
+            corners = replace(corners, is_sound=np.zeros_like(corners.is_sound))
         for part in _parts(len(index)):
-            levels = _levels_of_detail(seen, scene, part)
+            levels = _levels_of_detail(seen, scene, part, stays_inside)
             lod[part] = levels[1]
             for row, values in zip(rows, _ranges(seen, scene, settings, levels, corners, part), strict=True):
                 row[part] = values
@@ -101,6 +109,11 @@ def color_ranges(touched: Touched, scene: AnyScene, settings: Settings, chosen: 
     every_lod[index] = lod
     low, high, albedo, texels, gain, bright = every
     return ColorRanges(low, high, every_lod, albedo, texels, gain, bright, chosen)
+
+
+def joined_ranges(first: ColorRanges, second: ColorRanges) -> ColorRanges:
+    """Return the first with colours that reach as far as either's."""
+    return replace(first, low=np.minimum(first.low, second.low), high=np.maximum(first.high, second.high))
 
 
 def _parts(count: int) -> Iterator[slice]:
@@ -204,12 +217,15 @@ def _at(
     a, b, c = (values.take(primitive) for values in plane)
     middle = a * touched.x[part] + b * touched.y[part] + c
     right, up = a * (0.5 + MARGIN), b * (0.5 + MARGIN)
-    return np.stack([middle - (right + up), middle + (right - up), middle - (right - up), middle + (right + up)])
+    return np.stack(
+        [middle - (right + up), middle + (right - up), middle - (right - up), middle + (right + up)]
+    )
 
 
 def joint_range(hulls: Sequence[Hull], columns: slice) -> tuple[Floats, Floats]:
     """Return the least and the largest of some values (Q, k) that are in all sound hulls; infinite: there is none."""
-    low, high = np.float64(-np.inf), np.float64(np.inf)
+    shape = hulls[0].low[:, columns].shape
+    low, high = np.full(shape, -np.inf), np.full(shape, np.inf)
     for hull in hulls:
         sound = hull.is_sound[:, None]
         low = np.where(sound, np.maximum(low, hull.low[:, columns]), low)
@@ -270,7 +286,7 @@ def textures_of(touched: Touched, scene: AnyScene, part: slice) -> Iterator[tupl
             yield chosen, of_scene.texture
 
 
-def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Levels:
+def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice, stays_inside: bool) -> Levels:
     """Return the least and the largest lambda (Q,) in the squares, one sample a pixel.
 
     Notes
@@ -285,7 +301,9 @@ def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Levels:
     primitive, varyings = touched.primitive[part], touched.geometry.primitives.varyings
     inverse_w = touched.geometry.inverse_w_plane
     at_corner = _at(inverse_w, primitive, touched, part)
-    least = np.maximum(at_corner.min(axis=0), inverse_w_floor(touched).take(primitive))
+    least = np.maximum(at_corner.min(axis=0), 0.0)
+    if stays_inside:
+        least = np.maximum(least, inverse_w_floor(touched).take(primitive))
     most = at_corner.max(axis=0)
     slopes = np.empty((2, 2, 2, len(primitive)))
     for number, k in enumerate(range(layout["uv"].start, layout["uv"].stop)):

@@ -15,7 +15,6 @@ from core.arrays import Floats, Integers
 from core.geometry.vertex_stage import unit
 from core.scene import DirectionalLight, Light
 
-
 HAIR = 1e-12
 """Radians that rounding may move an angle by."""
 

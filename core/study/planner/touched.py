@@ -68,6 +68,8 @@ class Touched:
     size: tuple[int, int]
     pieces: Pieces
     """Of the pairs."""
+    vertex: Integers
+    """(P, 3) int64, numbers of the corners: the same where their clip positions are, bit for bit."""
 
     @property
     def pixel_count(self) -> int:
@@ -141,7 +143,18 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
         facing,
         scene.size,
         pieces_of(pixel, component.take(primitive), facing.take(primitive), far, is_outlined),
+        vertex,
     )
+
+
+def is_cut(touched: Touched) -> Flags:
+    """Return (P,) bool: the primitive is of a triangle that crosses a plane of the view volume."""
+    return _is_cut(touched.geometry)
+
+
+def _is_cut(geometry: Geometry) -> Flags:
+    cut = has_bits(joined_bits(outcodes(geometry.kept.vertex_clip.T), geometry.kept.corner), PLANE_BITS)
+    return np.asarray(np.isin(geometry.primitives.triangle, geometry.kept.triangle[cut]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,9 +192,7 @@ def _is_drawn(geometry: Geometry, facing: Floats, primitive: Integers, x: Floats
     """Return (Q,) bool, False where a thin triangle that is not cut covers no sample, decided as coverage does."""
     window = geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
-    cut = joined_bits(outcodes(geometry.kept.vertex_clip.T), geometry.kept.corner)
-    is_whole = ~np.isin(geometry.primitives.triangle, geometry.kept.triangle[has_bits(cut, PLANE_BITS)])
-    is_thin = is_whole & ~(np.abs(facing) > THIN * edge)
+    is_thin = ~_is_cut(geometry) & ~(np.abs(facing) > THIN * edge)
     index = np.flatnonzero(is_thin.take(primitive))
     found = np.ones(len(primitive), bool)
     found[index] = False

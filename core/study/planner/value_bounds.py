@@ -29,7 +29,6 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.fragments.lighting import planes
 from core.fragments.shading import face_normals
-from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry.vertex_stage import unit
 from core.scene import AnyScene, DirectionalLight, Scene
 from core.study.planner.color_ranges import (
@@ -43,7 +42,7 @@ from core.study.planner.color_ranges import (
 )
 from core.study.planner.light_ranges import LightRange, cones, light_range
 from core.study.planner.texture_ranges import texture_ranges
-from core.study.planner.touched import Touched
+from core.study.planner.touched import Touched, is_cut
 from core.surface import viewpoint
 
 
@@ -53,14 +52,6 @@ class LightError:
 
     diffuse: Floats
     specular: Floats
-
-
-def is_cut(touched: Touched) -> Flags:
-    """Return (P,) bool: the primitive is of a triangle that crosses a plane of the view volume."""
-    geometry = touched.geometry
-    kept = geometry.kept
-    cut = has_bits(joined_bits(outcodes(kept.vertex_clip.T), kept.corner), PLANE_BITS)
-    return np.asarray(np.isin(geometry.primitives.triangle, kept.triangle[cut]))
 
 
 def filter_error(touched: Touched, colors: ColorRanges, scene: AnyScene, name: str, side: int) -> Floats:

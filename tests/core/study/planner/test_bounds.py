@@ -15,7 +15,7 @@ from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_c
 from core.study.planner import measuring
 from core.study.planner.bytes import byte_error, byte_width
 from core.study.planner.color_ranges import color_ranges
-from core.study.planner.facts import is_closed
+from core.study.planner.convexity import is_closed
 from core.study.planner.light_ranges import Reflectances, light_range
 from core.study.planner.orders import overlap
 from core.study.planner.surfaces import format_margin, surfaces

@@ -8,6 +8,7 @@ import pytest
 import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
 from core.study import Tolerance, everything_on, measure_plan, plan
+from core.study.planner.costs import LectureOrder
 from core.study.planner.measuring import difference, shown
 
 CHEAP = {
@@ -40,7 +41,7 @@ NEEDS: list[tuple[Callable[[], AnyScene], str, tuple[str, ...]]] = [
 def test_what_is_needed_is_kept_and_the_rest_is_dropped(
     make: Callable[[], AnyScene], needed: str, with_it: tuple[str, ...]
 ) -> None:
-    chosen = plan(make(), Tolerance())
+    chosen = plan(make(), Tolerance(), costs=LectureOrder())
     assert measure_plan(make(), chosen, 1).is_within
     for decision in chosen.decisions:
         if decision.setting == "texture_filter" and make is scenes.magnified:

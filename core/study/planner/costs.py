@@ -1,0 +1,109 @@
+"""What settings cost on a scene: small pictures of it are drawn and timed, and so the time of the whole is predicted.
+
+Which of two methods is faster depends on the scene (how many triangles, which of the fast ways can draw it) and on the
+machine, so it is asked, not assumed. A picture of few pixels is drawn at two sizes: the triangles cost the same in
+both, the pixels what the larger one takes longer, and a picture of any size is on the line through the two. The least
+of some times is taken, as whatever disturbs a measurement makes it longer.
+"""
+
+from collections.abc import Sequence
+from copy import copy
+from dataclasses import replace
+from math import inf, sqrt
+from time import perf_counter
+from typing import Protocol
+
+from core.picture import draw_picture
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.speed_accuracy import collector_off
+
+ROUNDS = 5
+"""Timed drawings of each, in turn, after one that does not count."""
+PIXELS = 64 * 64
+"""Pixels of the larger of the two pictures."""
+BAND = 0.1
+"""Part by which times must differ to count as different."""
+
+
+class Costs(Protocol):
+    """What is known of how long settings take."""
+
+    def is_slower(self, settings: Settings, others: Settings) -> bool:
+        """Tell whether ``settings`` are known to take longer than ``others``."""
+        ...
+
+    def seconds(self, settings: Settings) -> float | None:
+        """Return how long a picture takes, if that is known."""
+        ...
+
+
+class LectureOrder:
+    """Nothing is timed: the methods that the lectures call cheaper are, on every scene and machine alike."""
+
+    def is_slower(self, settings: Settings, others: Settings) -> bool:
+        """Tell that it is not."""
+        return False
+
+    def seconds(self, settings: Settings) -> float | None:
+        """Tell nothing."""
+        return None
+
+
+class TriedCosts:
+    """Times of small pictures of a scene, each of a scene that nothing is known of."""
+
+    def __init__(self, scene: AnyScene) -> None:
+        width, height = scene.size
+        self._pixels = width * height
+        self._scenes = [scene]
+        if self._pixels > PIXELS:
+            shares = (sqrt(PIXELS / self._pixels), sqrt(PIXELS / self._pixels) / 2)
+            self._scenes = [
+                replace(scene, size=(max(round(width * share), 1), max(round(height * share), 1)))
+                for share in shares
+            ]
+        self._least: dict[Settings, list[float]] = {}
+
+    def is_slower(self, settings: Settings, others: Settings) -> bool:
+        """Tell whether ``settings`` took longer than ``others`` in every round, and by more than `BAND` in all."""
+        took, others_took = self._try((settings, others))
+        is_always = all(own > other for own, other in zip(took, others_took, strict=True))
+        return is_always and self._predicted(settings) > (1 + BAND) * self._predicted(others)
+
+    def seconds(self, settings: Settings) -> float:
+        """Return the predicted time of a picture."""
+        if settings not in self._least:
+            self._try((settings,))
+        return self._predicted(settings)
+
+    def _try(self, options: Sequence[Settings]) -> list[list[float]]:
+        """Draw small pictures with all ``options`` in turn; return the times of the larger of each, in seconds."""
+        for settings in options:
+            if settings not in self._least:
+                for scene in self._scenes:
+                    self._time(scene, settings)
+                self._least[settings] = [inf] * len(self._scenes)
+        rounds: list[list[float]] = [[] for _ in options]
+        for _ in range(ROUNDS):
+            for settings, took in zip(options, rounds, strict=True):
+                times = [self._time(scene, settings) for scene in self._scenes]
+                least = zip(self._least[settings], times, strict=True)
+                self._least[settings] = [min(pair) for pair in least]
+                took.append(times[0])
+        return rounds
+
+    def _time(self, scene: AnyScene, settings: Settings) -> float:
+        fresh = copy(scene)
+        with collector_off():
+            start = perf_counter()
+            draw_picture(fresh, settings)
+            return perf_counter() - start
+
+    def _predicted(self, settings: Settings) -> float:
+        times = self._least[settings]
+        if len(times) == 1:
+            return times[0]
+        larger, smaller = (scene.size[0] * scene.size[1] for scene in self._scenes)
+        of_pixel = max(times[0] - times[1], 0.0) / max(larger - smaller, 1)
+        return times[0] + of_pixel * (self._pixels - larger)
