@@ -15,7 +15,7 @@ from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
-from core.study.planner.light_ranges import LightRange, Reflectances, light_range
+from core.study.planner.light_ranges import Cones, LightRange, Reflectances, cones, light_range
 from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
 from core.study.planner.touched import MARGIN, Touched
 from core.surface import viewpoint
@@ -341,6 +341,12 @@ def _light(
     positions, normals = values[..., layout["position"]], values[..., layout["normal"]]
     to_eye = viewpoint(scene.camera, positions) - positions
     return light_range(normals, positions, to_eye, scene.lights, materials(scene, mesh), below_zero)
+
+
+def normal_cones(touched: Touched) -> Cones:
+    """Return the cones of the normals of P primitives that are lit."""
+    primitives = touched.geometry.primitives
+    return cones(primitives.varyings[..., primitives.layout["normal"]].swapaxes(0, 1))
 
 
 def materials(scene: Scene, mesh: Integers) -> Reflectances:

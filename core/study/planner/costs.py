@@ -6,7 +6,6 @@ both, the pixels what the larger one takes longer, and a picture of any size is 
 of some times is taken, as whatever disturbs a measurement makes it longer.
 """
 
-from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
 from math import inf, sqrt
@@ -18,9 +17,9 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.study.speed_accuracy import collector_off
 
-ROUNDS = 5
-"""Timed drawings of each, in turn, after one that does not count."""
-PIXELS = 64 * 64
+ROUNDS = 4
+"""Timed drawings of each, in turn, after one that does not count; fewer once it is plain."""
+PIXELS = 48 * 48
 """Pixels of the larger of the two pictures."""
 BAND = 0.1
 """Part by which times must differ to count as different."""
@@ -58,40 +57,34 @@ class TriedCosts:
         self._pixels = width * height
         self._scenes = [scene]
         if self._pixels > PIXELS:
-            shares = (sqrt(PIXELS / self._pixels), sqrt(PIXELS / self._pixels) / 2)
+            share = sqrt(PIXELS / self._pixels)
             self._scenes = [
-                replace(scene, size=(max(round(width * share), 1), max(round(height * share), 1)))
-                for share in shares
+                replace(scene, size=(max(round(width * part), 1), max(round(height * part), 1)))
+                for part in (share, share / 2)
             ]
         self._least: dict[Settings, list[float]] = {}
 
     def is_slower(self, settings: Settings, others: Settings) -> bool:
         """Tell whether ``settings`` took longer than ``others`` in every round, and by more than `BAND` in all."""
-        took, others_took = self._try((settings, others))
-        is_always = all(own > other for own, other in zip(took, others_took, strict=True))
-        return is_always and self._predicted(settings) > (1 + BAND) * self._predicted(others)
+        for _ in range(ROUNDS):
+            if self._draw(settings) <= self._draw(others):
+                return False
+        return self._predicted(settings) > (1 + BAND) * self._predicted(others)
 
     def seconds(self, settings: Settings) -> float:
         """Return the predicted time of a picture."""
-        if settings not in self._least:
-            self._try((settings,))
+        for _ in range(ROUNDS):
+            self._draw(settings)
         return self._predicted(settings)
 
-    def _try(self, options: Sequence[Settings]) -> list[list[float]]:
-        """Draw small pictures with all ``options`` in turn; return the times of the larger of each, in seconds."""
-        for settings in options:
-            if settings not in self._least:
-                for scene in self._scenes:
-                    self._time(scene, settings)
-                self._least[settings] = [inf] * len(self._scenes)
-        rounds: list[list[float]] = [[] for _ in options]
-        for _ in range(ROUNDS):
-            for settings, took in zip(options, rounds, strict=True):
-                times = [self._time(scene, settings) for scene in self._scenes]
-                least = zip(self._least[settings], times, strict=True)
-                self._least[settings] = [min(pair) for pair in least]
-                took.append(times[0])
-        return rounds
+    def _draw(self, settings: Settings) -> float:
+        """Draw the small pictures once more, and return the time of the larger in seconds."""
+        if settings not in self._least:
+            self._time(self._scenes[-1], settings)
+            self._least[settings] = [inf] * len(self._scenes)
+        times = [self._time(scene, settings) for scene in self._scenes]
+        self._least[settings] = [min(pair) for pair in zip(self._least[settings], times, strict=True)]
+        return times[0]
 
     def _time(self, scene: AnyScene, settings: Settings) -> float:
         fresh = copy(scene)

@@ -7,9 +7,8 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.scene import AnyScene, Scene
-from core.study.planner.color_ranges import ColorRanges, w_ratio
+from core.study.planner.color_ranges import ColorRanges, normal_cones, w_ratio
 from core.study.planner.convexity import is_closed, is_convex
-from core.study.planner.light_ranges import cones
 from core.study.planner.records import Fact
 from core.study.planner.surfaces import format_margin, surfaces
 from core.study.planner.texture_ranges import step_text
@@ -52,8 +51,7 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
         longest = float(lod[np.isfinite(lod)].max())
         facts.append(Fact("texels", "Longest step of a pixel in a texture", step_text(longest)))
     if "normal" in geometry.primitives.layout:
-        normal = geometry.primitives.varyings[..., geometry.primitives.layout["normal"]]
-        radius = cones(normal.swapaxes(0, 1)).radius[primitive]
+        radius = normal_cones(touched).radius[primitive]
         angle = f"{np.degrees(radius.max(initial=0.0)):.3g} degrees"
         facts.append(Fact("normals", "Largest angle of a normal from the middle of its triangle", angle))
     return tuple(facts)

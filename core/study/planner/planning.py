@@ -114,7 +114,7 @@ def plan(
         texture_filter=values["texture_filter"].chosen,
         shading=values["shading"].chosen,
     )
-    decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors)
+    decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors, scene)
     error = surface.error + sum(value.error for value in values.values())
     watch(3 / 4, "Predicting the time")
     seconds = costs.seconds(everything), costs.seconds(chosen)
@@ -138,9 +138,10 @@ def _decisions(
     tolerance: Tolerance,
     touched: Touched,
     colors: ColorRanges,
+    scene: AnyScene,
 ) -> tuple[Decision, ...]:
     reasons = surface_reasons(surface, everything, chosen, tolerance)
-    reasons |= value_reasons(values, surface, touched, colors)
+    reasons |= value_reasons(values, surface, touched, colors, scene)
     decisions = []
     for name in STAGES:
         dearest, found = getattr(everything, name), getattr(chosen, name)

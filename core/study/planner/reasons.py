@@ -1,9 +1,13 @@
 """Why each method was chosen, a sentence with the numbers."""
 
+from math import acos, pi
+
 import numpy as np
 
+from core.arrays import Flags
+from core.scene import AnyScene, Scene
 from core.settings import Settings
-from core.study.planner.color_ranges import ColorRanges, w_ratio
+from core.study.planner.color_ranges import ColorRanges, materials, normal_cones, w_ratio
 from core.study.planner.records import Tolerance
 from core.study.planner.surface_choice import SurfaceChoice
 from core.study.planner.texture_ranges import step_text
@@ -51,7 +55,7 @@ def _samples_reason(surface: SurfaceChoice, everything: Settings, tolerance: Tol
     )
     name = surface.settings.antialiasing
     rejected = "; ".join(
-        f"{other} is beyond {tolerance.bytes}/255 in {counted(error.beyond, 'pixel')} and more"
+        f"{other} is beyond {tolerance.bytes}/255 in {counted(error.beyond, 'pixel')} at least"
         for other, error in surface.rejected
     )
     if name != everything.antialiasing:
@@ -127,7 +131,11 @@ def _blend_reason(surface: SurfaceChoice, chosen: Settings) -> str:
 
 
 def value_reasons(
-    values: dict[str, ValueChoice], surface: SurfaceChoice, touched: Touched, colors: ColorRanges
+    values: dict[str, ValueChoice],
+    surface: SurfaceChoice,
+    touched: Touched,
+    colors: ColorRanges,
+    scene: AnyScene,
 ) -> dict[str, str]:
     """Return the reasons of interpolation, texture filter and shading, by family."""
     seen = surface.surfaces.is_candidate
@@ -138,16 +146,35 @@ def value_reasons(
         texture = (
             f"A step of one sample is {step_text(lod)}" if np.isfinite(lod) else "Some steps are endless"
         )
-    lit = "normal" in touched.geometry.primitives.layout
     return {
         "interpolation": _bounded(
             f"w differs by a factor of {ratio:.4g} at most in a triangle", values["interpolation"]
         ),
         "texture_filter": _bounded(texture, values["texture_filter"]),
-        "shading": _bounded(
-            "Normals and highlights were bounded by cones" if lit else "Nothing is lit", values["shading"]
-        ),
+        "shading": _bounded(_light_text(touched, scene, seen), values["shading"]),
     }
+
+
+def _light_text(touched: Touched, scene: AnyScene, seen: Flags) -> str:
+    """Return how far normals turn, and how narrow highlights are."""
+    if "normal" not in touched.geometry.primitives.layout or not isinstance(scene, Scene):
+        return "Nothing is lit"
+    if not seen.any():
+        return "Nothing that is lit is in view"
+    primitive = np.unique(touched.primitive[seen])
+    turned = np.degrees(normal_cones(touched).radius[primitive].max())
+    text = f"Normals turn by up to {turned:.3g} degrees from the middle of a triangle"
+    material = materials(scene, touched.geometry.primitives.mesh[primitive])
+    is_shiny = material.specular > 0
+    if not is_shiny.any():
+        return f"{text}, and nothing has highlights"
+    half = np.degrees(half_width(float(material.shininess[is_shiny].max())))
+    return f"{text}, and a highlight falls to half within {half:.3g}"
+
+
+def half_width(shininess: float) -> float:
+    """Return the angle, in radians, at which a highlight has half its light: cos(angle)^shininess = 1/2."""
+    return acos(0.5 ** (1 / shininess)) if shininess > 0 else pi / 2
 
 
 def _bounded(start: str, value: ValueChoice) -> str:

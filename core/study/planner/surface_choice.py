@@ -166,51 +166,45 @@ class SurfaceChooser:
 
     def _with_fewer_samples(self, start: SurfaceChoice) -> SurfaceChoice:
         """Choose how many samples, each of which shows what it would with everything on."""
-        tolerance, options, rejected = self._tolerance, [], []
+        best, rejected = start, []
         for name in FEWER:
             settings = replace(start.settings, antialiasing=name)
-            if self._costs.is_slower(settings, start.settings):
-                self._slower.append(("antialiasing", name))
-                continue
-            colors, seen = self._colors, start.surfaces
-            if not PATTERNS[name].stays_inside:
-                colors = color_ranges(
-                    self._touched, self._scene, self._everything, self._colors.is_known, stays_inside=False
-                )
-                seen = surfaces(
-                    self._touched,
-                    joined_ranges(self._colors, colors),
-                    self._scene.background,
-                    format_margin(settings.depth),
-                )
-            error = sample_error(
-                self._touched,
-                (self._colors, colors),
-                seen,
-                self._scene.background,
-                PATTERNS[name],
-                format_margin(settings.depth),
-                (tolerance.bytes, tolerance.pixels),
-            )
-            if error.beyond > tolerance.pixels:
+            colors, error = self._colors, self._sample_error(name, self._colors, start.surfaces)
+            if error.beyond <= self._tolerance.pixels and not PATTERNS[name].stays_inside:
+                colors, error = self._error_beyond_corners(name, start)
+            if error.beyond > self._tolerance.pixels:
                 rejected.append((name, error))
-                continue
-            pixels = error.beyond
-            options.append(
-                replace(
+            elif self._costs.is_slower(settings, start.settings):
+                self._slower.append(("antialiasing", name))
+            elif best is start or self._costs.is_slower(best.settings, settings):
+                best = replace(
                     start,
                     settings=settings,
                     colors=colors,
                     error=error.error,
-                    pixels=pixels,
-                    sample_pixels=pixels,
+                    pixels=error.beyond,
+                    sample_pixels=error.beyond,
                 )
-            )
-        best = replace(start, rejected=tuple(rejected))
-        for number, option in enumerate(options):
-            if number == 0 or self._costs.is_slower(best.settings, option.settings):
-                best = replace(option, rejected=tuple(rejected))
-        return best
+        return replace(best, rejected=tuple(rejected))
+
+    def _sample_error(self, name: str, colors: ColorRanges, seen: Surfaces) -> SampleError:
+        return sample_error(
+            self._touched,
+            (self._colors, colors),
+            seen,
+            self._scene.background,
+            PATTERNS[name],
+            format_margin(self._everything.depth),
+            (self._tolerance.bytes, self._tolerance.pixels),
+        )
+
+    def _error_beyond_corners(self, name: str, start: SurfaceChoice) -> tuple[ColorRanges, SampleError]:
+        """Return the colours at pixels' centres, which may lie beyond the triangles, and the error with these."""
+        known = self._colors.is_known
+        colors = color_ranges(self._touched, self._scene, self._everything, known, stays_inside=False)
+        both, margin = joined_ranges(self._colors, colors), format_margin(start.settings.depth)
+        seen = surfaces(self._touched, both, self._scene.background, margin)
+        return colors, self._sample_error(name, colors, seen)
 
     def _with_samples_unchanged(self, start: SurfaceChoice) -> SurfaceChoice:
         """Choose culling and depth where nothing may change at any of the samples that are left."""
