@@ -58,7 +58,7 @@ def doubtful_depths(
 
 
 def pairs_of(touched: Touched, pixels: Integers, is_drawn: Flags | None = None) -> tuple[Integers, Integers]:
-    """Return the pairs of the pixels, and where those of each pixel begin."""
+    """Return the pairs (R,) of the pixels (N,), and where those of each pixel begin (M,)."""
     wanted = np.zeros(touched.pixel_count, bool)
     wanted[pixels] = True
     chosen = wanted[touched.pixel] & touched.is_drawn
@@ -76,7 +76,13 @@ def _least(values: Floats, starts: Integers) -> Floats:
 def sample_pairs(
     touched: Touched, pairs: Integers, pattern: Pattern
 ) -> Iterator[tuple[Flags, Flags, Floats]]:
-    """Yield for every sample which pairs cover it surely, which may (its centre on an edge), and their depth."""
+    """Yield for every sample which pairs (R,) cover it surely, which may, and their depth (R,).
+
+    Notes
+    -----
+    A centre on an edge belongs to the triangle that a point a hair to the right, then up, is in; all of that is exact.
+    What is not sure is a triangle that snapping turns over: it is drawn as the other side, so it may be anything.
+    """
     primitive = touched.primitive[pairs]
     corners = snap(touched.geometry.corners.window[primitive] * pattern.scale)[0]
     x, y = corners[..., 0].T, corners[..., 1].T
@@ -85,13 +91,16 @@ def sample_pairs(
     a, b, c = (part[primitive] for part in touched.depth_plane)
     least, most = (choose(touched.geometry.depth[:, primitive], axis=0) for choose in (np.min, np.max))
     left, bottom = touched.x[pairs] - 0.5, touched.y[pairs] - 0.5
+    edges = []
+    for k in range(3):
+        across, along = (y[k] - y[k - 2]) * sign, (x[k - 2] - x[k]) * sign
+        edges.append((x[k], y[k], across, along, (across > 0) | ((across == 0) & (along > 0))))
     for right, up in pattern.positions * pattern.scale:
         at_x, at_y = pattern.scale * left + right, pattern.scale * bottom + up
-        edges = [
-            ((x[k - 2] - x[k]) * (at_y - y[k]) - (y[k - 2] - y[k]) * (at_x - x[k])) * sign for k in range(3)
-        ]
-        inner = np.min(edges, axis=0)
-        # A triangle that snapping turns over is drawn as the other side: it may be anything.
-        is_sure, may_be = (inner > 0) & (area > 0), (inner >= 0) | ~(area > 0)
+        is_sure = area > 0
+        for start_x, start_y, across, along, has_ties in edges:
+            inner = across * (at_x - start_x) + along * (at_y - start_y)
+            is_sure &= (inner > 0) | ((inner == 0) & has_ties)
+        may_be = is_sure | ~(area > 0)
         depth = a * (at_x / pattern.scale) + (b * (at_y / pattern.scale) + c)
         yield is_sure, may_be, np.clip(depth, least, most)

@@ -19,6 +19,7 @@ from core.study.planner.color_ranges import ColorRanges
 from core.study.planner.patterns import EVERYTHING, Pattern
 from core.study.planner.surfaces import Surfaces
 from core.study.planner.touched import Touched
+from core.study.planner.translucency import Range, blended_mixture
 
 BATCH = 512
 """Pixels that are looked at first; each further batch is twice as large."""
@@ -42,6 +43,7 @@ def sample_error(
     pattern: Pattern,
     margin: float,
     most: tuple[int, int],
+    alpha: Range | None = None,
 ) -> SampleError:
     """Bound the error of a picture with other samples.
 
@@ -58,6 +60,8 @@ def sample_error(
         Window depths closer than this leave a doubt.
     most : (int, int)
         The tolerance: bytes, and pixels that may differ by more.
+    alpha : ((P,) float64, (P,) float64), optional
+        The least and the largest of each primitive, where surfaces let others shine through.
     """
     most_bytes, most_pixels = most
     wide = np.flatnonzero(found.width > most_bytes)
@@ -66,7 +70,7 @@ def sample_error(
     error, beyond, first, count = float(narrow.max(initial=0.0)), 0, 0, BATCH
     while first < len(wide) and beyond <= most_pixels:
         pixels = np.sort(wide[first : first + count])
-        bounds = _bounds(touched, colors, found, background, pattern, margin, pixels)
+        bounds = _bounds(touched, colors, found, background, pattern, margin, pixels, alpha)
         within = bounds <= most_bytes
         error = max(error, float(bounds[within].max(initial=0.0)))
         beyond += int(np.count_nonzero(~within))
@@ -82,13 +86,21 @@ def _bounds(
     pattern: Pattern,
     margin: float,
     pixels: Integers,
+    alpha: Range | None,
 ) -> Floats:
     """Return the bounds (N,) of some pixels in rising order, in 1/255."""
     pairs, starts = pairs_of(touched, pixels, found.is_candidate)
     width = found.width[pixels]
     place = np.searchsorted(pixels, touched.pixel[pairs[starts]])
-    full, is_sure = _mixture(touched, colors[0], background, EVERYTHING, margin, pairs, starts)
-    fewer, is_sure_too = _mixture(touched, colors[1], background, pattern, margin, pairs, starts)
+    mixtures = []
+    for of_pattern, samples in zip(colors, (EVERYTHING, pattern), strict=True):
+        where = background, samples, margin, pairs, starts
+        mixtures.append(
+            _mixture(touched, of_pattern, *where)
+            if alpha is None
+            else blended_mixture(touched, of_pattern, alpha, *where)
+        )
+    (full, is_sure), (fewer, is_sure_too) = mixtures
     apart = np.maximum(byte_width(full[0], fewer[1]), byte_width(fewer[0], full[1])).max(axis=1)
     bounds = width.copy()
     bounds[place] = np.where(is_sure & is_sure_too, np.minimum(apart, width[place]), width[place])

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.arrays import Flags, Integers
 from core.geometry.vertex_stage import CornerPositionsOnDemand
 from core.methods import table
-from core.scene import AnyScene, Scene
+from core.scene import AnyScene
 from core.settings import Settings, with_method
 from core.study.planner.closer import doubtful_backs, doubtful_depths
 from core.study.planner.color_ranges import ColorRanges, color_ranges, joined_ranges
@@ -23,6 +23,7 @@ from core.study.planner.records import Tolerance
 from core.study.planner.sample_errors import SampleError, sample_error
 from core.study.planner.surfaces import Surfaces, format_margin, surfaces
 from core.study.planner.touched import Touched, is_cut
+from core.study.planner.translucency import alphas, is_translucent
 
 DEPTHS = ("z-16", "z-24", "z-float32")
 """Formats by the bits that they keep."""
@@ -109,8 +110,8 @@ class SurfaceChooser:
         # Coarser depths and culled backs hide less, so nothing does where even the dearest are too wide.
         found = self._with_one_sample(start) if beyond <= tolerance.pixels else None
         if found is None:
-            found = start if self._blended else self._with_fewer_samples(start)
-            found = self._with_samples_unchanged(found)
+            is_added = everything.blend == "additive"
+            found = self._with_samples_unchanged(start if is_added else self._with_fewer_samples(start))
         found = self._without_depth(found)
         if not self._blended and not self._is_worth(found.settings, "blend", "opaque"):
             found = replace(found, settings=replace(found.settings, blend=everything.blend))
@@ -168,6 +169,9 @@ class SurfaceChooser:
         """Choose how many samples, each of which shows what it would with everything on."""
         best, rejected = start, []
         for name in FEWER:
+            if self._blended and not PATTERNS[name].stays_inside:
+                # How much shines through is not bounded beyond the corners.
+                continue
             settings = replace(start.settings, antialiasing=name)
             colors, error = self._colors, self._sample_error(name, self._colors, start.surfaces)
             if error.beyond <= self._tolerance.pixels and not PATTERNS[name].stays_inside:
@@ -196,6 +200,7 @@ class SurfaceChooser:
             PATTERNS[name],
             format_margin(self._everything.depth),
             (self._tolerance.bytes, self._tolerance.pixels),
+            alphas(self._touched, self._scene) if self._blended else None,
         )
 
     def _error_beyond_corners(self, name: str, start: SurfaceChoice) -> tuple[ColorRanges, SampleError]:
@@ -282,16 +287,3 @@ class SurfaceChooser:
             return np.ones(len(touched.pixel), bool)
         facing = touched.facing.take(touched.primitive)
         return np.asarray(facing >= 0 if settings.cull == "back" else facing <= 0)
-
-
-def is_translucent(touched: Touched, scene: AnyScene) -> bool:
-    """Tell whether any alpha is not 1: of a vertex, or of a texel."""
-    primitives = touched.geometry.primitives
-    textures = [scene.texture] if not isinstance(scene, Scene) else [mesh.texture for mesh in scene.meshes]
-    if any(
-        texture is not None and texture.pixels.shape[2] == 4 and bool((texture.pixels[..., 3] != 1).any())
-        for texture in textures
-    ):
-        return True
-    alpha: Floats = primitives.varyings[..., primitives.layout.get("color", slice(0))][..., 3:4]
-    return bool((np.abs(alpha - 1) > 1e-9).any())
