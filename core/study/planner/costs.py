@@ -6,6 +6,7 @@ both, the pixels what the larger one takes longer, and a picture of any size is 
 of some times is taken, as whatever disturbs a measurement makes it longer.
 """
 
+from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
 from math import inf, sqrt
@@ -52,7 +53,9 @@ class LectureOrder:
 class TriedCosts:
     """Times of small pictures of a scene, each of a scene that nothing is known of."""
 
-    def __init__(self, scene: AnyScene) -> None:
+    def __init__(self, scene: AnyScene, before_each: Callable[[], None] = lambda: None) -> None:
+        self._before_each = before_each
+        """Called before every drawing; whatever it raises ends the trial."""
         width, height = scene.size
         self._pixels = width * height
         self._scenes = [scene]
@@ -87,6 +90,7 @@ class TriedCosts:
         return times[0]
 
     def _time(self, scene: AnyScene, settings: Settings) -> float:
+        self._before_each()
         fresh = copy(scene)
         with collector_off():
             start = perf_counter()

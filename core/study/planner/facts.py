@@ -64,7 +64,10 @@ def _count(flags: np.ndarray) -> str:
 def _depth_range(touched: Touched) -> str:
     depth = touched.geometry.depth
     depth = depth[np.isfinite(depth)]
-    return f"{depth.min():.6g} to {depth.max():.6g}" if depth.size else "nothing is in view"
+    if not depth.size:
+        return "nothing is in view"
+    nearest, farthest = float(depth.min()), float(depth.max())
+    return f"{nearest:.6g} to {farthest:.6g}, {(farthest - nearest) * (2**16 - 1):,.0f} steps of 16 bits"
 
 
 def _those(scene: AnyScene, is_one: Callable[[Floats, Integers], bool]) -> str:

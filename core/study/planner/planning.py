@@ -101,10 +101,12 @@ def plan(
             for name in STAGES
         )
         return Plan(tolerance, everything, everything, kept, findings, advice)
-    costs = TriedCosts(scene) if costs is None else costs
-    watch(1 / 4, "Choosing how what is seen is found")
+    step = (1 / 4, "Choosing how what is seen is found")
+    costs = TriedCosts(scene, lambda: watch(*step)) if costs is None else costs
+    watch(*step)
     surface = SurfaceChooser(touched, colors, scene, everything, tolerance, costs).choose()
-    watch(1 / 2, "Choosing how it is coloured")
+    step = (1 / 2, "Choosing how it is coloured")
+    watch(*step)
     # Beyond the corners of a triangle only what makes no difference at all is sure.
     left = tolerance.bytes - surface.error if surface.pattern.stays_inside else 0.0
     seen, side = surface.surfaces.is_candidate, surface.pattern.side
@@ -117,7 +119,8 @@ def plan(
     )
     decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors, scene)
     error = surface.error + sum(value.error for value in values.values())
-    watch(3 / 4, "Predicting the time")
+    step = (3 / 4, "Predicting the time")
+    watch(*step)
     seconds = costs.seconds(everything), costs.seconds(chosen)
     return Plan(tolerance, everything, chosen, decisions, findings, advice, error, surface.pixels, *seconds)
 
