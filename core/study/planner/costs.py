@@ -6,11 +6,12 @@ both, the pixels what the larger one takes longer, and a picture of any size is 
 of some times is taken, as whatever disturbs a measurement makes it longer.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import replace
 from math import inf, sqrt
-from time import perf_counter
+from sys import platform
+from time import perf_counter, thread_time
 from typing import Protocol
 
 from core.picture import draw_picture
@@ -18,10 +19,12 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.study.speed_accuracy import collector_off
 
-ROUNDS = 4
+ROUNDS = 3
 """Timed drawings of each, in turn, after one that does not count; fewer once it is plain."""
-PIXELS = 48 * 48
+PIXELS = 64 * 64
 """Pixels of the larger of the two pictures."""
+CLOCK = perf_counter if platform == "win32" else thread_time
+"""Seconds of this thread alone, so that other work of the machine does not count; Windows counts them in 1/64 s."""
 BAND = 0.1
 """Part by which times must differ to count as different."""
 
@@ -33,8 +36,8 @@ class Costs(Protocol):
         """Tell whether ``settings`` are known to take longer than ``others``."""
         ...
 
-    def seconds(self, settings: Settings) -> float | None:
-        """Return how long a picture takes, if that is known."""
+    def seconds(self, options: Sequence[Settings]) -> tuple[float, ...] | None:
+        """Return how long pictures with some settings take, if that is known."""
         ...
 
 
@@ -45,7 +48,7 @@ class LectureOrder:
         """Tell that it is not."""
         return False
 
-    def seconds(self, settings: Settings) -> float | None:
+    def seconds(self, options: Sequence[Settings]) -> tuple[float, ...] | None:
         """Tell nothing."""
         return None
 
@@ -74,11 +77,12 @@ class TriedCosts:
                 return False
         return self._predicted(settings) > (1 + BAND) * self._predicted(others)
 
-    def seconds(self, settings: Settings) -> float:
-        """Return the predicted time of a picture."""
+    def seconds(self, options: Sequence[Settings]) -> tuple[float, ...]:
+        """Return the predicted times of pictures, taken in turn: what disturbs one disturbs the others."""
         for _ in range(ROUNDS):
-            self._draw(settings)
-        return self._predicted(settings)
+            for settings in options:
+                self._draw(settings)
+        return tuple(self._predicted(settings) for settings in options)
 
     def _draw(self, settings: Settings) -> float:
         """Draw the small pictures once more, and return the time of the larger in seconds."""
@@ -93,9 +97,9 @@ class TriedCosts:
         self._before_each()
         fresh = copy(scene)
         with collector_off():
-            start = perf_counter()
+            start = CLOCK()
             draw_picture(fresh, settings)
-            return perf_counter() - start
+            return CLOCK() - start
 
     def _predicted(self, settings: Settings) -> float:
         times = self._least[settings]

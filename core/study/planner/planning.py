@@ -121,10 +121,18 @@ def plan(
     error = surface.error + sum(value.error for value in values.values())
     step = (3 / 4, "Predicting the time")
     watch(*step)
-    seconds = costs.seconds(everything), costs.seconds(chosen)
-    return Plan(tolerance, everything, chosen, decisions, findings, advice, error, surface.pixels, *seconds)
+    pixels = surface.pixels
+    if costs.is_slower(chosen, everything):
+        chosen, error, pixels = everything, 0.0, 0
+        decisions = tuple(
+            Decision(each.setting, each.dearest, each.dearest, f"{each.reason} {ALL_SLOWER}", 0.0)
+            for each in decisions
+        )
+    seconds = costs.seconds((everything, chosen)) or (None, None)
+    return Plan(tolerance, everything, chosen, decisions, findings, advice, error, pixels, *seconds)
 
 
+ALL_SLOWER = "All choices together take longer here than everything on, so none is made."
 WIREFRAME = "Outlines have no areas whose colours could be bounded, so nothing is left out."
 
 

@@ -169,7 +169,7 @@ def _light_text(touched: Touched, scene: AnyScene, seen: Flags) -> str:
     if not is_shiny.any():
         return f"{text}, and nothing has highlights"
     half = np.degrees(half_width(float(material.shininess[is_shiny].max())))
-    return f"{text}, and a highlight falls to half within {half:.3g}"
+    return f"{text}, and a highlight falls to half within {half:.3g} degrees"
 
 
 def half_width(shininess: float) -> float:
@@ -178,7 +178,10 @@ def half_width(shininess: float) -> float:
 
 
 def _bounded(start: str, value: ValueChoice) -> str:
-    rejected = [f"{name} {_off(error)}" for name, error in value.rejected]
+    rejected = [f"{name} may be {bound(error)} off" for name, error in value.rejected if error < UNBOUNDED]
+    unknown = [name for name, error in value.rejected if error >= UNBOUNDED]
+    if unknown:
+        rejected.append(f"of {' and '.join(unknown)} no bound is known here")
     rejected += [f"{name} would do, but takes longer here" for name in value.slower]
     text = (
         f"{start}: {value.chosen} is {bound(value.error)} off at most"
@@ -188,11 +191,6 @@ def _bounded(start: str, value: ValueChoice) -> str:
     if not value.error and value.chosen not in ("perspective", "trilinear", "phong"):
         text += " is not off at all"
     return f"{text}{', but ' + '; '.join(rejected) if rejected else ''}."
-
-
-def _off(error: float) -> str:
-    """Return how far off a method may be; a bound of all that a byte can be says nothing."""
-    return f"may be {bound(error)} off" if error < UNBOUNDED else "has no bound here"
 
 
 UNBOUNDED = 254.5

@@ -120,7 +120,8 @@ def interpolation_error(
         ranges = texture_ranges(texture)
         height, width = texture.pixels.shape[:2]
         moved = (part[:, layout["uv"]] * (width, height)).sum(axis=1)[primitive[chosen]]
-        moved += (moved > 0) * (texture_filter == "nearest")
+        # At the border of two texels rounding alone decides which of them is nearest.
+        moved += texture_filter == "nearest"
         step = times(moved[:, None], as_rgb(ranges.neighbours[None]))
         is_minified = (colors.lod[chosen] - np.log2(side) > 0) & (moved > 0)
         step = np.where(is_minified[:, None], np.inf, step)
