@@ -137,8 +137,14 @@ def report_text(report: PlanReport) -> list[str]:
         )
     times = [1000 * float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)]
     lines.append(
-        f"Everything on {times[0]:.3g} ms, chosen {times[1]:.3g} ms, the look {1000 * chosen.findings.seconds:.3g} ms."
+        f"Everything on {times[0]:,.4g} ms, chosen {times[1]:,.4g} ms, "
+        f"the look {1000 * chosen.findings.seconds:,.4g} ms."
     )
+    if chosen.predicted_everything is not None and chosen.predicted_seconds is not None:
+        predicted = [1000 * each for each in (chosen.predicted_everything, chosen.predicted_seconds)]
+        lines.append(
+            f"Predicted from smaller pictures: everything on {predicted[0]:,.4g} ms, chosen {predicted[1]:,.4g} ms."
+        )
     return [*lines, report.text]
 
 

@@ -87,7 +87,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
 def headline(plan: Plan, report: PlanReport | None) -> str:
     """Return in one sentence what the plan comes to."""
     if report is None:
-        return f"Predicted: {bound_text(plan.predicted_error)} off at most. Measuring …"
+        return f"Predicted: {bound_text(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
     everything, chosen = (
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
@@ -97,6 +97,13 @@ def headline(plan: Plan, report: PlanReport | None) -> str:
     return f"{within}, {speed} everything on: {time_text(chosen)} instead of {time_text(everything)}"
 
 
+def predicted_time(plan: Plan, start: str) -> str:
+    """Return after ``start`` what pictures were predicted to take; nothing if nothing was timed."""
+    if plan.predicted_seconds is None or plan.predicted_everything is None:
+        return ""
+    return f"{start}{time_text(plan.predicted_seconds)} instead of {time_text(plan.predicted_everything)}"
+
+
 def details(plan: Plan, report: PlanReport) -> str:
     """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
     parts = [
@@ -104,6 +111,9 @@ def details(plan: Plan, report: PlanReport) -> str:
         f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
         f"{plan.tolerance.pixels:,} allowed."
     ]
+    time = predicted_time(plan, "Predicted from smaller pictures: ")
+    if time:
+        parts.append(f"{time}.")
     wrong = [outcome for outcome in report.outcomes if not outcome.is_right]
     for outcome in wrong:
         parts.append(f"A prediction was wrong: {family_title(outcome.decision.setting)}, {outcome.text}.")

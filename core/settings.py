@@ -1,6 +1,6 @@
 """Settings: one method of the table per family, as files, command line and API spell them."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from core.methods import table
 
@@ -71,3 +71,8 @@ def settings_from_texts(pairs: dict[str, str]) -> Settings:
         except ValueError:
             raise ValueError(f"{name} must be a whole number, got {pairs[name]}") from None
     return Settings(**values)  # type: ignore[arg-type]
+
+
+def with_method(settings: Settings, family: str, name: str) -> Settings:
+    """Return settings that choose the method ``name`` of one family."""
+    return replace(settings, **{family: name})  # type: ignore[arg-type]

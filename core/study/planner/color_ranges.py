@@ -6,8 +6,8 @@ convex one with the same corners; so both hold, and the smaller one is taken. Sn
 its corners by `SNAPPED`: the square is grown by more, and the range of the corners by what the weights can be below 0.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
-from core.study.planner.light_ranges import LightRange, Reflectances, light_range
+from core.study.planner.light_ranges import Cones, LightRange, Reflectances, cones, light_range
 from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
 from core.study.planner.touched import MARGIN, Touched
 from core.surface import viewpoint
@@ -50,31 +50,70 @@ class ColorRanges:
     """(Q, 3) float64, what the colour changes by, at most, for a change of its texel: vertex colour times light."""
     bright: Floats
     """(Q, 3) float64, the largest diffuse light; 1 where nothing is lit."""
+    is_known: Flags
+    """(Q,) bool; the others were not looked at, as they are hidden."""
+
+    def take(self, index: Integers) -> "ColorRanges":
+        """Return the colours of the pairs ``index`` (R,)."""
+        return ColorRanges(*(getattr(self, field.name).take(index, axis=0) for field in fields(self)))
 
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """What is interpolated at H corners around each of Q pairs."""
+    """What is interpolated, bounded by the corners of something around each of Q patches."""
 
-    values: Floats
-    """(H, Q, K) float64."""
+    low: Floats
+    """(Q, K) float64."""
+    high: Floats
+    """(Q, K) float64."""
     is_sound: Flags
-    """(Q,) bool, the values in the square are mixtures of these."""
-    below_zero: Floats
-    """(Q,) float64, how far below 0 their weights can be."""
+    """(Q,) bool: the values are within these."""
+    light: LightRange | None
+    """Of Q patches; ``None``: nothing is lit."""
+
+    def take(self, index: Integers) -> "Hull":
+        """Return the bounds of the patches ``index`` (Q,)."""
+        light = None if self.light is None else self.light.take(index)
+        return Hull(
+            self.low.take(index, axis=0),
+            self.high.take(index, axis=0),
+            self.is_sound.take(index),
+            light,
+        )
 
 
-def color_ranges(touched: Touched, scene: AnyScene, settings: Settings) -> ColorRanges:
-    """Bound the colours of all pairs, a part at a time."""
-    count = len(touched.pixel)
-    rows, lod = np.empty((6, count, 3)), np.empty(count)
-    for part in _parts(count):
-        levels = _levels_of_detail(touched, scene, part)
-        lod[part] = levels[1]
-        for row, values in zip(rows, _ranges(touched, scene, settings, levels, part), strict=True):
-            row[part] = values
-    low, high, albedo, texels, gain, bright = rows
-    return ColorRanges(low, high, lod, albedo, texels, gain, bright)
+def color_ranges(
+    touched: Touched, scene: AnyScene, settings: Settings, chosen: Flags, stays_inside: bool = True
+) -> ColorRanges:
+    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time; of the others nothing is known.
+
+    Where colours are taken at the pixels' centres, they may be those of places beyond the triangle: it does not
+    ``stay inside``, and its corners bound nothing.
+    """
+    index = np.flatnonzero(chosen)
+    seen = touched.take(index)
+    rows, lod = np.empty((6, len(index), 3)), np.empty(len(index))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        corners = _corner_hull(touched, scene)
+        if not stays_inside:
+            corners = replace(corners, is_sound=np.zeros_like(corners.is_sound))
+        for part in _parts(len(index)):
+            levels = _levels_of_detail(seen, scene, part, stays_inside)
+            lod[part] = levels[1]
+            for row, values in zip(rows, _ranges(seen, scene, settings, levels, corners, part), strict=True):
+                row[part] = values
+    every = np.full((6, len(chosen), 3), np.inf)
+    every[0] = 0.0
+    every[:, index] = rows
+    every_lod = np.full(len(chosen), -np.inf)
+    every_lod[index] = lod
+    low, high, albedo, texels, gain, bright = every
+    return ColorRanges(low, high, every_lod, albedo, texels, gain, bright, chosen)
+
+
+def joined_ranges(first: ColorRanges, second: ColorRanges) -> ColorRanges:
+    """Return the first with colours that reach as far as either's."""
+    return replace(first, low=np.minimum(first.low, second.low), high=np.maximum(first.high, second.high))
 
 
 def _parts(count: int) -> Iterator[slice]:
@@ -82,39 +121,51 @@ def _parts(count: int) -> Iterator[slice]:
         yield slice(start, min(start + CHUNK, count))
 
 
-@np.errstate(divide="ignore", invalid="ignore", over="ignore")
 def _ranges(
-    touched: Touched, scene: AnyScene, settings: Settings, levels: Levels, part: slice
+    touched: Touched, scene: AnyScene, settings: Settings, levels: Levels, corners: Hull, part: slice
 ) -> tuple[Floats, ...]:
     """Return the fields low, high, albedo, texels, gain and bright of `ColorRanges` for a part of the pairs."""
-    count = part.stop - part.start
-    low, high = np.full((count, 3), -np.inf), np.full((count, 3), np.inf)
-    albedo, texels, gain, bright = np.full((4, count, 3), np.inf)
-    for hull in (_square_hull(touched, part), _corner_hull(touched, part)):
-        least, most, spread, factor = _albedo(touched, scene, settings, hull, levels, part)
-        light = np.ones((count, 3))
+    hulls = _square_hull(touched, scene, part), corners.take(touched.primitive[part])
+    low, high, spread, factor = _albedo(touched, scene, settings, hulls, levels, part)
+    if corners.light is None:
+        return low, high, high, spread, factor, np.ones_like(high)
+    least_light, most_light, least_shine, most_shine = (
+        np.broadcast_to(start, high.shape) for start in (0.0, np.inf, 0.0, np.inf)
+    )
+    for hull in hulls:
+        assert hull.light is not None
         sound = hull.is_sound[:, None]
-        albedo = np.where(sound, np.fmin(albedo, most), albedo)
-        if "normal" in touched.geometry.primitives.layout:
-            assert isinstance(scene, Scene)
-            lit = _light(touched, scene, hull, part)
-            least = least * lit.diffuse_low + lit.specular_low
-            most = most * lit.diffuse_high + lit.specular_high
-            light = lit.diffuse_high
-        low = np.where(sound, np.fmax(low, least), low)
-        high = np.where(sound, np.fmin(high, most), high)
-        texels = np.where(sound, np.fmin(texels, spread * light), texels)
-        gain = np.where(sound, np.fmin(gain, factor * light), gain)
-        bright = np.where(sound, np.fmin(bright, light), bright)
-    high = np.nan_to_num(np.maximum(high, low), nan=np.inf, posinf=np.inf)
-    return np.maximum(low, 0.0), high, albedo, texels, gain, bright
+        least_light = np.where(sound, np.fmax(least_light, hull.light.diffuse_low), least_light)
+        most_light = np.where(sound, np.fmin(most_light, hull.light.diffuse_high), most_light)
+        least_shine = np.where(sound, np.fmax(least_shine, hull.light.specular_low), least_shine)
+        most_shine = np.where(sound, np.fmin(most_shine, hull.light.specular_high), most_shine)
+    lit_low = low * least_light + least_shine
+    lit_high = np.nan_to_num(high * most_light + most_shine, nan=np.inf, posinf=np.inf)
+    return (
+        lit_low,
+        np.maximum(lit_high, lit_low),
+        high,
+        spread * most_light,
+        factor * most_light,
+        most_light,
+    )
 
 
-def _corner_hull(touched: Touched, part: slice) -> Hull:
-    primitive = touched.primitive[part]
-    values = touched.geometry.primitives.varyings[primitive].swapaxes(0, 1)
-    weight = weights_below_zero(touched).take(primitive)
-    return Hull(values, weight <= MOST_WEIGHT, np.minimum(weight, 1.0))
+def _corner_hull(touched: Touched, scene: AnyScene) -> Hull:
+    """Return the bounds by the corners of all P primitives."""
+    primitives = touched.geometry.primitives
+    values = planar(primitives.varyings.swapaxes(0, 1))
+    weight = weights_below_zero(touched)
+    below_zero = np.minimum(weight, 1.0)
+    low, high = values.min(axis=0), values.max(axis=0)
+    extra = (high - low) * (2 * below_zero)[:, None]
+    light = _light(touched, scene, values, primitives.mesh, below_zero)
+    return Hull(low - extra, high + extra, weight <= MOST_WEIGHT, light)
+
+
+def planar(values: Floats) -> Floats:
+    """Return values (H, Q, K), those of each k side by side in memory: sums over few of them are fast so."""
+    return np.moveaxis(np.ascontiguousarray(np.moveaxis(values, 2, 0)), 0, 2)
 
 
 def weights_below_zero(touched: Touched) -> Floats:
@@ -135,19 +186,25 @@ def w_ratio(touched: Touched) -> Floats:
         return np.where(least > 0, w.max(axis=1) / least, np.inf)
 
 
-def _square_hull(touched: Touched, part: slice) -> Hull:
+def _square_hull(touched: Touched, scene: AnyScene, part: slice) -> Hull:
+    """Return the bounds by the corners of the pixels' grown squares."""
     primitive = touched.primitive[part]
-    reach = 0.5 + MARGIN
-    ways = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)]
-    varyings = touched.geometry.primitives.varyings
-    planes = touched.geometry.planes
-    inverse_w = _at(touched.geometry.inverse_w_plane, primitive, touched, part, ways)
-    values = np.empty((4, len(primitive), varyings.shape[2]))
-    for k in range(varyings.shape[2]):
-        plane = value_plane(planes, varyings[..., k])
-        values[..., k] = _at(plane, primitive, touched, part, ways) / inverse_w
-    is_sound = np.asarray((inverse_w > 0).all(axis=0) & np.isfinite(values).all(axis=(0, 2)))
-    return Hull(np.where(is_sound[:, None], values, 0.0), is_sound, np.zeros(len(primitive)))
+    primitives = touched.geometry.primitives
+    inverse_w = _at(touched.geometry.inverse_w_plane, primitive, touched, part)
+    values = np.empty((primitives.varyings.shape[2], 4, len(primitive)))
+    for k, of_corners in enumerate(np.moveaxis(primitives.varyings, 2, 0)):
+        plane = value_plane(touched.geometry.planes, of_corners)
+        np.divide(_at(plane, primitive, touched, part), inverse_w, out=values[k])
+    low, high = values.min(axis=1), values.max(axis=1)
+    is_sound = np.asarray((inverse_w > 0).all(axis=0) & np.isfinite(low + high).all(axis=0))
+    light = _light(
+        touched,
+        scene,
+        np.moveaxis(np.where(is_sound, values, 0.0), 0, 2),
+        primitives.mesh.take(primitive),
+        0.0,
+    )
+    return Hull(low.T, high.T, is_sound, light)
 
 
 def _at(
@@ -155,30 +212,40 @@ def _at(
     primitive: Integers,
     touched: Touched,
     part: slice,
-    ways: list[tuple[float, float]],
 ) -> Floats:
     """Return planes (P,) at the corners of the squares, (4, Q)."""
     a, b, c = (values.take(primitive) for values in plane)
     middle = a * touched.x[part] + b * touched.y[part] + c
-    return np.stack([middle + (right * a + up * b) for right, up in ways])
+    right, up = a * (0.5 + MARGIN), b * (0.5 + MARGIN)
+    return np.stack(
+        [middle - (right + up), middle + (right - up), middle - (right - up), middle + (right + up)]
+    )
 
 
-def hull_range(hull: Hull, part: slice) -> tuple[Floats, Floats]:
-    """Return the least and the largest of some values (Q, k) over a hull."""
-    values = hull.values[..., part]
-    low, high = values.min(axis=0), values.max(axis=0)
-    extra = (high - low) * (2 * hull.below_zero)[:, None]
-    return low - extra, high + extra
+def joint_range(hulls: Sequence[Hull], columns: slice) -> tuple[Floats, Floats]:
+    """Return the least and the largest of some values (Q, k) that are in all sound hulls; infinite: there is none."""
+    shape = hulls[0].low[:, columns].shape
+    low, high = np.full(shape, -np.inf), np.full(shape, np.inf)
+    for hull in hulls:
+        sound = hull.is_sound[:, None]
+        low = np.where(sound, np.maximum(low, hull.low[:, columns]), low)
+        high = np.where(sound, np.minimum(high, hull.high[:, columns]), high)
+    return low, np.maximum(low, high)
 
 
 def _albedo(
-    touched: Touched, scene: AnyScene, settings: Settings, hull: Hull, levels: Levels, part: slice
+    touched: Touched,
+    scene: AnyScene,
+    settings: Settings,
+    hulls: Sequence[Hull],
+    levels: Levels,
+    part: slice,
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the range (Q, 3) of colours before they are lit, that of texels times vertex colours, and these."""
     layout, count = touched.geometry.primitives.layout, part.stop - part.start
     low, high, spread = np.ones((count, 3)), np.ones((count, 3)), np.zeros((count, 3))
     if "color" in layout:
-        least, most = hull_range(hull, layout["color"])
+        least, most = joint_range(hulls, layout["color"])
         width = min(least.shape[1], 3)
         low, high = np.zeros((count, 3)), np.zeros((count, 3))
         low[:, :width], high[:, :width] = np.maximum(least[:, :width], 0), np.maximum(most[:, :width], 0)
@@ -186,7 +253,7 @@ def _albedo(
     least_lod, lod = levels
     reach = 1.5 * np.exp2(np.ceil(np.maximum(lod, 0.0))) + 1
     for chosen, texture in textures_of(touched, scene, part):
-        uv_low, uv_high = (values[chosen] for values in hull_range(hull, layout["uv"]))
+        uv_low, uv_high = (values[chosen] for values in joint_range(hulls, layout["uv"]))
         least, most = range_around(texture, uv_low, uv_high, reach[chosen], settings.wrap)
         least, most = as_rgb(np.maximum(least, 0)), as_rgb(np.maximum(most, 0))
         spread[chosen] = (most - least) * high[chosen]
@@ -219,7 +286,7 @@ def textures_of(touched: Touched, scene: AnyScene, part: slice) -> Iterator[tupl
             yield chosen, of_scene.texture
 
 
-def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Levels:
+def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice, stays_inside: bool) -> Levels:
     """Return the least and the largest lambda (Q,) in the squares, one sample a pixel.
 
     Notes
@@ -232,16 +299,16 @@ def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice) -> Levels:
     if "uv" not in layout:
         return lowest, lod
     primitive, varyings = touched.primitive[part], touched.geometry.primitives.varyings
-    reach = 0.5 + MARGIN
-    ways = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)]
     inverse_w = touched.geometry.inverse_w_plane
-    at_corner = _at(inverse_w, primitive, touched, part, ways)
-    least = np.maximum(at_corner.min(axis=0), inverse_w_floor(touched).take(primitive))
+    at_corner = _at(inverse_w, primitive, touched, part)
+    least = np.maximum(at_corner.min(axis=0), 0.0)
+    if stays_inside:
+        least = np.maximum(least, inverse_w_floor(touched).take(primitive))
     most = at_corner.max(axis=0)
     slopes = np.empty((2, 2, 2, len(primitive)))
     for number, k in enumerate(range(layout["uv"].start, layout["uv"].stop)):
         plane = value_plane(touched.geometry.planes, varyings[..., k])
-        value = _at(plane, primitive, touched, part, ways)
+        value = _at(plane, primitive, touched, part)
         for way in (0, 1):
             change = plane[way].take(primitive) * at_corner - value * inverse_w[way].take(primitive)
             is_one_sign = (change > 0).all(axis=0) | (change < 0).all(axis=0)
@@ -263,19 +330,23 @@ def inverse_w_floor(touched: Touched) -> Floats:
     return np.asarray(np.maximum(1 - 2 * weight, 1e-3) / w)
 
 
-def _light(touched: Touched, scene: Scene, hull: Hull, part: slice) -> LightRange:
+def _light(
+    touched: Touched, scene: AnyScene, values: Floats, mesh: Integers, below_zero: Floats | float
+) -> LightRange | None:
+    """Return the light on Q patches with values (H, Q, K) at their corners; ``None``: nothing is lit."""
     layout = touched.geometry.primitives.layout
-    positions, normals = hull.values[..., layout["position"]], hull.values[..., layout["normal"]]
-    to_eye = viewpoint(scene.camera, positions.reshape(-1, 3)) - positions.reshape(-1, 3)
-    mesh = touched.geometry.primitives.mesh.take(touched.primitive[part])
-    return light_range(
-        normals,
-        positions,
-        to_eye.reshape(positions.shape),
-        scene.lights,
-        materials(scene, mesh),
-        hull.below_zero,
-    )
+    if "normal" not in layout:
+        return None
+    assert isinstance(scene, Scene)
+    positions, normals = values[..., layout["position"]], values[..., layout["normal"]]
+    to_eye = viewpoint(scene.camera, positions) - positions
+    return light_range(normals, positions, to_eye, scene.lights, materials(scene, mesh), below_zero)
+
+
+def normal_cones(touched: Touched) -> Cones:
+    """Return the cones of the normals of P primitives that are lit."""
+    primitives = touched.geometry.primitives
+    return cones(primitives.varyings[..., primitives.layout["normal"]].swapaxes(0, 1))
 
 
 def materials(scene: Scene, mesh: Integers) -> Reflectances:

@@ -1,11 +1,14 @@
 """What a look shows of a scene, to be read: signs of w, closedness, layers, texels, colours, light."""
 
+from collections.abc import Callable
+
 import numpy as np
 
+from core.arrays import Floats, Integers
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.scene import AnyScene, Scene
-from core.study.planner.color_ranges import ColorRanges, w_ratio
-from core.study.planner.light_ranges import cones
+from core.study.planner.color_ranges import ColorRanges, normal_cones, w_ratio
+from core.study.planner.convexity import is_closed, is_convex
 from core.study.planner.records import Fact
 from core.study.planner.surfaces import format_margin, surfaces
 from core.study.planner.texture_ranges import step_text
@@ -34,7 +37,8 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
             "Largest ratio of w in a triangle",
             f"{w_ratio(touched)[primitive].max(initial=1.0):.4g}",
         ),
-        Fact("closed", "Closed meshes", _closed(scene)),
+        Fact("closed", "Closed meshes", _those(scene, is_closed)),
+        Fact("convex", "Closed and convex meshes", _those(scene, is_convex)),
         Fact("layers", "Triangles that may be seen in a pixel, at most", f"{int(layers.max(initial=0)):,}"),
         Fact("depth-range", "Window depth", _depth_range(touched)),
         Fact("contrast", "Pixels whose candidates differ by more than 2/255", _count(seen.width > 2)),
@@ -47,8 +51,7 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
         longest = float(lod[np.isfinite(lod)].max())
         facts.append(Fact("texels", "Longest step of a pixel in a texture", step_text(longest)))
     if "normal" in geometry.primitives.layout:
-        normal = geometry.primitives.varyings[..., geometry.primitives.layout["normal"]]
-        radius = cones(normal.swapaxes(0, 1)).radius[primitive]
+        radius = normal_cones(touched).radius[primitive]
         angle = f"{np.degrees(radius.max(initial=0.0)):.3g} degrees"
         facts.append(Fact("normals", "Largest angle of a normal from the middle of its triangle", angle))
     return tuple(facts)
@@ -61,30 +64,15 @@ def _count(flags: np.ndarray) -> str:
 def _depth_range(touched: Touched) -> str:
     depth = touched.geometry.depth
     depth = depth[np.isfinite(depth)]
-    return f"{depth.min():.6g} to {depth.max():.6g}" if depth.size else "nothing is in view"
+    if not depth.size:
+        return "nothing is in view"
+    nearest, farthest = float(depth.min()), float(depth.max())
+    return f"{nearest:.6g} to {farthest:.6g}, {(farthest - nearest) * (2**16 - 1):,.0f} steps of 16 bits"
 
 
-def _closed(scene: AnyScene) -> str:
+def _those(scene: AnyScene, is_one: Callable[[Floats, Integers], bool]) -> str:
+    """Return how many meshes are such."""
     if not isinstance(scene, Scene):
         return "not known: triangles given one by one"
-    closed = sum(is_closed(mesh.positions, mesh.triangles) for mesh in scene.meshes)
-    return f"{closed:,} of {len(scene.meshes):,}"
-
-
-def is_closed(positions: np.ndarray, triangles: np.ndarray) -> bool:
-    """Tell whether every edge of a mesh is gone along as often one way as the other.
-
-    Parameters
-    ----------
-    positions : (N, 3) float64
-    triangles : (T, 3) int64
-
-    Notes
-    -----
-    Vertices at one place are the same, as meshes double them along seams of texture coordinates.
-    """
-    vertex = np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[triangles]
-    start, end = vertex, np.roll(vertex, -1, axis=1)
-    keys = np.stack([np.minimum(start, end), np.maximum(start, end)], axis=-1).reshape(-1, 2)
-    edge = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
-    return not bool(np.bincount(edge, np.sign(end - start).reshape(-1)).any())
+    found = sum(is_one(mesh.positions, mesh.triangles) for mesh in scene.meshes)
+    return f"{found:,} of {len(scene.meshes):,}"

@@ -7,13 +7,16 @@ powers fall as the angle grows. The halfway vector L + V moves by no more than L
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, Integers
 from core.geometry.vertex_stage import unit
 from core.scene import DirectionalLight, Light
+
+HAIR = 1e-12
+"""Radians that rounding may move an angle by."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +37,10 @@ class LightRange:
     diffuse_high: Floats
     specular_low: Floats
     specular_high: Floats
+
+    def take(self, index: Integers) -> "LightRange":
+        """Return the light of the patches ``index`` (R,)."""
+        return LightRange(*(getattr(self, field.name).take(index, axis=0) for field in fields(self)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +71,7 @@ def cones(directions: Floats, below_zero: Floats | float = 0.0) -> Cones:
     lengths = np.linalg.norm(directions, axis=2)
     units = unit(directions)
     axis = unit(units.mean(axis=0))
-    radius = np.max([angle(axis, each) for each in units], axis=0)
+    radius = 2 * np.arcsin(np.minimum(np.linalg.norm(units - axis, axis=2).max(axis=0) / 2, 1.0))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         least, most = lengths.min(axis=0), lengths.max(axis=0)
         along = least - 2 * below_zero * (most - least)
@@ -143,7 +150,7 @@ def halfway(towards: Cones, eye: Cones) -> Cones:
 
 def _angles(first: Cones, second: Cones) -> tuple[Floats, Floats]:
     """Return the least and the largest angle (Q,) between directions of two cones; a hair is for rounding."""
-    middle, reach = angle(first.axis, second.axis), first.radius + second.radius + 1e-12
+    middle, reach = angle(first.axis, second.axis), first.radius + second.radius + HAIR
     return np.maximum(middle - reach, 0.0), np.minimum(middle + reach, np.pi)
 
 

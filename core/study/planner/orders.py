@@ -83,10 +83,11 @@ def overlap(touched: Touched, one: Integers, other: Integers, side: int) -> Flag
     """Return (D,) bool: the insides of two primitives (D,) each may have a sample in common."""
     if not len(one):
         return np.empty(0, bool)
-    pairs, place = np.unique(np.stack([one, other]), axis=1, return_inverse=True)
+    count = np.int64(len(touched.geometry.primitives))
+    pairs, place = np.unique(one * count + other, return_inverse=True)
     window = snap(touched.geometry.corners.window * side)[0]
-    first, second = window[pairs[0]], window[pairs[1]]
-    apart = np.zeros(pairs.shape[1], bool)
+    first, second = window[pairs // count], window[pairs % count]
+    apart = np.zeros(len(pairs), bool)
     for edges, others in ((first, second), (second, first)):
         for corner in range(3):
             apart |= _is_beyond(edges, others, corner)

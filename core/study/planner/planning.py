@@ -8,13 +8,16 @@ from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.planner.color_ranges import ColorRanges, color_ranges
+from core.study.planner.costs import Costs, TriedCosts
 from core.study.planner.everything import everything_on
 from core.study.planner.facts import facts_of
 from core.study.planner.reasons import surface_reasons, value_reasons
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
-from core.study.planner.surface_choice import SurfaceChoice, choose_surfaces
+from core.study.planner.surface_choice import SurfaceChoice, SurfaceChooser
+from core.study.planner.surfaces import may_be_seen
 from core.study.planner.tessellation import tessellations
 from core.study.planner.touched import Touched, touch
+from core.study.planner.translucency import is_translucent
 from core.study.planner.value_choice import ValueChoice, choose_values
 
 STAGES = (
@@ -56,6 +59,7 @@ def plan(
     tolerance: Tolerance | None = None,
     base: Settings | None = None,
     watch: Watch = unwatched,
+    costs: Costs | None = None,
 ) -> Plan:
     """Choose the cheapest methods whose bounded errors stay within a tolerance.
 
@@ -67,6 +71,8 @@ def plan(
         What to draw, not how well, see `everything_on`.
     watch : callable, optional
         Told what is done, see `Watch`.
+    costs : Costs, optional
+        What is known of how long settings take; small pictures of the scene are drawn and timed by default.
 
     Returns
     -------
@@ -95,30 +101,45 @@ def plan(
             for name in STAGES
         )
         return Plan(tolerance, everything, everything, kept, findings, advice)
-    watch(1 / 3, "Choosing how what is seen is found")
-    surface = choose_surfaces(touched, colors, scene, everything, tolerance)
-    watch(2 / 3, "Choosing how it is coloured")
-    left = tolerance.bytes - surface.error
-    values = choose_values(
-        touched, colors, scene, surface.settings, surface.surfaces.is_candidate, left, surface.side
-    )
+    step = (1 / 4, "Choosing how what is seen is found")
+    costs = TriedCosts(scene, lambda: watch(*step)) if costs is None else costs
+    watch(*step)
+    surface = SurfaceChooser(touched, colors, scene, everything, tolerance, costs).choose()
+    step = (1 / 2, "Choosing how it is coloured")
+    watch(*step)
+    # Beyond the corners of a triangle only what makes no difference at all is sure.
+    left = tolerance.bytes - surface.error if surface.pattern.stays_inside else 0.0
+    seen, side = surface.surfaces.is_candidate, surface.pattern.side
+    values = choose_values(touched, surface.colors, scene, surface.settings, seen, left, side, costs)
     chosen = replace(
         surface.settings,
         interpolation=values["interpolation"].chosen,
         texture_filter=values["texture_filter"].chosen,
         shading=values["shading"].chosen,
     )
-    decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors)
+    decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors, scene)
     error = surface.error + sum(value.error for value in values.values())
-    return Plan(tolerance, everything, chosen, decisions, findings, advice, error, surface.pixels)
+    step = (3 / 4, "Predicting the time")
+    watch(*step)
+    pixels = surface.pixels
+    if costs.is_slower(chosen, everything):
+        chosen, error, pixels = everything, 0.0, 0
+        decisions = tuple(
+            Decision(each.setting, each.dearest, each.dearest, f"{each.reason} {ALL_SLOWER}", 0.0)
+            for each in decisions
+        )
+    seconds = costs.seconds((everything, chosen)) or (None, None)
+    return Plan(tolerance, everything, chosen, decisions, findings, advice, error, pixels, *seconds)
 
 
+ALL_SLOWER = "All choices together take longer here than everything on, so none is made."
 WIREFRAME = "Outlines have no areas whose colours could be bounded, so nothing is left out."
 
 
 def _look(scene: AnyScene, everything: Settings) -> tuple[Touched, ColorRanges]:
     touched = touch(scene, replace(everything, polygon_mode="fill"))
-    return touched, color_ranges(touched, scene, everything)
+    is_blended = is_translucent(touched, scene) or everything.blend == "additive"
+    return touched, color_ranges(touched, scene, everything, may_be_seen(touched, is_blended))
 
 
 def _decisions(
@@ -129,9 +150,10 @@ def _decisions(
     tolerance: Tolerance,
     touched: Touched,
     colors: ColorRanges,
+    scene: AnyScene,
 ) -> tuple[Decision, ...]:
     reasons = surface_reasons(surface, everything, chosen, tolerance)
-    reasons |= value_reasons(values, surface, touched, colors)
+    reasons |= value_reasons(values, surface, touched, colors, scene)
     decisions = []
     for name in STAGES:
         dearest, found = getattr(everything, name), getattr(chosen, name)
@@ -139,9 +161,12 @@ def _decisions(
         if name in values:
             error = values[name].error
         elif name in SHARED and found != dearest:
-            error = surface.error
-            pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(name, surface.pixels)
-        is_needed = found == dearest and dearest != CHEAPEST[name]
+            error = surface.error if surface.by_widths or name == "antialiasing" else 0.0
+            pixels = {"cull": surface.cull_pixels, "depth": surface.depth_pixels}.get(
+                name, surface.sample_pixels
+            )
+        is_slower = name in dict(surface.slower) or (name in values and values[name].slower)
+        is_needed = found == dearest and dearest != CHEAPEST[name] and not is_slower
         rests_on = tuple(
             other for other in RESTS_ON.get(name, ()) if getattr(chosen, other) != getattr(everything, other)
         )
@@ -154,10 +179,13 @@ def _decisions(
 SHARED = ("cull", "clipping", "depth", "antialiasing")
 """Families that share one bound where there is one sample a pixel."""
 RESTS_ON = {
+    "cull": ("antialiasing",),
+    "clipping": ("antialiasing",),
+    "shading": ("antialiasing",),
     "interpolation": ("shading", "texture_filter", "antialiasing"),
     "texture_filter": ("antialiasing",),
     "visibility": ("cull", "clipping", "depth", "antialiasing"),
-    "depth": ("cull",),
+    "depth": ("cull", "antialiasing"),
 }
 """Whose choices each family's bound takes for granted."""
 CHEAPEST = {

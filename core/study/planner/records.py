@@ -118,6 +118,10 @@ class Plan:
     """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, one that stages share counted once."""
     predicted_pixels: int = 0
     """Pixels that may differ by more."""
+    predicted_everything: float | None = None
+    """Seconds of a picture with everything on, from smaller ones; ``None``: nothing was timed."""
+    predicted_seconds: float | None = None
+    """Seconds of a picture with the chosen settings."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from core.arrays import Flags, Floats, Integers
 from core.study.planner.bytes import byte_width
 from core.study.planner.color_ranges import ColorRanges
 from core.study.planner.orders import depth_between
+from core.study.planner.pieces import Pieces
 from core.study.planner.touched import Touched
 
 ROUNDING = 1e-9
@@ -60,76 +61,76 @@ def surfaces(
         Whether surfaces let others shine through: then all are candidates, and the background too.
     """
     count = touched.pixel_count
-    hidden_behind = np.full(count, np.inf)
-    is_candidate = touched.is_drawn.copy()
-    if not is_blended:
-        hiders = _covering_groups(touched, culls_backs)
-        np.minimum.at(hidden_behind, hiders.pixel, hiders.far)
-        is_candidate &= ~(touched.near > hidden_behind[touched.pixel] + margin)
-        is_candidate &= ~_is_behind(touched, hiders, hidden_behind, is_candidate, margin)
-    sees_background = ~(hidden_behind < np.inf)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    low[sees_background] = high[sees_background] = background[:3]
-    pixel = touched.pixel[is_candidate]
-    np.minimum.at(low, pixel, colors.low[is_candidate])
-    np.maximum.at(high, pixel, colors.high[is_candidate])
-    width = byte_width(np.minimum(low, high), high).max(axis=1)
+    is_candidate, sees_background = candidates(touched, margin, culls_backs, is_blended, colors.is_known)
+    low, high = np.full((3, count), np.inf), np.full((3, count), -np.inf)
+    low[:, sees_background] = high[:, sees_background] = background[:3, None]
+    # Pairs stand pixel by pixel.
+    index = np.flatnonzero(is_candidate)
+    pixel = touched.pixel[index]
+    starts = np.flatnonzero(np.diff(pixel, prepend=-1))
+    there = pixel[starts]
+    if len(index):
+        for channel in range(3):
+            least = np.minimum.reduceat(colors.low[index, channel], starts)
+            most = np.maximum.reduceat(colors.high[index, channel], starts)
+            low[channel, there] = np.minimum(low[channel, there], least)
+            high[channel, there] = np.maximum(high[channel, there], most)
+    width = np.zeros(count)
+    width[there] = byte_width(np.minimum(low, high)[:, there], high[:, there]).max(axis=0)
     return Surfaces(is_candidate, sees_background, np.where(width < ROUNDING, 0.0, width))
 
 
-@dataclass(frozen=True, eq=False)
-class _Hiders:
-    """G pieces of surface that cover all of a pixel's square."""
+def candidates(
+    touched: Touched,
+    margin: float,
+    culls_backs: bool,
+    is_blended: bool,
+    is_known: Flags | None = None,
+) -> tuple[Flags, Flags]:
+    """Return which pairs (Q,) may be seen, and of which pixels (H*W,) the background; arguments as of `surfaces`.
 
-    pixel: Integers
-    """(G,) int64."""
-    far: Floats
-    """(G,) float64, their farthest depth there."""
-    start: Integers
-    """(G,) int64, where its pairs begin in ``order``."""
-    count: Integers
-    """(G,) int64."""
-    order: Integers
-    """Numbers of pairs."""
+    Parameters
+    ----------
+    is_known : (Q,) bool, optional
+        Pairs that are not are known to be hidden already.
+    """
+    hidden_behind = np.full(touched.pixel_count, np.inf)
+    is_candidate = touched.is_drawn.copy() if is_known is None else touched.is_drawn & is_known
+    if not is_blended:
+        hiders = touched.pieces.covering(culls_backs)
+        # The nearest of a pixel is written last.
+        hiders = hiders.take(np.argsort(-hiders.far, kind="stable"))
+        hidden_behind[hiders.pixel] = hiders.far
+        nearest = np.full(touched.pixel_count, -1)
+        nearest[hiders.pixel] = np.arange(len(hiders.pixel))
+        is_candidate &= ~(touched.near > hidden_behind[touched.pixel] + margin)
+        is_candidate &= ~_is_behind(touched, hiders, nearest, is_candidate, margin)
+    return is_candidate, ~(hidden_behind < np.inf)
 
 
-def _covering_groups(touched: Touched, culls_backs: bool) -> _Hiders:
-    """Return the components of one facing that cover all of a pixel's square."""
-    primitive = touched.primitive
-    facing = touched.facing.take(primitive)
-    chosen = facing > 0 if culls_backs else facing != 0
-    component = touched.component.take(primitive)
-    group = (touched.pixel * (int(component.max(initial=0)) + 1) + component) * 2 + (facing < 0)
-    index = np.flatnonzero(chosen)
-    order = index[np.argsort(group[index], kind="stable")]
-    starts = np.flatnonzero(np.diff(group[order], prepend=-1))
-    if not len(starts):
-        none = np.empty(0, np.int64)
-        return _Hiders(none, np.empty(0), none, none, none)
-    far = np.maximum.reduceat(touched.far[order], starts)
-    covers = ~np.logical_or.reduceat(touched.is_outlined[order], starts)
-    counts = np.diff(np.append(starts, len(order)))
-    return _Hiders(touched.pixel[order[starts]][covers], far[covers], starts[covers], counts[covers], order)
+def may_be_seen(touched: Touched, is_blended: bool) -> Flags:
+    """Return (Q,) bool: False where a pair is hidden whatever is chosen, by fronts and in the coarsest format too."""
+    return candidates(touched, format_margin("z-16"), True, is_blended)[0]
 
 
 def _is_behind(
-    touched: Touched, hiders: _Hiders, hidden_behind: Floats, is_candidate: Flags, margin: float
+    touched: Touched, hiders: Pieces, nearest: Integers, is_candidate: Flags, margin: float
 ) -> Flags:
     """Return (Q,) bool: the candidate is behind every triangle of the nearest piece that covers its pixel."""
-    nearest = np.full(touched.pixel_count, -1)
-    is_nearest = hiders.far == hidden_behind[hiders.pixel]
-    nearest[hiders.pixel[is_nearest]] = np.flatnonzero(is_nearest)
     behind = np.zeros(len(touched.pixel), bool)
     index = np.flatnonzero(is_candidate & (nearest[touched.pixel] >= 0))
     piece = nearest[touched.pixel[index]]
     few = hiders.count[piece] <= MOST_TRIANGLES
     index, piece = index[few], piece[few]
-    still = np.ones(len(index), bool)
     for step in range(int(hiders.count[piece].max(initial=0))):
-        there = np.flatnonzero(still & (hiders.count[piece] > step))
-        front = hiders.order[hiders.start[piece[there]] + step]
-        still[there] = depth_between(touched, front, index[there])[0] > margin
-    behind[index[still]] = True
+        # Those that are behind so far, and have not been compared with all.
+        is_done = hiders.count[piece] <= step
+        behind[index[is_done]] = True
+        index, piece = index[~is_done], piece[~is_done]
+        front = hiders.order[hiders.start[piece] + step]
+        is_farther = depth_between(touched, front, index)[0] > margin
+        index, piece = index[is_farther], piece[is_farther]
+    behind[index] = True
     return behind
 
 

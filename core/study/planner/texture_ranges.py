@@ -4,12 +4,13 @@ Every filter mixes texels with weights that sum to 1, so a colour lies between t
 filter reaches. Blocks of 2^k texels are kept for every k; nine of them around a place hold all within 2^k texels.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Floats, Integers, Singles
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
 from core.scene import Texture
@@ -30,9 +31,9 @@ def step_text(level: float) -> str:
 class TextureRanges:
     """Blocks of a texture of h x w texels, level k of blocks of 2^k texels each way."""
 
-    low: tuple[Floats, ...]
-    """(h_k, w_k, C) float64 each."""
-    high: tuple[Floats, ...]
+    low: tuple[Singles, ...]
+    """(h_k, w_k, C) float32 each."""
+    high: tuple[Singles, ...]
     neighbours: Floats
     """(C,) float64, largest difference within four texels around any place."""
     contrast: Floats
@@ -51,33 +52,45 @@ def texture_ranges(texture: Texture) -> TextureRanges:
 
 
 def _make(texture: Texture) -> TextureRanges:
-    texels = texture.pixels.astype(np.float64)
+    texels = texture.pixels
     low, high = [texels], [texels]
     while max(low[-1].shape[:2]) > 1:
         low.append(_pool(low[-1], np.minimum))
         high.append(_pool(high[-1], np.maximum))
-    around = [np.roll(texels, shift, (0, 1)) for shift in ((0, 0), (1, 0), (0, 1), (1, 1))]
-    spread = np.max(around, axis=0) - np.min(around, axis=0)
-    levels = [level.pixels.astype(np.float64) for level in mipmap_levels(texture)]
-    least, most = (np.stack([choose(level, axis=(0, 1)) for level in levels]) for choose in (np.min, np.max))
+    spread = _spread_of_four(texels)
+    levels = [level.pixels for level in mipmap_levels(texture)]
+    least, most = (np.stack([_each(level, choose) for level in levels]) for choose in (np.min, np.max))
     return TextureRanges(
         tuple(low),
         tuple(high),
-        spread.max(axis=(0, 1)),
-        np.ptp(texels, axis=(0, 1)),
+        _each(spread, np.max),
+        (high[-1] - low[-1].astype(np.float64))[0, 0],
         np.minimum.accumulate(least[::-1])[::-1],
         np.maximum.accumulate(most[::-1])[::-1],
     )
 
 
-def _pool(texels: Floats, choose: np.ufunc) -> Floats:
+def _each(texels: Singles | Floats, choose: Callable[..., np.floating]) -> Floats:
+    """Return the least or the largest (C,) float64 of texels (h, w, C), a channel at a time."""
+    return np.array([choose(texels[..., channel]) for channel in range(texels.shape[2])], np.float64)
+
+
+def _spread_of_four(texels: Singles) -> Floats:
+    """Return (h, w, C) float64: how far apart each texel and those left of it and below it are."""
+    low, high = texels, texels
     for axis in (0, 1):
-        if texels.shape[axis] % 2:
-            last = texels.take([-1], axis=axis)
-            texels = np.concatenate([texels, last], axis=axis)
-        even, odd = (texels.take(range(start, texels.shape[axis], 2), axis=axis) for start in (0, 1))
-        texels = choose(even, odd)
-    return texels
+        low = np.minimum(low, np.roll(low, 1, axis))
+        high = np.maximum(high, np.roll(high, 1, axis))
+    return np.subtract(high, low, dtype=np.float64)
+
+
+def _pool(texels: Singles, choose: np.ufunc) -> Singles:
+    if texels.shape[0] % 2:
+        texels = np.concatenate([texels, texels[-1:]], axis=0)
+    texels = choose(texels[::2], texels[1::2])
+    if texels.shape[1] % 2:
+        texels = np.concatenate([texels, texels[:, -1:]], axis=1)
+    return np.asarray(choose(texels[:, ::2], texels[:, 1::2]))
 
 
 def magnified_range(texture: Texture, low: Floats, high: Floats, wrap: str) -> tuple[Floats, Floats]:
@@ -128,8 +141,8 @@ def range_around(
     is_whole = ~(level < top - 1) | ~np.isfinite(middle).all(axis=1) | (wrap != "repeat")
     # Sides that are no power of two leave a smaller last block, and beyond it texels go on at the start.
     is_whole |= (height & (height - 1) != 0) or (width & (width - 1) != 0)
-    least = np.broadcast_to(ranges.low[0].min(axis=(0, 1)), (len(low), texture.pixels.shape[2])).copy()
-    most = np.broadcast_to(ranges.high[0].max(axis=(0, 1)), least.shape).copy()
+    least = np.broadcast_to(ranges.low[-1][0, 0], (len(low), texture.pixels.shape[2])).astype(np.float64)
+    most = np.broadcast_to(ranges.high[-1][0, 0], least.shape).astype(np.float64)
     number = np.where(is_whole, -1, np.maximum(level, 0)).astype(np.int64)
     for k in np.unique(number[number >= 0]).tolist():
         chosen = np.flatnonzero(number == k)
@@ -139,7 +152,7 @@ def range_around(
     return least, most
 
 
-def _nine(blocks: Floats, place: Integers) -> Floats:
+def _nine(blocks: Singles, place: Integers) -> Singles:
     """Return (9, Q, C): the blocks around places (Q, 2) of column and row; they repeat."""
     rows, columns = blocks.shape[:2]
     return np.stack(

@@ -25,6 +25,7 @@ from core.methods import table
 from core.raster.snapping import snap
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.planner.pieces import Pieces, pieces_of
 
 MARGIN = 1 / 64
 """Pixels by which squares are grown: more than twice snapping to 1/256 pixel moves anything."""
@@ -65,11 +66,20 @@ class Touched:
     facing: Floats
     """(P,) float64, twice the signed area in the window; positive: a front."""
     size: tuple[int, int]
+    pieces: Pieces
+    """Of the pairs."""
+    vertex: Integers
+    """(P, 3) int64, numbers of the corners: the same where their clip positions are, bit for bit."""
 
     @property
     def pixel_count(self) -> int:
         """Pixels of the picture."""
         return self.size[0] * self.size[1]
+
+    def take(self, index: Integers) -> "Touched":
+        """Return the look at the pairs ``index`` (R,) only; pieces stay those of all."""
+        of_pairs = ("pixel", "primitive", "x", "y", "near", "far", "is_outlined", "is_drawn")
+        return replace(self, **{name: getattr(self, name).take(index) for name in of_pairs})
 
 
 def touch(scene: AnyScene, settings: Settings) -> Touched:
@@ -110,7 +120,7 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     empty = np.empty(0, np.int64)
     primitive = np.concatenate([empty, *(part[0] for part in found)])
     pixel = np.concatenate([empty, *(part[1] for part in found)])
-    order = np.lexsort((primitive, pixel))
+    order = np.argsort(pixel * np.int64(len(geometry.primitives)) + primitive, kind="stable")
     primitive, pixel = primitive[order], pixel[order]
     x_of_pixel = np.concatenate([np.empty(0), *(part[2] for part in found)])[order]
     y_of_pixel = np.concatenate([np.empty(0), *(part[3] for part in found)])[order]
@@ -132,7 +142,19 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
         component,
         facing,
         scene.size,
+        pieces_of(pixel, component.take(primitive), facing.take(primitive), far, is_outlined),
+        vertex,
     )
+
+
+def is_cut(touched: Touched) -> Flags:
+    """Return (P,) bool: the primitive is of a triangle that crosses a plane of the view volume."""
+    return _is_cut(touched.geometry)
+
+
+def _is_cut(geometry: Geometry) -> Flags:
+    cut = has_bits(joined_bits(outcodes(geometry.kept.vertex_clip.T), geometry.kept.corner), PLANE_BITS)
+    return np.asarray(np.isin(geometry.primitives.triangle, geometry.kept.triangle[cut]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,9 +192,7 @@ def _is_drawn(geometry: Geometry, facing: Floats, primitive: Integers, x: Floats
     """Return (Q,) bool, False where a thin triangle that is not cut covers no sample, decided as coverage does."""
     window = geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
-    cut = joined_bits(outcodes(geometry.kept.vertex_clip.T), geometry.kept.corner)
-    is_whole = ~np.isin(geometry.primitives.triangle, geometry.kept.triangle[has_bits(cut, PLANE_BITS)])
-    is_thin = is_whole & ~(np.abs(facing) > THIN * edge)
+    is_thin = ~_is_cut(geometry) & ~(np.abs(facing) > THIN * edge)
     index = np.flatnonzero(is_thin.take(primitive))
     found = np.ones(len(primitive), bool)
     found[index] = False

@@ -29,9 +29,8 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.fragments.lighting import planes
 from core.fragments.shading import face_normals
-from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry.vertex_stage import unit
-from core.scene import AnyScene, DirectionalLight, Scene
+from core.scene import AnyScene, DirectionalLight, Scene, Texture
 from core.study.planner.color_ranges import (
     MOST_WEIGHT,
     ColorRanges,
@@ -43,7 +42,8 @@ from core.study.planner.color_ranges import (
 )
 from core.study.planner.light_ranges import LightRange, cones, light_range
 from core.study.planner.texture_ranges import texture_ranges
-from core.study.planner.touched import Touched
+from core.study.planner.touched import Touched, is_cut
+from core.study.planner.translucency import ROUNDING
 from core.surface import viewpoint
 
 
@@ -53,14 +53,6 @@ class LightError:
 
     diffuse: Floats
     specular: Floats
-
-
-def is_cut(touched: Touched) -> Flags:
-    """Return (P,) bool: the primitive is of a triangle that crosses a plane of the view volume."""
-    geometry = touched.geometry
-    kept = geometry.kept
-    cut = has_bits(joined_bits(outcodes(kept.vertex_clip.T), kept.corner), PLANE_BITS)
-    return np.asarray(np.isin(geometry.primitives.triangle, kept.triangle[cut]))
 
 
 def filter_error(touched: Touched, colors: ColorRanges, scene: AnyScene, name: str, side: int) -> Floats:
@@ -73,7 +65,15 @@ def filter_error(touched: Touched, colors: ColorRanges, scene: AnyScene, name: s
             magnified = chosen[~is_minified[chosen]]
             step = as_rgb(texture_ranges(texture).neighbours[None]) * colors.gain[magnified]
             error[magnified] = np.fmin(colors.texels[magnified], step)
+    for chosen, texture in textures_of(touched, scene, slice(0, len(touched.pixel))):
+        if _has_several_alphas(texture) and (name == "nearest" or is_minified[chosen].any()):
+            error[chosen] = np.inf
     return error
+
+
+def _has_several_alphas(texture: Texture) -> bool:
+    """Tell whether how much shines through depends on the texel: what is behind is not bounded here."""
+    return texture.pixels.shape[2] == 4 and bool(np.ptp(texture.pixels[..., 3]) > 0)
 
 
 def share_of_range(touched: Touched, columns: int | None = None) -> Floats:
@@ -114,14 +114,19 @@ def interpolation_error(
     if "color" in layout:
         change = part[:, layout["color"]][:, :3]
         error[:, : change.shape[1]] += times(change[primitive], colors.bright[:, : change.shape[1]])
+        alpha = part[:, layout["color"]][:, 3:]
+        error[(alpha > ROUNDING).any(axis=1)[primitive]] = np.inf
     for chosen, texture in textures_of(touched, scene, slice(0, len(primitive))):
         ranges = texture_ranges(texture)
         height, width = texture.pixels.shape[:2]
         moved = (part[:, layout["uv"]] * (width, height)).sum(axis=1)[primitive[chosen]]
-        moved += (moved > 0) * (texture_filter == "nearest")
+        # At the border of two texels rounding alone decides which of them is nearest.
+        moved += texture_filter == "nearest"
         step = times(moved[:, None], as_rgb(ranges.neighbours[None]))
         is_minified = (colors.lod[chosen] - np.log2(side) > 0) & (moved > 0)
         step = np.where(is_minified[:, None], np.inf, step)
+        if _has_several_alphas(texture):
+            error[chosen[moved > 0]] = np.inf
         error[chosen] += times(np.minimum(step, as_rgb(ranges.contrast[None])), colors.gain[chosen])
     if "normal" in layout and shading != "unlit":
         assert isinstance(scene, Scene)

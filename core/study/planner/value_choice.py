@@ -4,20 +4,21 @@ Their errors are bounds of linear light at every sample, so they add up, whateve
 into bytes where the light is darkest after all that came before.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.arrays import Flags, Floats
 from core.scene import AnyScene, Scene
-from core.settings import Settings
+from core.settings import Settings, with_method
 from core.study.planner.bytes import byte_error
 from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.touched import Touched
+from core.study.planner.costs import Costs
+from core.study.planner.touched import Touched, is_cut
 from core.study.planner.value_bounds import (
     filter_error,
     interpolation_error,
-    is_cut,
     shading_error,
     share_of_range,
     times,
@@ -39,36 +40,43 @@ class ValueChoice:
     """Bound in 1/255."""
     rejected: tuple[tuple[str, float], ...]
     """Cheaper methods and their bounds in 1/255, which are too large."""
+    slower: tuple[str, ...] = ()
+    """Methods that would do, but take longer."""
 
 
 class Budget:
     """What is left of the tolerance, at the pairs that can be seen."""
 
-    def __init__(self, colors: ColorRanges, seen: Flags, left: float) -> None:
-        self._low, self._seen = colors.low[seen], seen
+    def __init__(self, colors: ColorRanges, left: float) -> None:
+        self._low = colors.low
         self._spent = np.zeros_like(self._low)
         self.left = left
 
     def cost(self, error: Floats) -> float:
         """Return what an error (Q, 3) of linear light costs, in 1/255."""
-        here = error[self._seen]
-        if not here.size:
+        if not error.any():
             return 0.0
-        dark = np.maximum(self._low - self._spent - np.nan_to_num(here, nan=np.inf, posinf=np.inf), 0.0)
-        found = float(byte_error(dark, here).max())
+        dark = np.maximum(self._low - self._spent - np.nan_to_num(error, nan=np.inf, posinf=np.inf), 0.0)
+        found = float(byte_error(dark, error).max())
         return 0.0 if found < ROUNDING else found
 
-    def choose(self, options: dict[str, Floats], dearest: str) -> ValueChoice:
-        """Return the first of the ``options``, each with its error (Q, 3), that fits, and spend it."""
+    def choose(
+        self, options: dict[str, Floats], dearest: str, is_slower: Callable[[str], bool]
+    ) -> ValueChoice:
+        """Return the first of the ``options``, each with its error (Q, 3), that fits and is no slower, and spend it."""
         rejected: list[tuple[str, float]] = []
+        slower: list[str] = []
         for name, error in options.items():
             cost = self.cost(error)
-            if cost <= self.left:
+            if cost > self.left:
+                rejected.append((name, cost))
+            elif is_slower(name):
+                slower.append(name)
+            else:
                 self.left -= cost
-                self._spent += error[self._seen]
-                return ValueChoice(name, cost, tuple(rejected))
-            rejected.append((name, cost))
-        return ValueChoice(dearest, 0.0, tuple(rejected))
+                self._spent += error
+                return ValueChoice(name, cost, tuple(rejected), tuple(slower))
+        return ValueChoice(dearest, 0.0, tuple(rejected), tuple(slower))
 
 
 def choose_values(
@@ -79,6 +87,7 @@ def choose_values(
     seen: Flags,
     left: float,
     side: int,
+    costs: Costs,
 ) -> dict[str, ValueChoice]:
     """Choose by family.
 
@@ -95,8 +104,25 @@ def choose_values(
         What is left of the tolerance, in 1/255.
     side : int
         Samples on a side of a pixel.
+    costs : Costs
     """
-    budget = Budget(colors, seen, left)
+    index = np.flatnonzero(seen)
+    touched, colors = touched.take(index), colors.take(index)
+    budget = Budget(colors, left)
+    chosen = settings
+
+    def choose(family: str, options: dict[str, Floats]) -> ValueChoice:
+        """Choose one family after those before it."""
+        nonlocal chosen
+        before = chosen
+
+        def is_slower(name: str) -> bool:
+            return costs.is_slower(with_method(before, family, name), before)
+
+        value = budget.choose(options, getattr(settings, family), is_slower)
+        chosen = with_method(chosen, family, value.chosen)
+        return value
+
     shading = ValueChoice(settings.shading, 0.0, ())
     if isinstance(scene, Scene) and settings.shading != "unlit":
         errors = {}
@@ -104,12 +130,10 @@ def choose_values(
             light = shading_error(touched, scene, name)
             primitive = touched.primitive
             errors[name] = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
-        shading = budget.choose(errors, settings.shading)
+        shading = choose("shading", errors)
     has_texture = "uv" in touched.geometry.primitives.layout
     filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
-    found = (
-        budget.choose(filters, settings.texture_filter) if has_texture else ValueChoice("nearest", 0.0, ())
-    )
+    found = choose("texture_filter", filters) if has_texture else ValueChoice("nearest", 0.0, ())
 
     def moved(share: Floats) -> Floats:
         return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
@@ -120,7 +144,5 @@ def choose_values(
         "affine": share_of_range(touched),
         "affine-n": share_of_range(touched, settings.correction_interval),
     }
-    interpolation = budget.choose(
-        {name: moved(shares[name]) for name in INTERPOLATIONS}, settings.interpolation
-    )
+    interpolation = choose("interpolation", {name: moved(shares[name]) for name in INTERPOLATIONS})
     return {"interpolation": interpolation, "texture_filter": found, "shading": shading}

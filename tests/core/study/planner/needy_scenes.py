@@ -1,4 +1,7 @@
-"""Scenes that need exactly one expensive thing each: all the others can be left out within 2/255."""
+"""Scenes that need one expensive thing each: all the others can be left out within 2/255.
+
+What cannot be needed without something else is told in ``test_needs``.
+"""
 
 import numpy as np
 

@@ -15,7 +15,7 @@ from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_c
 from core.study.planner import measuring
 from core.study.planner.bytes import byte_error, byte_width
 from core.study.planner.color_ranges import color_ranges
-from core.study.planner.facts import is_closed
+from core.study.planner.convexity import is_closed
 from core.study.planner.light_ranges import Reflectances, light_range
 from core.study.planner.orders import overlap
 from core.study.planner.surfaces import format_margin, surfaces
@@ -131,7 +131,10 @@ def test_any_number_of_samples_shows_colors_of_the_candidates() -> None:
     everything = replace(everything_on(scene), blend="opaque")
     touched = touch(scene, everything)
     found = surfaces(
-        touched, color_ranges(touched, scene, everything), scene.background, format_margin("z-16")
+        touched,
+        color_ranges(touched, scene, everything, touched.is_drawn),
+        scene.background,
+        format_margin("z-16"),
     )
     pictures = [
         measuring.shown(scene, replace(everything, antialiasing=name, depth=depth))

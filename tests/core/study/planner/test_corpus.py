@@ -5,6 +5,7 @@ import pytest
 
 from core.study import Plan, Tolerance, plan, plan_and_check
 from core.study.planner.corpus import KINDS, corpus_scene
+from core.study.planner.costs import LectureOrder
 from core.study.planner.measuring import difference, shown
 
 SCENES = 210
@@ -28,7 +29,7 @@ def check(seed: int) -> Plan:
     """Plan a scene, and compare the picture with everything on."""
     _, scene = corpus_scene(seed)
     tolerance = tolerance_of(seed)
-    chosen = plan(scene, tolerance)
+    chosen = plan(scene, tolerance, costs=LectureOrder())
     differences = difference(shown(scene, chosen.settings), shown(scene, chosen.everything))
     assert np.count_nonzero(differences > tolerance.bytes) <= tolerance.pixels, (seed, tolerance)
     assert np.count_nonzero(differences > np.ceil(chosen.predicted_error)) <= chosen.predicted_pixels, (

@@ -63,3 +63,16 @@ def test_a_choice_alone_differs_in_that_choice_only() -> None:
         before, after = alone_settings(chosen, decision)
         changed = [name for name in vars(before) if getattr(before, name) != getattr(after, name)]
         assert changed == ([decision.setting] if decision.chosen != decision.dearest else [])
+
+
+def test_a_watch_ends_the_trial_of_costs() -> None:
+    told: list[str] = []
+
+    def watch(done: float, doing: str) -> None:
+        told.append(doing)
+        if told.count("Choosing how it is coloured") > 2:
+            raise EndedError
+
+    with pytest.raises(EndedError):
+        plan(built_in_scene("shared-edge").make(), Tolerance(255.0), watch=watch)
+    assert told[-1] == "Choosing how it is coloured"
