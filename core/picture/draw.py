@@ -3,7 +3,6 @@
 from dataclasses import replace
 from functools import partial
 from threading import local
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,41 +11,26 @@ from core.antialiased.sample_counts import sample_count, side_of
 from core.antialiased.supersampling import finer_settings
 from core.arrays import read_only
 from core.frame import STAGES, StageCount
-from core.framebuffer.nearest import NearestFragments
 from core.geometry_stages import process_geometry
 from core.methods import table
 from core.picture.blended import draw_blended
-from core.picture.byte_colors import byte_colors
-from core.picture.cleared import all_pass_depth_test
-from core.picture.deferred import shade_visible
 from core.picture.job import Job, Words, encode
-from core.picture.layer import LayerColors, draw_layer
-from core.picture.lit_normals import LitNormals, lit_normals
-from core.picture.lit_texture import LitTexture, lit_texture
 from core.picture.multisampled import draw_multisampled
-from core.picture.palette import PaletteColors, palette
-from core.picture.record import Picture, Route, Split
+from core.picture.opaque import draw_opaque
+from core.picture.palette import palette
+from core.picture.record import Picture, Route
 from core.picture.supersampled import draw_supersampled
-from core.picture.textured import texture_colors
-from core.picture.visible import find_visible
 from core.pipeline import draw
 from core.raster.number_format import number_format
 from core.raster.schedule import Raster, make_raster
 from core.raster.spans.arena import Arena
-from core.scene import AnyScene, ClipScene, Mesh
+from core.scene import AnyScene
 from core.settings import Settings
 from core.timing import timed
 
-Colors = LayerColors | LitNormals | LitTexture
-
 ENCODINGS = ("srgb", "linear")
 
-FEW = 16
-"""Triangles: so few are tried without depth, since it costs little."""
-
 _memory = local()
-_overlaps: WeakKeyDictionary[Mesh | ClipScene, bool] = WeakKeyDictionary()
-"""Scenes, by their first mesh, that turned out to have more than one layer: depth is not left out again."""
 
 
 def draw_picture(
@@ -111,45 +95,35 @@ def draw_picture(
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    if (
-        side_of(settings)
-        and not with_depth
-        and settings.pixel_center == "half"
-        and is_drawn_by_spans(finer_settings(settings))
-    ):
+    if not with_depth and _is_supersampled(settings):
         draw_part = partial(draw_picture, plain_colors=plain_colors)
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
-    if (
-        settings.antialiasing == "msaa-4"
-        and not with_depth
-        and settings.blend == "opaque"
-        and is_drawn_by_spans(replace(settings, antialiasing="none"))
-    ):
-        route = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
-        _count(counts, route, len(pixels))
-        counts["resolve"].incoming = sample_count(settings) * len(pixels)
-        return Picture(_bytes(pixels, raster), None, counts, route)
-    if not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
-        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
-    geometry = process_geometry(scene, settings, counts, raster=raster)
-    job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
     depth = None
-    if settings.blend != "opaque":
-        route = _draw_stacks(job)
+    if not with_depth and _is_multisampled(settings):
+        route = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
+    elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
+        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     else:
-        allowed = _choose_colors(job)
-        colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
-        layer = None if with_depth else _draw_layer(job, colors)
-        if layer is None:
-            nearest, route = _draw_visible(job, colors)
-            depth = read_only(nearest.depth().reshape(raster.shape)) if with_depth else None
+        geometry = process_geometry(scene, settings, counts, raster=raster)
+        job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
+        if settings.blend == "opaque":
+            route, depth = draw_opaque(job, with_depth, plain_colors)
         else:
-            route = layer
-        # A part without triangles forbids nothing, as one colour a triangle does not.
-        name = allowed.name if allowed else "deferred"
-        route = replace(route, allowed=name if len(geometry.primitives) else PaletteColors.name)
-    _count(counts, route, len(pixels))
+            route = _draw_stacks(job)
+    _count(counts, route, sample_count(settings) * len(pixels), len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
+
+
+def _is_supersampled(settings: Settings) -> bool:
+    """Tell whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
+    has_sides = bool(side_of(settings)) and settings.pixel_center == "half"
+    return has_sides and is_drawn_by_spans(finer_settings(settings))
+
+
+def _is_multisampled(settings: Settings) -> bool:
+    """Tell whether spans can find what each of four samples shows."""
+    is_plain = settings.antialiasing == "msaa-4" and settings.blend == "opaque"
+    return is_plain and is_drawn_by_spans(replace(settings, antialiasing="none"))
 
 
 def _draw_frame(
@@ -172,43 +146,6 @@ def _draw_stacks(job: Job) -> Route:
     return Route("stacks", "deferred" if of_triangles is None else "palette", split, split.fragments)
 
 
-def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
-    """Draw without depth, if that can be right; ``None``: it is not."""
-    if (
-        colors is None
-        or isinstance(colors, LitNormals | LitTexture)
-        or not colors.fits_layer
-        or not _may_be_one_layer(job)
-    ):
-        return None
-    fragments = draw_layer(job, colors)
-    if fragments is None:
-        _overlaps[_key(job.scene)] = True
-        return None
-    return Route("layer", colors.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
-
-
-def _draw_visible(job: Job, colors: Colors | None) -> tuple[NearestFragments, Route]:
-    """Find what is seen, then colour it."""
-    nearest, split = find_visible(job)
-    with job.timed("resolve"):
-        job.pixels.fill(job.background)
-    if colors is None:
-        return nearest, Route("words", "deferred", split, shade_visible(job, nearest))
-    with job.timed(colors.stage):
-        return nearest, Route("words", colors.name, split, colors.look_up(job, nearest))
-
-
-def _choose_colors(job: Job) -> Colors | None:
-    """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
-    with job.timed("shade"):
-        of_triangles = palette(job)
-        if of_triangles is not None:
-            return PaletteColors(job.encode(of_triangles))
-    with job.timed("interpolate"):
-        return byte_colors(job) or lit_normals(job) or lit_texture(job) or texture_colors(job)
-
-
 def is_drawn_by_spans(settings: Settings) -> bool:
     """Tell whether spans can draw with these settings: all filled, at centres, in numbers that suit, without rays."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
@@ -216,24 +153,7 @@ def is_drawn_by_spans(settings: Settings) -> bool:
     return settings.fill == "spans" and not is_outlined and suits_spans and settings.antialiasing == "none"
 
 
-def _key(scene: AnyScene) -> Mesh | ClipScene:
-    return scene if isinstance(scene, ClipScene) else scene.meshes[0]
-
-
-def _may_be_one_layer(job: Job) -> bool:
-    """Tell whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
-    geometry, scene = job.geometry, job.scene
-    if not (geometry.is_projected.all() and geometry.is_in_range.all()):
-        return False
-    count = len(geometry.primitives)
-    is_likely = count <= FEW or (job.settings.cull != "none" and not isinstance(scene, ClipScene))
-    if count > 1 and (not is_likely or _key(scene) in _overlaps):
-        return False
-    with job.timed("depth"):
-        return all_pass_depth_test(geometry, job.depth_format)
-
-
-def _count(counts: dict[str, StageCount], route: Route, pixel_count: int) -> None:
+def _count(counts: dict[str, StageCount], route: Route, sample_count: int, pixel_count: int) -> None:
     """Note how much each stage took in and gave out."""
     fragments = route.split.fragments if route.split else 0
     counts["bin"].incoming = counts["edges"].outgoing
@@ -241,7 +161,7 @@ def _count(counts: dict[str, StageCount], route: Route, pixel_count: int) -> Non
     for stage in ("interpolate", "shade", "blend"):
         counts[stage].incoming = counts[stage].outgoing = route.visible
     counts["depth"].outgoing = route.visible
-    counts["resolve"].incoming = counts["resolve"].outgoing = pixel_count
+    counts["resolve"].incoming, counts["resolve"].outgoing = sample_count, pixel_count
 
 
 def _bytes(words: Words, raster: Raster) -> NDArray[np.uint8]:

@@ -2,7 +2,7 @@
 
 Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
 float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
-precision (``single_texture``), normals and light are those of ``lit_normals``.
+precision (``single_texture``), normals and light are those of ``one_color``.
 
 How close the bytes are: planes through corners far from the origin are rounded, these and those of ``render``, by
 `ROUNDING` times x y over the area, as a part of what the corners differ by (``core.fragments.interpolation``). So the
@@ -23,13 +23,13 @@ from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
 from core.framebuffer.nearest import NearestFragments
 from core.geometry_record import Geometry
 from core.integer_planes import window_slopes
-from core.picture.corner_places import CornerPlaces, corner_places
 from core.picture.job import Job
-from core.picture.light_errors import STEEPEST
-from core.picture.light_visible import LitPlanes
-from core.picture.lit_normals import LitMesh, lit_mesh, lit_planes
-from core.picture.packed_normals import corner_w
-from core.picture.vertex_facts import Color
+from core.picture.lit.corner_places import CornerPlaces, corner_places
+from core.picture.lit.light_errors import STEEPEST
+from core.picture.lit.light_visible import LitPlanes
+from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
+from core.picture.lit.packed_normals import corner_w
+from core.picture.lit.vertex_facts import Color
 from core.scene import Texture
 
 ROUNDING = 2.0**-48
@@ -79,7 +79,7 @@ class LitTexture:
 def lit_texture(job: Job) -> LitTexture | None:
     """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
-    The scene is what ``lit_normals`` draws, with a texture that is looked up bilinearly.
+    The scene is what ``one_color`` draws, with a texture that is looked up bilinearly.
     """
     mesh = lit_mesh(job) if job.has_texture and job.settings.texture_filter == "bilinear" else None
     texture = mesh.scene.meshes[0].texture if mesh else None

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from core.geometry_record import Geometry
-from core.picture.packed_normals import ALIKE, BITS, RATIO
+from core.picture.lit.packed_normals import ALIKE, BITS, RATIO
 from core.scene import DirectionalLight, Material
 
 STEEPEST = 255 * 12.92

@@ -11,10 +11,10 @@ from core.arrays import Floats, Integers, Singles
 from core.geometry.matrices import world_to_camera
 from core.geometry_record import Geometry
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
-from core.picture.corner_places import CornerPlaces
 from core.picture.job import Job
-from core.picture.pixel_light import make_unit
-from core.picture.vertex_facts import VertexFacts, cosine
+from core.picture.lit.corner_places import CornerPlaces
+from core.picture.lit.pixel_light import make_unit
+from core.picture.lit.vertex_facts import VertexFacts, cosine
 from core.raster.spans.arena import Arena
 from core.scene import Camera
 

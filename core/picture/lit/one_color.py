@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 from core.arrays import Integers
 from core.framebuffer.nearest import NearestFragments
-from core.picture.corner_places import CornerPlaces, corner_places
 from core.picture.job import Job
-from core.picture.light_errors import light_error, normal_error
-from core.picture.light_visible import LitPlanes
-from core.picture.packed_normals import corner_w, pack_normals
-from core.picture.pixel_light import PixelLight, pixel_light
-from core.picture.vertex_facts import Color, VertexFacts, vertex_facts
+from core.picture.lit.corner_places import CornerPlaces, corner_places
+from core.picture.lit.light_errors import light_error, normal_error
+from core.picture.lit.light_visible import LitPlanes
+from core.picture.lit.packed_normals import corner_w, pack_normals
+from core.picture.lit.pixel_light import PixelLight, pixel_light
+from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
 from core.scene import DirectionalLight, Scene
 
 TOLERANCE = 1.0

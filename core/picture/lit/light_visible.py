@@ -16,8 +16,8 @@ from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, Words, blocks
-from core.picture.packed_normals import unit_normals
-from core.picture.pixel_light import PixelLight, lit_pixels
+from core.picture.lit.packed_normals import unit_normals
+from core.picture.lit.pixel_light import PixelLight, lit_pixels
 
 Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]]
 """Linear grey, or red, green and blue, of primitives (F,) at columns and rows (F,)."""

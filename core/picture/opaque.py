@@ -1,0 +1,106 @@
+"""An opaque picture by spans: the cheapest colours with the right bytes, and no depth where there is one layer."""
+
+from dataclasses import replace
+from weakref import WeakKeyDictionary
+
+from core.arrays import Singles, read_only
+from core.framebuffer.nearest import NearestFragments
+from core.picture.byte_colors import byte_colors
+from core.picture.cleared import all_pass_depth_test
+from core.picture.deferred import shade_visible
+from core.picture.job import Job
+from core.picture.layer import LayerColors, draw_layer
+from core.picture.lit.one_color import LitNormals, lit_normals
+from core.picture.lit.textured import LitTexture, lit_texture
+from core.picture.palette import PaletteColors, palette
+from core.picture.record import Route, Split
+from core.picture.textured import texture_colors
+from core.picture.visible import find_visible
+from core.scene import AnyScene, ClipScene, Mesh
+
+Colors = LayerColors | LitNormals | LitTexture
+
+FEW = 16
+"""Triangles: so few are tried without depth, since it costs little."""
+
+_overlaps: WeakKeyDictionary[Mesh | ClipScene, bool] = WeakKeyDictionary()
+"""Scenes, by their first mesh, that turned out to have more than one layer: depth is not left out again."""
+
+
+def draw_opaque(job: Job, with_depth: bool, plain_colors: bool) -> tuple[Route, Singles | None]:
+    """Draw what is nearest at every pixel.
+
+    Parameters
+    ----------
+    job : Job
+    with_depth, plain_colors : bool
+        As `draw_picture`.
+
+    Returns
+    -------
+    route : Route
+    depth : (H, W) array, or None without ``with_depth``
+    """
+    allowed = _choose_colors(job)
+    colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
+    depth, route = None, None if with_depth else _draw_layer(job, colors)
+    if route is None:
+        nearest, route = _draw_visible(job, colors)
+        depth = read_only(nearest.depth().reshape(job.raster.shape)) if with_depth else None
+    # A part without triangles forbids nothing, as one colour a triangle does not.
+    name = allowed.name if allowed else "deferred"
+    return replace(route, allowed=name if len(job.geometry.primitives) else PaletteColors.name), depth
+
+
+def _choose_colors(job: Job) -> Colors | None:
+    """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
+    with job.timed("shade"):
+        of_triangles = palette(job)
+        if of_triangles is not None:
+            return PaletteColors(job.encode(of_triangles))
+    with job.timed("interpolate"):
+        return byte_colors(job) or lit_normals(job) or lit_texture(job) or texture_colors(job)
+
+
+def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
+    """Draw without depth, if that can be right; ``None``: it is not."""
+    if (
+        colors is None
+        or isinstance(colors, LitNormals | LitTexture)
+        or not colors.fits_layer
+        or not _may_be_one_layer(job)
+    ):
+        return None
+    fragments = draw_layer(job, colors)
+    if fragments is None:
+        _overlaps[_key(job.scene)] = True
+        return None
+    return Route("layer", colors.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
+
+
+def _may_be_one_layer(job: Job) -> bool:
+    """Tell whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
+    geometry, scene = job.geometry, job.scene
+    if not (geometry.is_projected.all() and geometry.is_in_range.all()):
+        return False
+    count = len(geometry.primitives)
+    is_likely = count <= FEW or (job.settings.cull != "none" and not isinstance(scene, ClipScene))
+    if count > 1 and (not is_likely or _key(scene) in _overlaps):
+        return False
+    with job.timed("depth"):
+        return all_pass_depth_test(geometry, job.depth_format)
+
+
+def _key(scene: AnyScene) -> Mesh | ClipScene:
+    return scene if isinstance(scene, ClipScene) else scene.meshes[0]
+
+
+def _draw_visible(job: Job, colors: Colors | None) -> tuple[NearestFragments, Route]:
+    """Find what is seen, then colour it."""
+    nearest, split = find_visible(job)
+    with job.timed("resolve"):
+        job.pixels.fill(job.background)
+    if colors is None:
+        return nearest, Route("words", "deferred", split, shade_visible(job, nearest))
+    with job.timed(colors.stage):
+        return nearest, Route("words", colors.name, split, colors.look_up(job, nearest))
