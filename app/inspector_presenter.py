@@ -55,6 +55,7 @@ class InspectorPresenter(QObject):
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
+        history.history_shown.connect(self.refresh_history)
         card.card_folded.connect(self._fold)
         self.refresh_run()
 

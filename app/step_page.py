@@ -191,7 +191,6 @@ class StepPage(Page):
         self.detail_tabs.tabBar().setDrawBase(False)
         self.detail_tabs.addTab(self.variables, "Variables")
         self.detail_tabs.addTab(self.history, "Pixel history")
-        self.detail_tabs.currentChanged.connect(self.inspector.refresh_history)
         self.session.pin_changed.connect(self._show_history)
         self.inspector_rows = QSplitter(Qt.Orientation.Vertical, self)
         self.inspector_rows.setMinimumWidth(240)

@@ -1,7 +1,7 @@
 """Everything that happened to one pixel: the verdict, then each event with before, out, after and reason."""
 
 from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent
+from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -37,6 +37,8 @@ class PixelHistory(QWidget):
     """The user wants to go to an entry, by its number in the story (also when rejected ones are left out)."""
     rejected_toggled = Signal(bool)
     """The user shows (True) or leaves out (False) rejected fragments."""
+    history_shown = Signal()
+    """The pane has come into sight, by its tab or with its page: its owner may have told it nothing meanwhile."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -115,6 +117,11 @@ class PixelHistory(QWidget):
             self.place.setText(f"Pixel column {story.column}, row {story.row}")
         self._bring_current_into_view()
         self._follow_theme()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Tell that the pane is in sight."""
+        super().showEvent(event)
+        self.history_shown.emit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the row of the step just done in view."""
