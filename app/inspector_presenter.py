@@ -13,13 +13,15 @@ from core.listing import Listing
 from core.steps import Level
 from widgets.formula import FormulaView
 from widgets.formulas import formula
-from widgets.listing import ListingText, ListingView
+from widgets.listing import HINT, ListingText, ListingView
 from widgets.pixel_history import PixelHistory
 from widgets.sentences import initial_sentence, sentence, summary_sentence
 from widgets.stage_card import StageCardView
 from widgets.stage_texts import stage_card
 from widgets.step_variables import step_variables
 from widgets.variables import VariablesView
+
+NO_LISTING = "This step decides or copies; it has no algorithm to list."
 
 
 class InspectorPresenter(QObject):
@@ -82,12 +84,14 @@ class InspectorPresenter(QObject):
             self._formula.show_formula(None)
             self._variables.show_variables([])
             first = trace.explain(1)
+            self._listing.show_hint(HINT if first is None else NO_LISTING)
             self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
             return
         self._formula.show_hint("This step decides or copies; it has no formula.")
         self._formula.show_formula(formula(explanation))
         self._variables.show_variables(step_variables(explanation))
+        self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)
         self._listing.show_line(explanation.line or None)
 

@@ -7,8 +7,8 @@ ENDS = (".", "!", "?", "…")
 def sentence_case(text: str) -> str:
     """Return a text with a capital at its beginning, unless it begins with a symbol or the name of a file.
 
-    ``nothing is there`` becomes ``Nothing is there``; ``E0 is 3`` and ``teapot.obj has no faces`` stay as they are, since
-    a name that is written otherwise is another name.
+    ``nothing is there`` becomes ``Nothing is there``; ``E0 is 3`` and ``teapot.obj has no faces`` stay as they are,
+    since a name that is written otherwise is another name.
     """
     first = text.partition(" ")[0]
     is_symbol = len(first) < 3

@@ -199,7 +199,7 @@ class StepPage(Page):
         self.inspector_rows.addWidget(self.detail_tabs)
         self.inspector_rows.setStretchFactor(1, 1)
         self.inspector_rows.setStretchFactor(2, 2)
-        self.inspector_rows.setSizes([190, 170, 210])
+        self.inspector_rows.setSizes([165, 135, 270])
         self.card.card_folded.connect(self._fit_step_pane)
         self.session.cursor_changed.connect(self._fit_step_pane)
         self._text_px = current_theme().text_px

@@ -33,6 +33,9 @@ _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
+HINT = "The algorithm of the stage appears here, with the line of each step marked."
+"""What an empty pane is for."""
+
 
 @dataclass(frozen=True)
 class ListingText:
@@ -122,7 +125,7 @@ class ListingView(QPlainTextEdit):
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
-        self.setPlaceholderText("The algorithm of the stage appears here, with the line of each step marked.")
+        self.show_hint(HINT)
         self.setCornerWidget(QWidget(self))
         self.setAccessibleName("Listing")
         self.viewport().setCursor(Qt.CursorShape.ArrowCursor)
@@ -131,6 +134,11 @@ class ListingView(QPlainTextEdit):
         self.updateRequest.connect(self._follow_scroll)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
+
+    @Slot(str)
+    def show_hint(self, text: str) -> None:
+        """Say this where there is no listing."""
+        self.setPlaceholderText(text)
 
     @Slot(object)
     def show_listing(self, listing: ListingText | None) -> None:
