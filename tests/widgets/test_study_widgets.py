@@ -292,3 +292,16 @@ def test_what_is_being_done_is_in_the_panel_at_any_width(controls, qtbot) -> Non
         controls.layout().activate()
         right = controls.doing.mapTo(controls, controls.doing.rect().topRight()).x()
         assert right <= controls.width(), width
+
+
+def test_a_table_without_numbers_says_what_comes_there(table: StudyTable) -> None:
+    def written() -> int:
+        picture = table.viewport().grab().toImage()
+        ground = picture.pixel(2, 2)
+        middle = range(picture.height() // 2 - 12, picture.height() // 2 + 12)
+        return sum(picture.pixel(x, y) != ground for y in middle for x in range(picture.width()))
+
+    table.show_table(TableRecord((), (), ()))
+    assert written() > 200
+    table.show_table(TableRecord(("Method",), (), ()))
+    assert written() == 0
