@@ -50,7 +50,7 @@ class PixelHistory(QWidget):
         self._filter.setSourceModel(self._model)
         self._icon = QLabel(self)
         self.verdict = QLabel(self)
-        self.verdict.setProperty("role", "title")
+        self.verdict.setProperty("role", "strong")
         self.verdict.setWordWrap(True)
         self.verdict.setAccessibleName("Verdict")
         self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -106,7 +106,7 @@ class PixelHistory(QWidget):
         hint = "Point at a pixel or click one: what happened to it appears here."
         self.verdict.setText(story.verdict if story else hint)
         is_hint = story is None
-        set_role(self.verdict, "muted" if is_hint else "title")
+        set_role(self.verdict, "muted" if is_hint else "strong")
         for part in (self.view, self._header):
             part.setVisible(bool(entries))
         rejected = sum(entry.is_rejected for entry in entries)
@@ -157,7 +157,7 @@ class PixelHistory(QWidget):
         mark = self._story.mark if self._story else None
         self._icon.setVisible(mark is not None)
         if mark is not None:
-            side = current_theme().title_px + 3
+            side = current_theme().text_px + 3
             self._icon.setPixmap(mark_pixmap(mark, side, self.devicePixelRatioF()))
             self._icon.setToolTip(mark.value)
         self.view.viewport().update()

@@ -203,3 +203,18 @@ def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(
     window.run_action("next_at_pin")
     row = window.session.stage_trace.steps.row_at(window.session.cursor.position)[0]
     assert window.session.stage_trace.pixel[row].tolist() == [27, 20]
+
+
+def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1000, 700)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
+    before = window.page.columns.sizes()
+    window.look.set_theme("presenter")
+    window.resize(1900, 1000)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) > 1800)
+    left, middle, right = window.page.columns.sizes()
+    assert left > 1.4 * before[0]
+    assert right > 1.4 * before[2]
+    assert middle > 0.33 * 1800
+    window.look.set_theme("light")
+    assert window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12)
