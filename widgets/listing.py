@@ -19,6 +19,7 @@ from PySide6.QtGui import (
     QPalette,
     QPolygonF,
     QResizeEvent,
+    QShowEvent,
     QTextCharFormat,
     QTextCursor,
     QTextOption,
@@ -159,11 +160,16 @@ class ListingView(QPlainTextEdit):
         self._line = line
         self._mark_line()
         self.setAccessibleDescription(f"Line {line} has just run" if line else "")
-        if line is not None:
-            block = self.document().findBlockByNumber(line - 1)
-            if block.isValid() and not self.textCursor().hasSelection():
-                self.setTextCursor(QTextCursor(block))
-                self.ensureCursorVisible()
+        self._bring_line_into_view()
+
+    def _bring_line_into_view(self) -> None:
+        """Scroll to the marked line, unless text is being selected."""
+        if self._line is None or self.textCursor().hasSelection():
+            return
+        block = self.document().findBlockByNumber(self._line - 1)
+        if block.isValid():
+            self.setTextCursor(QTextCursor(block))
+            self.ensureCursorVisible()
 
     @Slot(object)
     def show_breakpoints(self, lines: Collection[int]) -> None:
@@ -229,9 +235,15 @@ class ListingView(QPlainTextEdit):
             block = block.next()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Keep the margin beside the text."""
+        """Keep the margin beside the text, and the line of the step in view."""
         super().resizeEvent(event)
         self._place_margin()
+        self._bring_line_into_view()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Bring the line into view that was marked while nobody saw it."""
+        super().showEvent(event)
+        self._bring_line_into_view()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Remember where a click began."""
