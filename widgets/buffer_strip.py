@@ -69,6 +69,7 @@ class BufferTile(QWidget):
                 text = self.grid.value_text(pixel, digits)
                 if metrics.horizontalAdvance(text) <= self.width():
                     break
+            text = metrics.elidedText(text, Qt.TextElideMode.ElideRight, max(self.width(), 1))
         if text != self.value.text():
             self.value.setText(text)
             self.value.setToolTip("" if pixel is None else self.grid.value_text(pixel, digits=0))

@@ -164,3 +164,13 @@ def test_the_chosen_buffer_comes_into_sight_where_the_buffers_have_changed(strip
     strip.show_buffers([GridBuffer(name, np.zeros((3, 4))) for name in ["first", *names]])
     strip.show_chosen("first")
     qtbot.waitUntil(lambda: is_in_sight("first") and not is_in_sight("buffer 7"))
+
+
+def test_a_value_that_is_too_long_ends_in_an_ellipsis(strip: BufferStrip, qtbot) -> None:
+    strip.show_buffers([GridBuffer("picture", np.full((2, 2, 4), 255, np.uint8), "color")])
+    tile = strip.tile("picture")
+    tile.resize(60, 120)
+    tile.show_value((0, 0))
+    assert tile.value.text().endswith("…")
+    assert tile.value.fontMetrics().horizontalAdvance(tile.value.text()) <= 60
+    assert tile.value.toolTip() == "(255, 255, 255, 255)"
