@@ -14,6 +14,7 @@ from core.steps import Level
 from widgets.formula import FormulaView
 from widgets.formulas import formula
 from widgets.listing import HINT, ListingText, ListingView
+from widgets.pixel_history import HINT as NO_HISTORY
 from widgets.pixel_history import PixelHistory
 from widgets.sentences import initial_sentence, sentence, summary_sentence
 from widgets.stage_card import StageCardView
@@ -21,6 +22,7 @@ from widgets.stage_texts import stage_card
 from widgets.step_variables import step_variables
 from widgets.variables import VariablesView
 
+HIDDEN_HISTORY = "What happened to a pixel stays hidden until prediction is turned off (P)."
 NO_LISTING = "This step decides or copies; it has no algorithm to list."
 
 
@@ -128,12 +130,12 @@ class InspectorPresenter(QObject):
         pixel = session.pin or session.hover
         if pixel is not None and (session.is_predicting or not session.has_pixel(pixel)):
             pixel = None
-        told = (pixel, session.trace if pixel else None)
+        told = (pixel, session.trace if pixel else None, session.is_predicting)
         if told == self._told:
             return
         self._told = told
         if pixel is None:
-            self._history.show_story(None)
+            self._history.show_story(None, HIDDEN_HISTORY if session.is_predicting else NO_HISTORY)
             self._triangles = []
             return
         story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)

@@ -29,6 +29,9 @@ from widgets.theme import current_theme, theme_notifier
 
 __all__ = ["HistoryEntry", "PixelHistory", "PixelStory", "PixelValue"]
 
+HINT = "Point at a pixel or click one: what happened to it appears here."
+"""What an empty pane is for."""
+
 
 class PixelHistory(QWidget):
     """Verdict, filter and rows; double click or Enter jumps to the row's step."""
@@ -98,12 +101,11 @@ class PixelHistory(QWidget):
         self.show_story(None)
 
     @Slot(object)
-    def show_story(self, story: PixelStory | None) -> None:
-        """Show the history of a pixel, or the hint for an empty pane."""
+    def show_story(self, story: PixelStory | None, hint: str = HINT) -> None:
+        """Show the history of a pixel, or the hint why the pane is empty."""
         self._story = story
         entries = story.entries if story else ()
         self._model.show_entries(entries)
-        hint = "Point at a pixel or click one: what happened to it appears here."
         self.verdict.setText(story.verdict if story else hint)
         is_hint = story is None
         set_role(self.verdict, "muted" if is_hint else "strong")
