@@ -19,10 +19,13 @@ COLORS = {
     Outcome.WRONG_ORDER: "#CC79A7",
     Outcome.NOT_A_NUMBER: "#000000",
     Outcome.OVERFLOW: "#8A7A00",
-    Outcome.WRONG_PICTURE: "#009E73",
+    Outcome.WRONG_PICTURE: "#882255",
     Outcome.REFUSED: "#BBBBBB",
 }
-"""Colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008)."""
+"""Colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008); wine (P. Tol, 2021) where they have green.
+
+Nothing that fails is green: a map of green cells would be read as one where all is well.
+"""
 DARK = {Outcome.HOLE, Outcome.DOUBLE_HIT, Outcome.NOT_A_NUMBER, Outcome.OVERFLOW, Outcome.WRONG_PICTURE}
 """Outcomes whose character is white."""
 

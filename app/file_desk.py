@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.export import copy_widget, export_widget
 from app.mesh_files import EXTENSIONS, OpeningCancelledError
+from app.message_words import sentences
 from app.open_any import Opened, open_any
 from app.page_table import page_endings
 from app.pages import Pages
@@ -99,7 +100,7 @@ class FileDesk(QObject):
         if isinstance(error, OpeningCancelledError):
             self._tell_cancelled()
         elif isinstance(error, ValueError | OSError | MemoryError):
-            self._tell(f"{error} The open scene stays as it was.", MessageKind.ERROR)
+            self._tell(sentences(error, "The open scene stays as it was"), MessageKind.ERROR)
         else:
             raise error
 

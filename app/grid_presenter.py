@@ -7,7 +7,15 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.area_overlays import area_overlays
 from app.clip_overlays import clip_overlays
-from app.grid_records import block_overlay, buffers_of, edge_overlay, geometry_of, mask_overlays, span_overlay
+from app.grid_records import (
+    block_overlay,
+    buffers_of,
+    edge_overlay,
+    geometry_of,
+    mask_overlays,
+    outlined_triangles,
+    span_overlay,
+)
 from app.sample_records import sample_dots
 from app.scene_edits import move_corner
 from app.session import Session
@@ -259,7 +267,8 @@ class GridPresenter(QObject):
         document = self._session.document
         raster = self._session.trace.source.raster
         first_column, first_row, _, _ = raster.bounds
-        triangle = int(self._session.trace.source.geometry.assembled.triangle[vertex // 3])
+        wanted = document.triangle if document.triangle is not None else self._focus
+        triangle = int(outlined_triangles(self._session.trace, wanted)[vertex // 3])
         size = document.traced_scene.size
         try:
             scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)

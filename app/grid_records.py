@@ -6,6 +6,7 @@ import numpy as np
 
 from app.document import Document
 from core import Trace
+from core.arrays import Integers
 from core.framebuffer.display import to_display
 from core.raster.number_format import number_format
 from core.raster.schedule import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
@@ -26,7 +27,7 @@ from widgets.grid_overlay import (
 )
 
 OUTLINE_LIMIT = 400
-"""Triangles whose outlines are drawn."""
+"""Triangles up to which every outline is drawn; of more, only the one in focus: a part would look like a shape."""
 KINDS: dict[str, BufferKind] = {
     "scalar": "scalar",
     "signed": "signed",
@@ -83,7 +84,8 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
     """
     source = trace.source
     geometry = source.geometry
-    triangles = geometry.assembled.triangle[:OUTLINE_LIMIT]
+    wanted = document.triangle if document.triangle is not None else focus
+    triangles = outlined_triangles(trace, wanted)
     corners = geometry.vertices.corners[triangles].ravel()
     first_column, first_row, _, _ = source.raster.bounds
     origin = np.array([first_column, first_row], float)
@@ -92,7 +94,6 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * 256) / 256
     snaps = number_format(document.settings.coverage).corner_kind == "snapped"
-    wanted = document.triangle if document.triangle is not None else focus
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
@@ -100,6 +101,12 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
         focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
         snapped=(snapped - origin) if snaps else None,
     )
+
+
+def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
+    """Return (K,) the triangles whose outlines are drawn, three vertices each: all, or of many the one in focus."""
+    triangles = trace.source.geometry.assembled.triangle
+    return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
 
 
 def edge_overlay(geometry: GridGeometry) -> SegmentOverlay | None:

@@ -13,13 +13,17 @@ from core.listing import Listing
 from core.steps import Level
 from widgets.formula import FormulaView
 from widgets.formulas import formula
-from widgets.listing import ListingText, ListingView
+from widgets.listing import HINT, ListingText, ListingView
+from widgets.pixel_history import HINT as NO_HISTORY
 from widgets.pixel_history import PixelHistory
 from widgets.sentences import initial_sentence, sentence, summary_sentence
 from widgets.stage_card import StageCardView
 from widgets.stage_texts import stage_card
 from widgets.step_variables import step_variables
 from widgets.variables import VariablesView
+
+HIDDEN_HISTORY = "What happened to a pixel stays hidden until prediction is turned off (P)."
+NO_LISTING = "This step decides or copies; it has no algorithm to list."
 
 
 class InspectorPresenter(QObject):
@@ -55,6 +59,7 @@ class InspectorPresenter(QObject):
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
+        history.history_shown.connect(self.refresh_history)
         card.card_folded.connect(self._fold)
         self.refresh_run()
 
@@ -81,12 +86,14 @@ class InspectorPresenter(QObject):
             self._formula.show_formula(None)
             self._variables.show_variables([])
             first = trace.explain(1)
+            self._listing.show_hint(HINT if first is None else NO_LISTING)
             self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
             return
         self._formula.show_hint("This step decides or copies; it has no formula.")
         self._formula.show_formula(formula(explanation))
         self._variables.show_variables(step_variables(explanation))
+        self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)
         self._listing.show_line(explanation.line or None)
 
@@ -123,12 +130,12 @@ class InspectorPresenter(QObject):
         pixel = session.pin or session.hover
         if pixel is not None and (session.is_predicting or not session.has_pixel(pixel)):
             pixel = None
-        told = (pixel, session.trace if pixel else None)
+        told = (pixel, session.trace if pixel else None, session.is_predicting)
         if told == self._told:
             return
         self._told = told
         if pixel is None:
-            self._history.show_story(None)
+            self._history.show_story(None, HIDDEN_HISTORY if session.is_predicting else NO_HISTORY)
             self._triangles = []
             return
         story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)

@@ -16,6 +16,7 @@ from app.file_desk import FileDesk
 from app.key_focus import has_use_for
 from app.look import Look, the_application
 from app.menus import Menus
+from app.message_words import sentence_case
 from app.overlays import Overlays
 from app.page_table import PAGE_KINDS, page_of_file
 from app.pages import Page, Pages
@@ -142,8 +143,7 @@ class MainWindow(QMainWindow):
 
         What only informs goes to the status bar, so that the page does not move while one steps.
         """
-        is_symbol = len(text.partition(" ")[0]) < 3
-        text = text if is_symbol else text[:1].upper() + text[1:]
+        text = sentence_case(text)
         if kind is MessageKind.INFORMATION and not details:
             self.statusBar().showMessage(text, HINT_MILLISECONDS)
         else:

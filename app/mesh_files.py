@@ -90,14 +90,14 @@ def load_meshes(
 ) -> LoadedMeshes:
     """Return the meshes of a file; parameters and errors as ``open_mesh``."""
     report = progress or ignore_progress
-    report(0.0, "opening")
+    report(0.0, "")
     if is_cancelled is None:
         loaded = read_file(Path(path), report)
     else:
         loaded = read_in_process(Path(path), report, is_cancelled)
         if is_cancelled():
             raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
-    report(1.0, "done")
+    report(1.0, "")
     return loaded
 
 

@@ -11,7 +11,7 @@ ON_DARK = {
     Outcome.DOUBLE_HIT: ("#f07b23", "#000000"),
     Outcome.NOT_A_NUMBER: ("#ffffff", "#000000"),
     Outcome.OVERFLOW: ("#d8c400", "#000000"),
-    Outcome.WRONG_PICTURE: ("#2bc495", "#000000"),
+    Outcome.WRONG_PICTURE: ("#c4548c", "#000000"),
     Outcome.WRONG_ORDER: ("#d98cb8", "#000000"),
     Outcome.REFUSED: ("#5a6066", "#ffffff"),
 }

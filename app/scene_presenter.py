@@ -90,7 +90,7 @@ def _document_group(document: Document) -> OutlineGroup:
         rows.append(OutlineRow("document/all", text))
     else:
         value = OutlineValue("triangle", document.triangle, 0, count - 1)
-        rows.append(OutlineRow("document/focus", f"in focus, of {count:,}", (value,)))
+        rows.append(OutlineRow("document/focus", f"Triangle in focus, of {count:,}", (value,)))
     return OutlineGroup("document", document.title or "Scene", tuple(rows))
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.document import Document
+from app.message_words import sentences
 from app.opening_document import document_at
 from app.pages import StepRequest
 from app.session import Session
@@ -60,18 +61,26 @@ class StepOpening(QObject):
         self._page.stepping.forget_places()
         self._session.set_stage(opening.stage, 0)
         if opening.pixel is not None and self._session.has_pixel(opening.pixel):
-            self._session.set_pin(opening.pixel)
-            self._page.stepping.step_into(opening.stage, *opening.pixel)
+            self._go_to_pixel(opening.stage, opening.pixel, has_other=other is not None)
         if other is not None:
             self._page.comparing.set_differences(differences(opening.settings, other))
         self._page.show_view("pixels" if other is None else "compare")
         self.opened.emit()
 
+    def _go_to_pixel(self, stage: str, pixel: tuple[int, int], *, has_other: bool) -> None:
+        """Pin a pixel and go to the first step about it; say how to get there where only another run has one."""
+        self._session.set_pin(pixel)
+        if has_other and not len(self._session.trace.stage(stage).rows_at_pixel(*pixel)):
+            said = f"A has no step at pixel {pixel}: Swap makes B the run that is stepped, then J goes to its step."
+            self.message_sent.emit(Message(MessageKind.INFORMATION, said))
+        else:
+            self._page.stepping.step_into(stage, *pixel)
+
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         if not isinstance(error, ValueError | MemoryError):
             raise error
-        said = f"It cannot be stepped: {error} The open scene stays as it was."
+        said = sentences(f"It cannot be stepped: {error}", "The open scene stays as it was")
         self.message_sent.emit(Message(MessageKind.WARNING, said))
 
 

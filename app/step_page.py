@@ -1,6 +1,9 @@
 """The stepping page: rail, scene, grids, inspector and timeline around one session."""
 
+from math import isclose
+
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QLabel,
@@ -191,7 +194,6 @@ class StepPage(Page):
         self.detail_tabs.tabBar().setDrawBase(False)
         self.detail_tabs.addTab(self.variables, "Variables")
         self.detail_tabs.addTab(self.history, "Pixel history")
-        self.detail_tabs.currentChanged.connect(self.inspector.refresh_history)
         self.session.pin_changed.connect(self._show_history)
         self.inspector_rows = QSplitter(Qt.Orientation.Vertical, self)
         self.inspector_rows.setMinimumWidth(240)
@@ -200,10 +202,11 @@ class StepPage(Page):
         self.inspector_rows.addWidget(self.detail_tabs)
         self.inspector_rows.setStretchFactor(1, 1)
         self.inspector_rows.setStretchFactor(2, 2)
-        self.inspector_rows.setSizes([190, 170, 210])
+        self.inspector_rows.setSizes([165, 135, 270])
         self.card.card_folded.connect(self._fit_step_pane)
         self.session.cursor_changed.connect(self._fit_step_pane)
         self._text_px = current_theme().text_px
+        self._owed_growth = 1.0
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._fit_step_pane()
         return self.inspector_rows
@@ -212,12 +215,22 @@ class StepPage(Page):
     def _follow_theme(self) -> None:
         """Give the side panes as much more room as their text has grown."""
         before, self._text_px = self._text_px, current_theme().text_px
-        left, middle, right = self.columns.sizes()
-        growth = self._text_px / before
-        sides = round(left * growth), round(right * growth)
-        if growth != 1 and sum(sides) < 0.66 * (left + middle + right):
-            self.columns.setSizes([sides[0], left + middle + right - sum(sides), sides[1]])
+        self._owed_growth *= self._text_px / before
+        self._grow_sides()
         self._fit_step_pane()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the side panes what they could not have in a smaller window: large type comes before the full screen."""
+        super().resizeEvent(event)
+        self._grow_sides()
+
+    def _grow_sides(self) -> None:
+        """Widen or narrow the side panes by the growth that they are owed, if the picture keeps a third."""
+        left, middle, right = self.columns.sizes()
+        sides = round(left * self._owed_growth), round(right * self._owed_growth)
+        if not isclose(self._owed_growth, 1.0) and 0 < sum(sides) < 0.66 * (left + middle + right):
+            self._owed_growth = 1.0
+            self.columns.setSizes([sides[0], left + middle + right - sum(sides), sides[1]])
 
     @Slot()
     def _fit_step_pane(self) -> None:

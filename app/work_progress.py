@@ -21,7 +21,8 @@ class WorkProgress(QObject):
     ) -> None:
         super().__init__(parent)
         self._opening, self._tracing, self._messages = opening, tracing, messages
-        self._doing = ""
+        self._title = ""
+        """What is waited for, as ``Opening teapot.obj``."""
         self._slow = QTimer(self)
         self._slow.setSingleShot(True)
         self._slow.setInterval(PROGRESS_AFTER)
@@ -38,7 +39,7 @@ class WorkProgress(QObject):
 
     def begin(self, doing: str) -> None:
         """Show what is being done, if that takes a moment."""
-        self._doing = doing
+        self._title = doing
         self._slow.start()
 
     @Slot()
@@ -53,15 +54,15 @@ class WorkProgress(QObject):
 
     @Slot(object, str)
     def _show_progress(self, fraction: float | None, doing: str) -> None:
-        self._doing = doing or self._doing
         if not self._slow.isActive():
             done = 0 if fraction is None else round(fraction * 100)
-            self._messages.show_progress(Progress(self._doing, done, 0 if fraction is None else 100))
+            text = f"{self._title}: {doing}" if doing else self._title
+            self._messages.show_progress(Progress(text, done, 0 if fraction is None else 100))
 
     @Slot()
     def _show_slow(self) -> None:
         if self.is_busy:
-            self._messages.show_progress(Progress(self._doing, 0, 0))
+            self._messages.show_progress(Progress(self._title, 0, 0))
 
     @Slot(str)
     def _show_busy(self, doing: str) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPoint, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -69,6 +69,7 @@ class BufferTile(QWidget):
                 text = self.grid.value_text(pixel, digits)
                 if metrics.horizontalAdvance(text) <= self.width():
                     break
+            text = metrics.elidedText(text, Qt.TextElideMode.ElideRight, max(self.width(), 1))
         if text != self.value.text():
             self.value.setText(text)
             self.value.setToolTip("" if pixel is None else self.grid.value_text(pixel, digits=0))
@@ -130,6 +131,10 @@ class BufferStrip(QWidget):
         self._row.setSpacing(3 * current_theme().unit)
         self._area = _SidewaysArea(self)
         self._area.setWidget(content)
+        self._bringing = QTimer(self)
+        self._bringing.setSingleShot(True)
+        self._bringing.setInterval(0)  # Once the tiles have been laid out.
+        self._bringing.timeout.connect(self._bring_chosen_into_sight)
         content.setAutoFillBackground(False)
         self._area.viewport().setAutoFillBackground(False)
         whole = QHBoxLayout(self)
@@ -155,7 +160,9 @@ class BufferStrip(QWidget):
             self._fill_menu(buffers)
 
     def show_chosen(self, name: str) -> None:
-        """Mark the title of the buffer that stands in the main view."""
+        """Mark the title of the buffer that stands in the main view, and bring it into sight where it has changed."""
+        if name != self._chosen:
+            self._bringing.start()
         self._chosen = name
         for key, tile in self._tiles.items():
             tile.title.setChecked(key == name)
@@ -244,6 +251,14 @@ class BufferStrip(QWidget):
             self._row.addWidget(tile, 1)
             tile.setVisible(name not in self._hidden)
         self._tiles = tiles
+        self._bringing.start()
+
+    @Slot()
+    def _bring_chosen_into_sight(self) -> None:
+        """Scroll to the buffer that stands in the main view."""
+        tile = self._tiles.get(self._chosen)
+        if tile is not None and not tile.isHidden():
+            self._area.ensureWidgetVisible(tile, 0, 0)
 
     def _make_tile(self, name: str) -> BufferTile:
         """Return a new tile that is linked with the others."""

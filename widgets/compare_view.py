@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from widgets.choice_box import ChoiceBox
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import Overlay
@@ -47,7 +48,7 @@ class CompareView(QWidget):
         super().__init__(parent)
         self.linked = LinkedGrids(("A", "B", "Difference"), self)
         self.grids, self.titles = self.linked.grids, self.linked.titles
-        self.buffer_box, self.family_box, self.value_box = (QComboBox(self) for _ in range(3))
+        self.buffer_box, self.family_box, self.value_box = (ChoiceBox(self) for _ in range(3))
         self.summary = QLabel(self)
         self._settings: tuple[Setting, ...] = ()
         self.linked.pixel_hovered.connect(self.pixel_hovered)

@@ -35,6 +35,8 @@ class FormulaView(QWidget):
     """Size of a formula relative to the widget's text."""
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
+    WIDTH_SHARES = (1.2, 1.5, 2.0)
+    """Widths, as shares of the view's, for which lines are broken too where they would shrink at its own."""
     HURRY_SECONDS = 0.05
     """Formulas that follow each other faster than this (scrubbing, playing) are typeset only now and then."""
 
@@ -134,7 +136,21 @@ class FormulaView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Wrap anew."""
         super().resizeEvent(event)
-        self._lines = self._setter().layout(self._formula, self.width())
+        self._lines = self._best_lines()
+
+    def _best_lines(self) -> tuple[Line, ...]:
+        """Return the lines that can be read largest: where there is little height, fewer of them, a little smaller."""
+        setter = self._setter()
+        lines = setter.layout(self._formula, self.width())
+        if self._scale(lines) == 1.0:
+            return lines
+        others = [setter.layout(self._formula, round(share * self.width())) for share in self.WIDTH_SHARES]
+        return max((lines, *others), key=self._scale)
+
+    def _scale(self, lines: tuple[Line, ...]) -> float:
+        """Return by how much lines shrink to fit into the view, 1 at most."""
+        width, height = extent(lines)
+        return min(1.0, (self.width() - 2 * MARGIN) / width, (self.height() - 2 * MARGIN) / height)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the lines, or what the pane is for."""
@@ -145,9 +161,7 @@ class FormulaView(QWidget):
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
             painter.drawText(self.rect().adjusted(8, 0, -8, 0), flags, self._hint)
             return
-        width, height = extent(self._lines)
-        room = (self.width() - 2 * MARGIN, self.height() - 2 * MARGIN)
-        scale = min(1.0, room[0] / width, room[1] / height)
+        scale = self._scale(self._lines)
         painter.translate(MARGIN, MARGIN)
         painter.scale(scale, scale)
         self._setter().paint(painter, self._lines)
@@ -180,7 +194,7 @@ class FormulaView(QWidget):
         self._refresh()
 
     def _refresh(self) -> None:
-        self._lines = self._setter().layout(self._formula, self.width())
+        self._lines = self._best_lines()
         self._describe()
         self.updateGeometry()
         self.update()

@@ -23,6 +23,8 @@ _FRACTION = re.compile(r"^\\d?frac\{([-\u2212]?\d+(?:\.\d*)?)\}\{([-\u2212]?\d+(
 
 MARGIN = 8
 """Room around a formula, in logical pixels."""
+SPACE = r"\quad"
+"""What stands between two equations of one row."""
 SHRINK = 0.85
 """A formula shrinks by this much before it wraps."""
 
@@ -58,6 +60,20 @@ class Line:
     descent: float
     gap: float
     """Room above the line."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Columns:
+    """Cells of one or two rows that stand under each other, with the room that each column takes."""
+
+    rows: list[list[tuple[str, str]]]
+    boxes: list[list[QRectF]]
+    widths: list[float]
+    pads: list[float]
+
+    def extent(self, start: int, stop: int) -> float:
+        """Return the width of the columns from ``start`` to ``stop``, which is excluded."""
+        return sum(self.widths[start:stop]) + 2 * sum(self.pads[start:stop])
 
 
 class FormulaSetter:
@@ -97,41 +113,50 @@ class FormulaSetter:
         return tuple(line for row in rows for line in self._layout_together([row], width))
 
     def _layout_together(self, rows: list[list[tuple[str, str]]], width: int) -> tuple[Line, ...]:
-        """Break the columns of one or two aligned rows into lines no wider than `width`."""
+        """Break the columns of one or two aligned rows into lines no wider than `width`.
+
+        A row of several equations, with `SPACE` between them, is broken between two of them if it can be.
+        """
         room = self._size * 0.28
-        cells = [latex for latex, _ in rows[0]]
         boxes = [[self._box(latex, color) for latex, color in row] for row in rows]
         widths = [max(box.width() for box in column) for column in zip(*boxes, strict=True)]
         pads = [room if is_operator(rows[0][k][0]) else 0.0 for k in range(len(widths))]
-        lines: list[Line] = []
+        columns = _Columns(rows, boxes, widths, pads)
         limit = width - 2.0 * MARGIN
-        if limit < sum(widths) + 2 * sum(pads) <= limit / SHRINK:
+        if limit < columns.extent(0, len(widths)) <= limit / SHRINK:
             limit /= SHRINK
-        start = 0
-        while start < len(widths):
+        lines: list[Line] = []
+        for start, stop in _equations(columns, limit):
+            lines += self._wrap(columns, start, stop, limit, is_first=not lines)
+        return tuple(lines)
+
+    def _wrap(self, columns: "_Columns", first: int, end: int, limit: float, *, is_first: bool) -> list[Line]:
+        """Break the columns ``first`` to ``end`` (excluded) where a line may begin; lines but the first move in."""
+        cells = [latex for latex, _ in columns.rows[0]]
+        lines: list[Line] = []
+        start = first
+        while start < end:
             stop, total = start, 0.0
-            while stop < len(widths):
-                after = next(
-                    (k for k in range(stop + 1, len(widths)) if may_begin_line(cells, k)), len(widths)
-                )
-                step = sum(widths[stop:after]) + 2 * sum(pads[stop:after])
+            while stop < end:
+                after = next((k for k in range(stop + 1, end) if may_begin_line(cells, k)), end)
+                step = columns.extent(stop, after)
                 if stop > start and total + step > limit:
                     break
                 total += step
                 stop = after
-            for index, row in enumerate(rows):
-                left = 0.0 if start == 0 else self._size
+            for index, (row, boxes) in enumerate(zip(columns.rows, columns.boxes, strict=True)):
+                left = 0.0 if start == first else self._size
                 pieces = []
                 for k in range(start, stop):
-                    slack = (widths[k] - boxes[index][k].width()) / 2
-                    pieces.append(Piece(*row[k], left + pads[k] + slack, boxes[index][k].width()))
-                    left += widths[k] + 2 * pads[k]
-                ascent = max(-boxes[index][k].top() for k in range(start, stop))
-                descent = max(boxes[index][k].bottom() for k in range(start, stop))
-                gap = 0.0 if not lines else self._size * (0.32 if index else 0.7)
+                    slack = (columns.widths[k] - boxes[k].width()) / 2
+                    pieces.append(Piece(*row[k], left + columns.pads[k] + slack, boxes[k].width()))
+                    left += columns.widths[k] + 2 * columns.pads[k]
+                ascent = max(-boxes[k].top() for k in range(start, stop))
+                descent = max(boxes[k].bottom() for k in range(start, stop))
+                gap = 0.0 if is_first and not lines else self._size * (0.32 if index else 0.7)
                 lines.append(Line(tuple(pieces), ascent, descent, gap))
             start = stop
-        return tuple(lines)
+        return lines
 
     def _box(self, latex: str, color: str) -> QRectF:
         size = self._size
@@ -188,6 +213,23 @@ class FormulaSetter:
             painter.drawText(QPointF(left, baseline + shift * size), _minus(text))
         rule = QRectF(piece.left, baseline - 0.29 * size, piece.width, max(1.0, 0.068 * size))
         painter.fillRect(rule, QColor(piece.color))
+
+
+def _equations(columns: _Columns, limit: float) -> list[tuple[int, int]]:
+    """Return first and end column of the parts that begin lines of their own: as many equations as fit on one.
+
+    The space before an equation that begins a line is left out.
+    """
+    cells = [latex for latex, _ in columns.rows[0]]
+    spaces = [k for k, cell in enumerate(cells) if cell == SPACE]
+    parts = []
+    start = 0
+    for number, space in enumerate(spaces):
+        following = spaces[number + 1] if number + 1 < len(spaces) else len(cells)
+        if space > start and columns.extent(start, following) > limit:
+            parts.append((start, space))
+            start = space + 1
+    return [*parts, (start, len(cells))]
 
 
 def extent(lines: tuple[Line, ...]) -> tuple[float, float]:

@@ -75,7 +75,7 @@ class Histogram(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """Return the least size at which a handle can be taken."""
-        return QSize(80, 40)
+        return QSize(40, 40)
 
     def position_of(self, value: float) -> float:
         """Return the widget x of a value."""
@@ -85,15 +85,15 @@ class Histogram(QWidget):
         return _MARGIN + part * (self.width() - 2 * _MARGIN)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint bars, band and handles."""
+        """Paint bars, band and handles; switched off, nothing: they would be those of another buffer."""
+        if not self.isEnabled():
+            return
         theme = current_theme()
         with QPainter(self) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             floor = self.height() - _BAND - 4
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(theme.outline))
-            if not self.isEnabled():
-                painter.setOpacity(0.35)
             # One full bar of background must not flatten the others: the scale follows the second highest.
             scale = max(float(np.sort(self._counts)[-2]) * 1.25, 1.0)
             heights = np.sqrt(np.minimum(self._counts / scale, 1.0)) * (floor - 6)

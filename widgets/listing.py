@@ -19,6 +19,7 @@ from PySide6.QtGui import (
     QPalette,
     QPolygonF,
     QResizeEvent,
+    QShowEvent,
     QTextCharFormat,
     QTextCursor,
     QTextOption,
@@ -32,6 +33,9 @@ from widgets.theme import current_theme, theme_notifier
 _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
+
+HINT = "The algorithm of the stage appears here, with the line of each step marked."
+"""What an empty pane is for."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ class ListingView(QPlainTextEdit):
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
-        self.setPlaceholderText("The algorithm of the stage appears here, with the line of each step marked.")
+        self.show_hint(HINT)
         self.setCornerWidget(QWidget(self))
         self.setAccessibleName("Listing")
         self.viewport().setCursor(Qt.CursorShape.ArrowCursor)
@@ -131,6 +135,11 @@ class ListingView(QPlainTextEdit):
         self.updateRequest.connect(self._follow_scroll)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
+
+    @Slot(str)
+    def show_hint(self, text: str) -> None:
+        """Say this where there is no listing."""
+        self.setPlaceholderText(text)
 
     @Slot(object)
     def show_listing(self, listing: ListingText | None) -> None:
@@ -151,11 +160,16 @@ class ListingView(QPlainTextEdit):
         self._line = line
         self._mark_line()
         self.setAccessibleDescription(f"Line {line} has just run" if line else "")
-        if line is not None:
-            block = self.document().findBlockByNumber(line - 1)
-            if block.isValid() and not self.textCursor().hasSelection():
-                self.setTextCursor(QTextCursor(block))
-                self.ensureCursorVisible()
+        self._bring_line_into_view()
+
+    def _bring_line_into_view(self) -> None:
+        """Scroll to the marked line, unless text is being selected."""
+        if self._line is None or self.textCursor().hasSelection():
+            return
+        block = self.document().findBlockByNumber(self._line - 1)
+        if block.isValid():
+            self.setTextCursor(QTextCursor(block))
+            self.ensureCursorVisible()
 
     @Slot(object)
     def show_breakpoints(self, lines: Collection[int]) -> None:
@@ -221,9 +235,15 @@ class ListingView(QPlainTextEdit):
             block = block.next()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Keep the margin beside the text."""
+        """Keep the margin beside the text, and the line of the step in view."""
         super().resizeEvent(event)
         self._place_margin()
+        self._bring_line_into_view()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Bring the line into view that was marked while nobody saw it."""
+        super().showEvent(event)
+        self._bring_line_into_view()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Remember where a click began."""

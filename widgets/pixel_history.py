@@ -1,7 +1,7 @@
 """Everything that happened to one pixel: the verdict, then each event with before, out, after and reason."""
 
 from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent
+from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -29,6 +29,9 @@ from widgets.theme import current_theme, theme_notifier
 
 __all__ = ["HistoryEntry", "PixelHistory", "PixelStory", "PixelValue"]
 
+HINT = "Point at a pixel or click one: what happened to it appears here."
+"""What an empty pane is for."""
+
 
 class PixelHistory(QWidget):
     """Verdict, filter and rows; double click or Enter jumps to the row's step."""
@@ -37,6 +40,8 @@ class PixelHistory(QWidget):
     """The user wants to go to an entry, by its number in the story (also when rejected ones are left out)."""
     rejected_toggled = Signal(bool)
     """The user shows (True) or leaves out (False) rejected fragments."""
+    history_shown = Signal()
+    """The pane has come into sight, by its tab or with its page: its owner may have told it nothing meanwhile."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -48,7 +53,7 @@ class PixelHistory(QWidget):
         self._filter.setSourceModel(self._model)
         self._icon = QLabel(self)
         self.verdict = QLabel(self)
-        self.verdict.setProperty("role", "title")
+        self.verdict.setProperty("role", "strong")
         self.verdict.setWordWrap(True)
         self.verdict.setAccessibleName("Verdict")
         self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -96,15 +101,14 @@ class PixelHistory(QWidget):
         self.show_story(None)
 
     @Slot(object)
-    def show_story(self, story: PixelStory | None) -> None:
-        """Show the history of a pixel, or the hint for an empty pane."""
+    def show_story(self, story: PixelStory | None, hint: str = HINT) -> None:
+        """Show the history of a pixel, or the hint why the pane is empty."""
         self._story = story
         entries = story.entries if story else ()
         self._model.show_entries(entries)
-        hint = "Point at a pixel or click one: what happened to it appears here."
         self.verdict.setText(story.verdict if story else hint)
         is_hint = story is None
-        set_role(self.verdict, "muted" if is_hint else "title")
+        set_role(self.verdict, "muted" if is_hint else "strong")
         for part in (self.view, self._header):
             part.setVisible(bool(entries))
         rejected = sum(entry.is_rejected for entry in entries)
@@ -115,6 +119,11 @@ class PixelHistory(QWidget):
             self.place.setText(f"Pixel column {story.column}, row {story.row}")
         self._bring_current_into_view()
         self._follow_theme()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Tell that the pane is in sight."""
+        super().showEvent(event)
+        self.history_shown.emit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the row of the step just done in view."""
@@ -150,7 +159,7 @@ class PixelHistory(QWidget):
         mark = self._story.mark if self._story else None
         self._icon.setVisible(mark is not None)
         if mark is not None:
-            side = current_theme().title_px + 3
+            side = current_theme().text_px + 3
             self._icon.setPixmap(mark_pixmap(mark, side, self.devicePixelRatioF()))
             self._icon.setToolTip(mark.value)
         self.view.viewport().update()

@@ -64,6 +64,9 @@ class RangeControl(QWidget):
         has_range = buffer is not None and buffer.kind in ("scalar", "signed")
         self.setEnabled(has_range)
         if buffer is None or not has_range:
+            for edit in (self._low_edit, self._high_edit):
+                edit.clear()
+                edit.setToolTip("")
             return
         colormap = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
         self._histogram.show_values(buffer.values, colormap if buffer.channels == 1 else "grey")

@@ -1,6 +1,6 @@
 """Starting long work, cancelling it, and how far it has come: the same controls on every page that runs something."""
 
-from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QProgressBar, QPushButton, QSizePolicy, QWidget
 
 from widgets.elided_label import ElidedLabel
 from widgets.message_bar import Progress
@@ -21,6 +21,8 @@ class RunControls:
         self.doing = ElidedLabel(parent)
         self.doing.setProperty("role", "muted")
         self.doing.setFixedWidth(320)
+        # An elided label takes any width by itself; here it keeps its own, so that a line that is full wraps.
+        self.doing.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
 
     @property
     def widgets(self) -> tuple[QWidget, ...]:

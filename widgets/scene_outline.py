@@ -201,7 +201,8 @@ class SceneOutline(QScrollArea):
         heading.setObjectName(group.path)
         heading.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         heading.setArrowType(Qt.ArrowType.DownArrow if group.is_open else Qt.ArrowType.RightArrow)
-        heading.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        # As wide as the panel, not as its text: a long title is shortened, and the numbers stay in sight.
+        heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         heading.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         heading.setToolTip(f"Show or hide {group.title}")
         heading.clicked.connect(self._fold)

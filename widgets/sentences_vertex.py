@@ -190,7 +190,9 @@ def new_corner(step: StepValues) -> str:
 
 def untouched(step: StepValues) -> str:
     """A triangle that clipping leaves alone."""
-    return f"Triangle {step.triangle} goes on as it is: no plane is clipped against that crosses it."
+    return (
+        f"Triangle {step.triangle} goes on as it is: it crosses none of the planes that are clipped against."
+    )
 
 
 SENTENCES: Mapping[str, Callable[[StepValues], str]] = {

@@ -4,18 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QPaintEvent, QStandardItem, QStandardItemModel, QWheelEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QGridLayout,
-    QLabel,
-    QSizePolicy,
-    QStyle,
-    QStyleOptionComboBox,
-    QStylePainter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtGui import QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.choice_box import ChoiceBox
 
 
 @dataclass(frozen=True)
@@ -44,24 +36,6 @@ class Setting:
     """Heading above the first setting of a group; empty: none."""
 
 
-class _Choice(QComboBox):
-    """A combo box that a wheel over the panel does not change and that shortens its text with an ellipsis."""
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QStylePainter(self)
-        option = QStyleOptionComboBox()
-        self.initStyleOption(option)
-        painter.drawComplexControl(QStyle.ComplexControl.CC_ComboBox, option)
-        part = QStyle.SubControl.SC_ComboBoxEditField
-        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, self).width()
-        text = self.fontMetrics().elidedText(self.currentText(), Qt.TextElideMode.ElideRight, room - 4)
-        option.currentText = text
-        painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        event.ignore()
-
-
 class SettingsPanel(QWidget):
     """A row per family: label and choice; what cannot be chosen says why."""
 
@@ -71,7 +45,7 @@ class SettingsPanel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._settings: tuple[Setting, ...] = ()
-        self._combos: dict[str, _Choice] = {}
+        self._combos: dict[str, ChoiceBox] = {}
         self._labels: dict[str, QLabel] = {}
         self._body: QWidget | None = None
         self._layout = QVBoxLayout(self)
@@ -127,7 +101,7 @@ class SettingsPanel(QWidget):
                 heading.setContentsMargins(0, 8 if row else 0, 0, 0)
                 grid.addWidget(heading, row, 0, 1, 2)
                 row += 1
-            combo = _Choice(body)
+            combo = ChoiceBox(body)
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)

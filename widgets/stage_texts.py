@@ -38,14 +38,14 @@ STAGE_CARDS: Mapping[str, StageCard] = {
         source="LMU 2020, Culling; Jubair, Backface culling",
     ),
     "clip": StageCard(
-        title="Clip: cutting at the planes of the view volume",
+        title="Clip: cutting at the view volume",
         gets="Triangles in clip space, some of which reach through a plane.",
         gives="Triangles wholly inside: the polygon of each cut one is split into a fan.",
         purpose="Makes every w positive, for methods that divide by it; homogeneous drawing does without.",
         source="Sutherland and Hodgman 1974; Pellacini, Polygon clipping",
     ),
     "edges": StageCard(
-        title="Edge functions: one linear function for every edge",
+        title="Edges: one linear function for each",
         gets="The three corners of a triangle as (x, y, w) in the window.",
         gives="Three functions E = a x + b y + c that are positive inside the triangle.",
         purpose="Turns the question whether a pixel is inside into three signs, for any signs of w.",
@@ -73,7 +73,7 @@ STAGE_CARDS: Mapping[str, StageCard] = {
         source="Zwicker 2016, Perspective correct interpolation; Jubair, Barycentric interpolation",
     ),
     "shade": StageCard(
-        title="Texture and shade: the colour of a fragment",
+        title="Shade: the colour of a fragment",
         gets="The interpolated values, textures, lights and materials.",
         gives="One linear colour with alpha for every fragment.",
         purpose="Looks the surface's colour up and lights it.",

@@ -3,12 +3,22 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
-from PySide6.QtGui import QGuiApplication, QKeyEvent, QKeySequence, QStandardItem, QStandardItemModel
+from PySide6.QtGui import (
+    QGuiApplication,
+    QKeyEvent,
+    QKeySequence,
+    QPainter,
+    QPaintEvent,
+    QStandardItem,
+    QStandardItemModel,
+)
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
+from widgets.caption_paint import paint_empty
 from widgets.series_marks import series_icon
 from widgets.theme import current_theme, theme_notifier
 
+EMPTY = "The numbers of every method stand here as soon as they are measured."
 _FULL = int(Qt.ItemDataRole.UserRole)
 _KEY = _FULL + 1
 _NOTE_WIDTH = 360
@@ -71,6 +81,13 @@ class StudyTable(QTableView):
         """Show a table; the order that the user chose stays."""
         self._record = record
         self._rebuild()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the cells, or say what comes here."""
+        super().paintEvent(event)
+        if not self._record.head:
+            with QPainter(self.viewport()) as painter:
+                paint_empty(painter, self.viewport().rect(), EMPTY, current_theme())
 
     def text(self) -> str:
         """Return the chosen rows, or all, with their headings: cells apart by tabs, numbers with all digits."""

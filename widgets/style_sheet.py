@@ -105,6 +105,7 @@ QProgressBar { background: $panel; border: 1px solid $outline; border-radius: 3p
 QProgressBar::chunk { background: $outline; }
 QLabel[role="muted"] { color: $muted_text; }
 QLabel[role="title"] { font-size: ${title_px}px; font-weight: 600; }
+QLabel[role="strong"] { font-weight: 600; }
 QLabel[role="bad"] { color: $bad; }
 QLabel[role="good"] { color: $good; }
 QWidget[role="panel"] { background: $panel; border-radius: 4px; }
@@ -115,7 +116,7 @@ QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 def style_sheet(theme: "Theme") -> str:
     """Return the application's style sheet for ``theme``.
 
-    Labels may set the property ``role`` to muted, title, good or bad, containers to panel or kept, and buttons
+    Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, and buttons
     ``flat`` to true.
     """
     unit = theme.unit

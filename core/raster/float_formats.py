@@ -53,6 +53,8 @@ def rounded_corner(x: float, y: float, w: float, number: type[np.floating[Any]])
 
 
 SNAPPED = Float64Format("snapped", np.float64, "snapped", "exact", "float64", suits_spans=True)
-FLOAT64 = Float64Format("float64", np.float64, "homogeneous", "exact", "float64", suits_spans=True)
+FLOAT64 = Float64Format(
+    "float64", np.float64, "homogeneous", "exact", "float64", suits_spans=True, bounds_outward=True
+)
 FLOAT32 = RoundedFormat("float32", np.float32, "rounded", "rounded", "float32", bounds_outward=True)
 FLOAT16 = RoundedFormat("float16", np.float16, "rounded", "rounded", "float16", bounds_outward=True)

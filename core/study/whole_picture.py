@@ -42,7 +42,7 @@ MEASURES = (MEAN_COLOR, LARGEST_COLOR, WRONG_VISIBLE, SAMPLED_COLOR)
 
 LOOKS = ("cull", "polygon_mode", "pixel_center", "provoking", "wrap", "shading", "blend", "line")
 """Families that choose what is to be seen, not how well: the reference takes them from the settings given."""
-SCALES = Dial("scale", "Size of the picture, of the scene's", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
+SCALES = Dial("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
 
 
 class PictureTask(Task):

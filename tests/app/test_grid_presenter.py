@@ -1,12 +1,15 @@
 """The grids of the page: the same arrays as the trace, overlays, ranges, and handles on the triangle in question."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from pytestqt.qtbot import QtBot
 
 from app.document import open_document
-from app.grid_records import buffers_of, mask_overlays
+from app.grid_records import OUTLINE_LIMIT, buffers_of, mask_overlays
 from app.main_window import MainWindow
-from core import STAGES
+from core import STAGES, ClipScene
 from lessons.scenes import make_scene
 from widgets.grid_overlay import MaskOverlay
 
@@ -100,3 +103,30 @@ def test_only_a_history_in_sight_is_told(window: MainWindow) -> None:
     assert "Point at a pixel" in page.history.verdict.text()
     page.detail_tabs.setCurrentWidget(page.history)
     assert "Point at a pixel" not in page.history.verdict.text()
+
+
+@pytest.mark.parametrize("triangle", [None, 1500])
+def test_of_many_triangles_only_the_one_in_focus_is_outlined(
+    window: MainWindow, triangle: int | None
+) -> None:
+    document = open_document(make_scene("torus"), "Torus")
+    assert document.triangle_count > OUTLINE_LIMIT
+    window.session.open(replace(document, triangle=triangle))
+    geometry = window.page.grids.geometry
+    assert len(geometry.triangles) == 1
+    wanted = 0 if triangle is None else triangle
+    assembled = window.session.trace.source.geometry
+    corner = assembled.vertices.corners[wanted, 0]
+    origin = window.session.trace.source.raster.bounds[:2]
+    assert np.array_equal(geometry.vertices[0], assembled.vertices.window[corner, :2] - origin)
+
+
+def test_a_corner_of_one_of_many_triangles_is_dragged(window: MainWindow, qtbot: QtBot) -> None:
+    clip = np.tile([[-0.5, -0.5, 0.0, 1.0], [0.5, -0.5, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]], (500, 1, 1))
+    scene = ClipScene(clip, size=(16, 16))
+    window.session.open(replace(open_document(scene, "Many"), triangle=450))
+    window.page.grid.vertex_dragged.emit(1, 14.0, 4.0)
+    qtbot.waitUntil(lambda: window.session.document.scene is not scene, timeout=20000)
+    moved = window.session.document.scene
+    assert isinstance(moved, ClipScene)
+    assert np.argwhere((moved.clip != scene.clip).any(axis=2)).tolist() == [[450, 1]]

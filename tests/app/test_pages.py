@@ -177,3 +177,44 @@ def test_what_cannot_be_stepped_is_told(window: MainWindow, qtbot: QtBot) -> Non
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=20000)
     assert "perspective" in window.messages.text.text()
     assert window.session.document is before
+
+
+def test_the_history_of_a_pixel_that_is_opened_from_another_page_is_told(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    window.session.set_pin((3, 3))
+    window.pages.show_page("compare")
+    opening = Opening(make_scene("single-triangle"), Settings(), "raster", (20, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "One triangle"))
+    assert window.page.history.place.text() == "Pixel column 20, row 20"
+    assert "Triangle 0 is seen here" in window.page.history.verdict.text()
+
+
+def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    first, second = Settings(polygon_mode="wireframe"), Settings()
+    opening = Opening(make_scene("single-triangle"), first, "raster", (27, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "Two", second))
+    assert "A has no step at pixel (27, 20)" in window.statusBar().currentMessage()
+    window.page.compare_view.swap_requested.emit()
+    window.run_action("next_at_pin")
+    row = window.session.stage_trace.steps.row_at(window.session.cursor.position)[0]
+    assert window.session.stage_trace.pixel[row].tolist() == [27, 20]
+
+
+def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1000, 700)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
+    before = window.page.columns.sizes()
+    window.look.set_theme("presenter")
+    window.resize(1900, 1000)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) > 1800)
+    left, middle, right = window.page.columns.sizes()
+    assert left > 1.4 * before[0]
+    assert right > 1.4 * before[2]
+    assert middle > 0.33 * 1800
+    window.look.set_theme("light")
+    assert window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12)

@@ -26,7 +26,7 @@ def test_results_are_hidden_while_asking(asking: MainWindow) -> None:
     assert all(len(places) == 0 for places in page.timeline.bar.run().marks.values())
     asking.session.set_pin((30, 20))
     page.detail_tabs.setCurrentWidget(page.history)
-    assert "Point at a pixel" in page.history.verdict.text()
+    assert "stays hidden until prediction" in page.history.verdict.text()
     assert page.pointed_text((30, 20)) == ""
 
 
@@ -95,3 +95,12 @@ def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow, stage:
             assert (asked is None) == ("nothing to predict" in view.question.text())
     session.go_to(session.stage_trace.steps.count)
     assert view.question.text().startswith("This stage is done.")
+
+
+def test_a_history_that_is_hidden_says_so(window: MainWindow) -> None:
+    window.session.set_pin((20, 20))
+    assert window.page.history.place.isVisible()
+    window.toggle_predict()
+    assert "until prediction is turned off" in window.page.history.verdict.text()
+    window.toggle_predict()
+    assert window.page.history.place.text() == "Pixel column 20, row 20"

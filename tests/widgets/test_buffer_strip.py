@@ -148,3 +148,29 @@ def test_titles_are_reached_by_the_keyboard(strip: BufferStrip, qtbot) -> None:
         QTest.keyClick(title, Qt.Key.Key_Space)
     assert chosen.args == ["w"]
     assert title.accessibleName() == "Show w in the main view"
+
+
+def test_the_chosen_buffer_comes_into_sight_where_the_buffers_have_changed(strip: BufferStrip, qtbot) -> None:
+    def is_in_sight(name: str) -> bool:
+        tile = strip.tile(name)
+        left = tile.mapTo(strip, QPoint(0, 0)).x()
+        return left >= 0 and left + tile.width() <= strip.width()
+
+    strip.resize(300, 200)
+    names = [f"buffer {number}" for number in range(8)]
+    strip.show_buffers([GridBuffer(name, np.zeros((3, 4))) for name in names])
+    strip.show_chosen("buffer 7")
+    qtbot.waitUntil(lambda: is_in_sight("buffer 7"))
+    strip.show_buffers([GridBuffer(name, np.zeros((3, 4))) for name in ["first", *names]])
+    strip.show_chosen("first")
+    qtbot.waitUntil(lambda: is_in_sight("first") and not is_in_sight("buffer 7"))
+
+
+def test_a_value_that_is_too_long_ends_in_an_ellipsis(strip: BufferStrip, qtbot) -> None:
+    strip.show_buffers([GridBuffer("picture", np.full((2, 2, 4), 255, np.uint8), "color")])
+    tile = strip.tile("picture")
+    tile.resize(60, 120)
+    tile.show_value((0, 0))
+    assert tile.value.text().endswith("…")
+    assert tile.value.fontMetrics().horizontalAdvance(tile.value.text()) <= 60
+    assert tile.value.toolTip() == "(255, 255, 255, 255)"

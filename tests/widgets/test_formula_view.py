@@ -214,3 +214,29 @@ def test_an_empty_view_says_what_it_is_for_and_the_formula_is_spoken(qtbot, view
     view.show_formula(None)
     assert view.accessibleDescription() == ""
     assert view.accessibleName() == "Formula"
+
+
+EQUATIONS = Formula(
+    r"x = \frac{a}{256} \quad y = \frac{b}{256}", r"57 = \frac{c}{256} \quad 15 = \frac{d}{256}"
+)
+
+
+def test_two_equations_are_parted_between_them(qtbot, view) -> None:
+    view.show_formula(EQUATIONS)
+    wait_for_typesetting(qtbot, view)
+    assert len(view._lines) == 2
+    width = max(piece.left + piece.width for piece in view._lines[0].pieces)
+    view.resize(round(0.8 * width), 400)
+    texts = [[piece.latex for piece in line.pieces] for line in view._lines]
+    assert [line[:2] for line in texts] == [["x", "="], ["57", "="], ["y", "="], ["15", "="]]
+    assert all(line.pieces[0].left < 30 for line in view._lines)
+
+
+def test_a_low_view_shows_lines_that_are_read_largest(qtbot, view) -> None:
+    view.show_formula(EQUATIONS)
+    wait_for_typesetting(qtbot, view)
+    one_line = max(piece.left + piece.width for piece in view._lines[0].pieces)
+    view.resize(round(0.8 * one_line), 70)
+    assert len(view._lines) == 2, "one line, a little smaller, instead of two that are half as large"
+    view.resize(round(0.8 * one_line), 400)
+    assert len(view._lines) == 4

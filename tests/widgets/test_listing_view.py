@@ -120,3 +120,21 @@ def test_an_empty_pane_says_what_it_is_for(view) -> None:
     assert view.toPlainText() == ""
     assert "algorithm" in view.placeholderText()
     assert view.line_at(5) is None
+
+
+def test_the_marked_line_is_in_view_in_a_view_that_shrinks_or_was_hidden(qtbot, view) -> None:
+    def is_in_view(line: int) -> bool:
+        block = view.document().findBlockByNumber(line - 1)
+        box = view.blockBoundingGeometry(block).translated(view.contentOffset())
+        return box.top() >= 0 and box.bottom() <= view.viewport().height()
+
+    view.show_listing(ListingText("long", "\n".join(f"line_{number} = {number}" for number in range(1, 41))))
+    view.show_line(10)
+    assert is_in_view(10)
+    view.resize(420, 90)
+    assert is_in_view(10)
+    view.hide()
+    view.show_line(31)
+    view.resize(420, 80)
+    view.show()
+    qtbot.waitUntil(lambda: is_in_view(31))

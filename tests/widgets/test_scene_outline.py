@@ -106,3 +106,9 @@ def test_an_empty_outline_says_what_it_is_for(outline) -> None:
     assert outline.widget() is not None
     with pytest.raises(KeyError):
         outline.field("tri0/v0/x")
+
+
+def test_a_long_title_does_not_push_the_numbers_out_of_sight(outline) -> None:
+    group = OutlineGroup("scene", "Bresenham, integers and DDA, slope added per column, first divergence", ())
+    outline.show_groups((group, *groups()))
+    assert outline.widget().minimumSizeHint().width() <= outline.width()

@@ -283,3 +283,25 @@ def test_only_what_is_possible_is_offered(pictures: StudyPictures, qtbot: QtBot)
     assert pictures.heading.text() == "Drawing …"
     assert not pictures.step_button.isEnabled()
     assert all(grid.buffer() is None for grid in pictures.linked.grids)
+
+
+def test_what_is_being_done_is_in_the_panel_at_any_width(controls, qtbot) -> None:
+    for width in (620, 760, 900, 990):
+        controls.resize(width, 200)
+        controls.show_progress(Progress("Bresenham, round 2 of 9", 1, 9))
+        controls.layout().activate()
+        right = controls.doing.mapTo(controls, controls.doing.rect().topRight()).x()
+        assert right <= controls.width(), width
+
+
+def test_a_table_without_numbers_says_what_comes_there(table: StudyTable) -> None:
+    def written() -> int:
+        picture = table.viewport().grab().toImage()
+        ground = picture.pixel(2, 2)
+        middle = range(picture.height() // 2 - 12, picture.height() // 2 + 12)
+        return sum(picture.pixel(x, y) != ground for y in middle for x in range(picture.width()))
+
+    table.show_table(TableRecord((), (), ()))
+    assert written() > 200
+    table.show_table(TableRecord(("Method",), (), ()))
+    assert written() == 0

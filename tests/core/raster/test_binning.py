@@ -148,3 +148,16 @@ def test_edge_ranges_are_those_of_the_pixels(case, block_size: int) -> None:
         for k in range(3):
             values = edges.a[t, k] * x[None, :] + (edges.b[t, k] * y[:, None] + edges.c[t, k])
             assert (blocks.low[n, k], blocks.high[n, k]) == (values.min(), values.max())
+
+
+@pytest.mark.parametrize("coverage", ["float64", "float32", "float16", "inverse", "exact"])
+def test_formats_that_do_not_snap_look_at_no_more_than_a_pixel_around_the_box(coverage: str) -> None:
+    clip = clip_of_window([[(2.5, 2.5), (5.25, 2.5), (2.5, 6.75)]], SIZE)
+    boxes = bound(edges_of(clip, SIZE, coverage), make_raster(SIZE, "half", None))
+    found = [int(values[0]) for values in boxes]
+    assert found[1:] == [2, 2, 6, 7]
+    behind = bound(
+        edges_of(clip * np.array([1, 1, 1, -1.0])[None, None], SIZE, coverage),
+        make_raster(SIZE, "half", None),
+    )
+    assert int(behind.case[0]) == BEHIND

@@ -162,7 +162,7 @@ def judge_cover(scene: ClipScene, settings: Settings, wanted: Integers) -> Verdi
 
 def _counted(missing: int, extra: int, count: int) -> str:
     """Return in words how many pixels are wrong."""
-    return f"{missing} of {count} pixels missing, {extra} drawn too often"
+    return f"{missing:,} of {count:,} pixels missing, {extra:,} drawn too often"
 
 
 def judge_mesh(scene: ClipScene, settings: Settings) -> Verdict:
