@@ -2,8 +2,8 @@
 
 The box of a triangle is walked row by row. Its first value is evaluated, the first of every other row is that of the
 row below plus b, and along a row a is added. One addition a pixel and edge in the place of two products and two sums:
-exact where sums are (``snapped``, ``int64``, ``exact``); where each sum is rounded, the errors add up along the way,
-and the edge drifts.
+exact where sums are (``int64``, ``exact``, and ``snapped`` where an end of every edge is before the eye); where each
+sum is rounded, the errors add up along the way, and the edge drifts.
 
 The walk starts at the corner of the box in the *image*, whatever region of it is drawn, so that every region shows its
 part of the picture.
