@@ -47,26 +47,32 @@ class RangeControl(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(2 * current_theme().unit)
-        row.addWidget(self._low_edit)
-        row.addWidget(self._histogram, 1)
-        row.addWidget(self._high_edit)
-        row.addWidget(self._fit_button)
-        row.addWidget(self._reset_button)
+        self._parts = (
+            self._low_edit,
+            self._histogram,
+            self._high_edit,
+            self._fit_button,
+            self._reset_button,
+        )
+        for part in self._parts:
+            policy = part.sizePolicy()
+            policy.setRetainSizeWhenHidden(True)
+            part.setSizePolicy(policy)
+            row.addWidget(part, 1 if part is self._histogram else 0)
         self.setAccessibleName("Colour range")
         theme_notifier().theme_changed.connect(self._take_font)
         self._take_font()
         self._show_ends()
-        self.setEnabled(False)
+        self.show_buffer(None)
 
     def show_buffer(self, buffer: GridBuffer | None) -> None:
-        """Show the values and the range of a buffer; kinds that have no range switch the control off."""
+        """Show the values and the range of a buffer; of kinds that have no range the place stays empty."""
         self._buffer = buffer
         has_range = buffer is not None and buffer.kind in ("scalar", "signed")
         self.setEnabled(has_range)
+        for part in self._parts:
+            part.setVisible(has_range)
         if buffer is None or not has_range:
-            for edit in (self._low_edit, self._high_edit):
-                edit.clear()
-                edit.setToolTip("")
             return
         colormap = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
         self._histogram.show_values(buffer.values, colormap if buffer.channels == 1 else "grey")
