@@ -71,7 +71,7 @@ def every_choice() -> list[Settings]:
     return found
 
 
-def steps_of(traced: Trace, most: int = 200) -> Iterator[Step]:
+def steps_of(traced: Trace, most: int = 110) -> Iterator[Step]:
     """Yield the steps of all stages; of a long stage, ``most`` spread over it."""
     for stage in STAGES:
         of_stage = traced.stage(stage)
