@@ -7,7 +7,7 @@ off by more than one. What the bounds leave out are triangles hardly wider than 
 colours are those of the unsnapped triangle and may leave the range of its corners there, these do not.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -111,6 +111,9 @@ def vertex_bytes(job: Job) -> VertexBytes:
     values, encoding = job.geometry.primitives.values, job.encoding
     for rows, of_encoding, known in _last:
         if rows is values.rows and of_encoding == encoding:
+            if known.products and known.most_product == np.inf and _are_of_vertices(job):
+                known = replace(known, most_product=_most_product(job, known))
+                _last[:] = [(rows, encoding, known)]
             return known
     mesh = np.zeros(len(values.rows), np.int64)
     surface = shade_fragments(job.scene, job.settings, values.layout, mesh, values.rows)
@@ -129,6 +132,27 @@ def vertex_bytes(job: Job) -> VertexBytes:
     made = VertexBytes(encoded, products, bool((surface.color[:, 3] == 1).all()), cut_off)
     _last[:] = [(values.rows, encoding, made)]
     return made
+
+
+def _are_of_vertices(job: Job) -> bool:
+    """Tell whether the values belong to the sides of the scene's vertices, all fronts first, then all backs."""
+    geometry = job.geometry
+    values, corner = geometry.primitives.values, geometry.vertices.corner_rows
+    if geometry.primitives is not geometry.kept or len(values.rows) % len(geometry.vertices.clip):
+        return False
+    vertex = values.index % len(geometry.vertices.clip)
+    return np.array_equal(vertex, corner.take(geometry.primitives.triangle, axis=1))
+
+
+def _most_product(job: Job, vertices: VertexBytes) -> float:
+    """Return the largest product error of all sides of all triangles of the scene, drawn or not."""
+    corner, count = job.geometry.vertices.corner_rows, len(job.geometry.vertices.clip)
+    most = 0.0
+    for first in range(0, vertices.encoded.shape[1], count):
+        index = corner + first
+        low = np.minimum.reduce([vertices.encoded.take(of, axis=1) for of in index])
+        most = max(most, float(product_error(vertices, index, low, job.encoding).max(initial=0)))
+    return most
 
 
 def byte_colors(job: Job) -> ByteColors | None:
@@ -151,17 +175,20 @@ def byte_colors(job: Job) -> ByteColors | None:
     low = np.minimum(np.minimum(first, second), third)
     spread = np.maximum(np.maximum(first, second), third)
     spread -= low
-    error = product_error(vertices, values.index, low, encoding)
+    drift = drift_error(geometry)
+    if float(drift.max(initial=0)) > LARGEST_DRIFT:
+        return None
+    error = drift
     if vertices.cut_off is not None:
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":
         error += chord_error(low, spread)
     if interpolation != "affine":
         error += perspective_error(geometry, spread.max(axis=0))
-    drift = drift_error(geometry)
-    error += drift
-    if float(error.max(initial=0)) > TOLERANCE or float(drift.max(initial=0)) > LARGEST_DRIFT:
-        return None
+    if float(error.max(initial=0)) + vertices.most_product > TOLERANCE:
+        error += product_error(vertices, values.index, low, encoding)
+        if float(error.max(initial=0)) > TOLERANCE:
+            return None
 
     x, y = geometry.window_x, geometry.window_y
     across, up = window_slopes(x, y, geometry.doubled_area, first, second, third)

@@ -25,6 +25,8 @@ class VertexBytes:
     is_opaque: bool
     cut_off: Floats | None
     """(M,) float64, what was cut off from linear colours brighter than 1 or darker than 0; ``None``: nothing was."""
+    most_product: float = np.inf
+    """`product_error` of any triangle of the scene at most, as far as it is known."""
 
 
 def chord_error(low: Floats, spread: Floats) -> Floats:

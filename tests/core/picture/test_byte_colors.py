@@ -1,15 +1,19 @@
 """Colours interpolated as bytes are at most one byte away from the exact ones; what says so never says too little."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import STAGES, ClipScene, Picture, Settings, draw_picture, render
+from core import STAGES, ClipScene, Material, Picture, Settings, draw_picture, render
 from core.frame import StageCount
 from core.framebuffer.display import srgb
 from core.geometry_stages import process_geometry
+from core.picture import byte_colors
 from core.picture.byte_colors import VertexBytes, chord_error, perspective_error, product_error
+from tests.core.picture.band_scenes import SPANS, ball
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import projected
 from tests.core.strategies import clip_of_window
@@ -175,3 +179,23 @@ def test_product_error_is_never_below_the_true_one(seed: int, spread: float, enc
     if encoding == "srgb":
         bound += chord_error(low, np.full((3, 1), np.ptp(level)))[0]
     assert np.abs(exact - shares(40) @ level).max() <= bound + 1e-9
+
+
+def test_the_bound_of_all_triangles_decides_as_those_that_are_drawn_do() -> None:
+    scene, chosen = ball(5, (200, 200)), replace(SPANS, cull="back", shading="gouraud")
+    mesh = scene.meshes[0]
+    colors = np.concatenate([0.5 + 0.2 * mesh.positions, np.ones((len(mesh.positions), 1))], axis=1)
+    scene = replace(
+        scene,
+        meshes=(replace(mesh, colors=colors, material=Material(0.4, 0.5, 0.0)),),
+        lights=scene.lights[:1],
+    )
+    for eye in ((0.4, 0.8, 2.6), (0.4, 0.8, 2.6), (-2.0, 0.3, 1.7), (0.1, -2.5, 0.4)):
+        turned = replace(scene, camera=replace(scene.camera, eye=np.array(eye)))
+        again = draw_picture(turned, chosen)  # from the second time on with the bound
+        byte_colors._last.clear()
+        alone = draw_picture(turned, chosen)
+        assert again.route.color == alone.route.color == "bytes"
+        assert np.array_equal(again.pixels, alone.pixels)
+        draw_picture(turned, chosen)
+        assert 0 < byte_colors._last[0][2].most_product < 1
