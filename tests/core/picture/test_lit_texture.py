@@ -141,7 +141,7 @@ def test_a_piece_without_area_forbids_nothing() -> None:
 
 
 def test_how_far_positions_are_off_is_asked_of_one_triangle_at_a_time() -> None:
-    """What all bands of a picture allow the picture must allow: no mixture of one triangle's texels, another's place."""
+    """What all bands of a picture allow the picture must allow: no mix of one triangle's texels, another's place."""
     x = np.array([[1.0, 9000.0], [3.0, 9100.0], [2.0, 9050.0]])
     y = np.array([[1.0, 9000.0], [1.0, 9000.0], [4.0, 9100.0]])
     area = np.array([6.0, 10000.0])

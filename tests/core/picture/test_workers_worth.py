@@ -8,7 +8,6 @@ from core import Settings, draw_picture
 from core.picture.workers.worth import COLOR, FRAGMENT, Load, load_of
 from tests.core.picture.band_scenes import SCENES, SPANS, ball
 
-
 # Bands of a supersampled picture have the bytes of the whole, but look at other parts exactly: no scene of `SCENES`.
 SUPERSAMPLED = {"supersampled": (ball(), replace(SPANS, antialiasing="ssaa-4"))}
 
