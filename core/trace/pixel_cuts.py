@@ -180,11 +180,15 @@ def _written_too(track: BufferTrack, rows: Integers, places: Integers, values: F
     )
 
 
-def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
-    """Return the rows of all cuts, to stand before those of their pixels in ``found``."""
+ColumnsOfPairs = tuple[Integers, dict[str, NDArray[Any]]]
+"""Which pairs (R,) of pixel and triangle some rows are about, and their columns, name to (R, ...)."""
+
+
+def _cut_squares(cuts: PixelCuts) -> list[ColumnsOfPairs]:
+    """Return what the three edges cut off, one after another, and what is left of the squares in the end."""
     count = len(cuts.place)
     pieces = whole_pixels(np.arange(count))
-    parts: list[tuple[Integers, dict[str, NDArray[Any]]]] = []
+    parts: list[ColumnsOfPairs] = []
     for edge in range(3):
         is_cut = ~cuts.is_whole.take(pieces.number)
         whole, told = pieces.select(~is_cut), pieces.select(is_cut)
@@ -205,13 +209,18 @@ def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
         "part_primitive": cuts.part_primitive,
         "primitive": cuts.primitive,
     }
-    parts.append((np.arange(count), of_piece))
+    return [*parts, (np.arange(count), of_piece)]
+
+
+def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
+    """Return the rows of all cuts, to stand before those of their pixels in ``found``."""
+    parts = _cut_squares(cuts)
 
     # The rows of a pair of pixel and triangle stand together: its cuts, then what is left.
     pair = np.concatenate([of_pair for of_pair, _ in parts])
     kind = np.repeat([0, 0, 0, 1], [len(of_pair) for of_pair, _ in parts])
     order = np.argsort(pair, kind="stable")
-    names = [*parts[0][1], *(name for name in of_piece if name not in parts[0][1])]
+    names = dict.fromkeys(name for _, of_rows in parts for name in of_rows)
     columns = {name: _joined_column(name, parts)[order] for name in names}
     columns["corner_count"] = np.isfinite(columns["polygon"][..., 0]).sum(axis=1)
     pair = pair[order]
@@ -252,7 +261,7 @@ def _of_cut(
     }
 
 
-def _joined_column(name: str, parts: list[tuple[Integers, dict[str, NDArray[Any]]]]) -> NDArray[Any]:
+def _joined_column(name: str, parts: list[ColumnsOfPairs]) -> NDArray[Any]:
     """Return one column of all rows, empty where the rows have no such number."""
     of_any = next(columns[name] for _, columns in parts if name in columns)
     return np.concatenate([columns.get(name, empty_like(of_any, len(pair))) for pair, columns in parts])
