@@ -22,10 +22,17 @@ _CUTS: Mapping[str, VariableText] = {
     "piece_area": VariableText("area", "Of what is left, in pixels."),
     "primitive": VariableText("number drawn", "Which of the drawn triangles, pieces counted apart, it is."),
     "part_area": VariableText(
-        "part #", "Area of a part that the pixel is in by now, in pixels; 0: there is none.", spread="parts"
+        "part #",
+        "How much of the pixel a triangle, or the background, shows by now; 0: there is none.",
+        spread="parts",
     ),
     "part_primitive": VariableText(
-        "part # shows", "Number of the drawn triangle that is seen in the part; −1: none.", spread="parts"
+        "part # shows", "Number of the drawn triangle that it is; −1: the background.", spread="parts"
+    ),
+    "untold_cuts": VariableText(
+        "cuts left out",
+        "How often a triangle cuts a pixel here: too often to be stepped through. Those of one triangle, or of a "
+        "smaller part of the picture, are.",
     ),
     "seen_area": VariableText("in front", "Area of it that is in front of what was there before."),
     "covered_area": VariableText("covered", "Area of the pixel that shows any triangle by now."),

@@ -39,7 +39,10 @@ def pieces(step: StepValues) -> str:
     covered = sum(area for area, triangle in parts if triangle >= 0)
     whole = len(parts) == 1
     made = "it is one piece" if whole else f"edges cut it into {len(parts)} pieces"
-    return f"{pixel_name(step)}: {made}, and triangles cover {spoken(covered)} of its area."
+    found = f"{pixel_name(step)}: {made}, and triangles cover {spoken(covered)} of its area."
+    if step.has("untold_cuts"):
+        found += " How they are cut is told of one triangle, or of a smaller part of the picture."
+    return found
 
 
 def summed(step: StepValues) -> str:

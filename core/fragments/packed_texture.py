@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats, Integers, Singles, read_only
 from core.byte_words import FIELDS, OPAQUE, let_meet
-from core.fragments.texel_places import PLACES, AxisPlaces, Wholes
+from core.fragments.texel_places import PLACES, AxisPlaces, Wholes, place_count
 from core.methods import table
 from core.scene import Texture
 
@@ -75,10 +75,7 @@ class PackedTexture:
 def is_packable(texture: Texture, wrap: str) -> bool:
     """Return whether a texture has no alpha, nothing brighter than 1 or darker than 0, and tables of bearable size."""
     pixels = texture.pixels
-    if (
-        wrap not in PLACES
-        or PLACES[wrap](pixels.shape[0]).count * PLACES[wrap](pixels.shape[1]).count > MOST_TEXELS
-    ):
+    if wrap not in PLACES or place_count(pixels.shape, wrap) > MOST_TEXELS:
         return False
     return pixels.shape[2] < 4 and bool(pixels.min() >= 0 and pixels.max() <= 1)
 

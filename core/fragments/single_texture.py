@@ -13,12 +13,13 @@ How exact it is: position and weights come from float64 coordinates, each of the
 a mean of texels from 0 to 1 is at most `ROUNDING` away from that of ``core.fragments.textures``.
 """
 
-from functools import lru_cache
+from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from core.arrays import Floats, Integers, Singles, read_only
-from core.fragments.texel_places import PLACES, AxisPlaces
+from core.fragments.texel_places import PLACES, AxisPlaces, place_count
 from core.methods import table
 from core.scene import Texture
 
@@ -28,14 +29,23 @@ FARTHEST = 2.0**20
 """Texels from the origin that coordinates may lie: so many, and their fraction, float64 tells with 32 bits to spare."""
 ROUNDING = 2.0**-21
 """Three products and sums of numbers up to 1, and the weights, rounded to float32 each."""
+MOST_TEXELS = 1 << 24
+"""Places that a texture may be looked up at: the table has 4 bytes for each and each channel."""
+
+_is_plain: WeakKeyDictionary[Texture, bool] = WeakKeyDictionary()
+"""Which textures are opaque, with colours from 0 to 1."""
 
 
-@lru_cache(maxsize=16)
 def is_plain(texture: Texture, wrap: str) -> bool:
     """Return whether a texture is opaque, with colours from 0 to 1, and wraps in a way that a table knows."""
-    pixels = texture.pixels
-    is_opaque = pixels.shape[2] < 4 or bool((pixels[:, :, 3] == 1).all())
-    return wrap in PLACES and is_opaque and bool(pixels.min() >= 0 and pixels.max() <= 1)
+    if wrap not in PLACES or place_count(texture.pixels.shape, wrap) > MOST_TEXELS:
+        return False
+    known = _is_plain.get(texture)
+    if known is None:
+        pixels = texture.pixels
+        is_opaque = pixels.shape[2] < 4 or bool((pixels[:, :, 3] == 1).all())
+        _is_plain[texture] = known = is_opaque and bool(pixels.min() >= 0 and pixels.max() <= 1)
+    return known
 
 
 class SingleSampler:
@@ -51,7 +61,7 @@ class SingleSampler:
     def __init__(self, texture: Texture, wrap: str) -> None:
         self.channels = min(texture.pixels.shape[2], 3)
         """1 for grey, else 3."""
-        self._texels, self._columns, self._rows = _bordered(texture, wrap)
+        _, self._texels, self._columns, self._rows = _bordered(texture, wrap)
         row = self.channels * (self._columns.count + 1)
         self._starts = ((0, self.channels), (row, row + self.channels))
         self._weights = np.empty((2, BLOCK), np.float32)
@@ -112,12 +122,25 @@ class SingleSampler:
         np.add(lower, upper, out=means)
 
 
-@lru_cache(maxsize=4)
-def _bordered(texture: Texture, wrap: str) -> tuple[Singles, AxisPlaces, AxisPlaces]:
-    """Return the texels (N,) float32 by row, column and channel, and the places along columns and rows.
+class BorderedTexels(NamedTuple):
+    """The texels of a texture and beyond its border, for one wrap."""
 
-    Each axis has one texel more than places: the last place has a neighbour too.
-    """
+    wrap: str
+    texels: Singles
+    """(N,) float32, by row, column and channel. Each axis has one texel more than places: the last has a neighbour."""
+    columns: AxisPlaces
+    rows: AxisPlaces
+
+
+_tables: WeakKeyDictionary[Texture, BorderedTexels] = WeakKeyDictionary()
+"""The table that each texture was last looked up in; they go when the texture goes."""
+
+
+def _bordered(texture: Texture, wrap: str) -> BorderedTexels:
+    """Return the table of a texture for one wrap."""
+    known = _tables.get(texture)
+    if known is not None and known.wrap == wrap:
+        return known
     pixels = texture.pixels
     rows, columns = (PLACES[wrap](size) for size in pixels.shape[:2])
     wrapped = table.get("wrap", wrap).function
@@ -125,4 +148,6 @@ def _bordered(texture: Texture, wrap: str) -> tuple[Singles, AxisPlaces, AxisPla
         wrapped(places.first + np.arange(places.count + 1), places.size) for places in (rows, columns)
     )
     texels = pixels[row][:, column, : min(pixels.shape[2], 3)]
-    return read_only(np.ascontiguousarray(texels).reshape(-1)), columns, rows
+    made = BorderedTexels(wrap, read_only(np.ascontiguousarray(texels).reshape(-1)), columns, rows)
+    _tables[texture] = made
+    return made

@@ -38,3 +38,9 @@ PLACES = {
     "clamp": lambda size: AxisPlaces(size, -1, size + 1, False),
 }
 """By wrap: the places along an axis of so many texels."""
+
+
+def place_count(shape: tuple[int, ...], wrap: str) -> int:
+    """Return at how many places a texture of ``shape`` (h, w, ...) may be looked up, whatever the coordinates."""
+    rows, columns = (PLACES[wrap](size).count for size in shape[:2])
+    return rows * columns

@@ -30,7 +30,7 @@ def cut_polygon(polygon: Polygon, a: float, b: float, value: float) -> Polygon:
         here, there = distance[k], distance[(k + 1) % len(polygon)]
         if here >= 0:
             kept.append((x, y))
-        if here * there < 0:
+        if here < 0 < there or there < 0 < here:
             t = here / (here - there)
             kept.append((x + t * (next_x - x), y + t * (next_y - y)))
     return kept if len(kept) >= 3 and polygon_area(kept) > FLAT else []  #: cut

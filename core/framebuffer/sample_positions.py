@@ -18,8 +18,6 @@ from core.arrays import Floats, read_only
 
 ROTATED_GRID = read_only(np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]))
 """(4, 2) the four samples of graphics cards: each alone in its row, its column and its quarter of the pixel."""
-QUARTERS = 2
-"""Samples on a side of the pixel: sample s of the rotated grid lies in column s mod 2 and row s div 2 of quarters."""
 
 
 def grid_positions(side: int) -> Floats:

@@ -17,6 +17,10 @@ from core.scene import AnyScene, ClipScene, Texture
 
 MOST = 64
 """Triangles: of more, bands are not worth their calls."""
+MOST_ROUNDING = 2.0
+"""Parts of 256 of a texel that positions in float32 may be off by a bound that is seldom reached."""
+SINGLE = 2.0**-23
+"""A sum of two rounded to float32 is off by at most this part of what they may be, so is a product of quotients."""
 
 
 class TextureColors:
@@ -35,12 +39,30 @@ class TextureColors:
         inverse_w = geometry.inverse_w_plane
         self._planes = [inverse_w]
         """Of 1 / w, and of the positions in the texture divided by w."""
+        self._corner_positions = []
+        """Of u and of v, (P, 3) float64 in 256ths of a texel."""
         for number, axis in enumerate(self._sampler.axes):
-            plane = value_plane(geometry.planes, uv[:, number].take(values.index).T)
+            of_corners = uv[:, number].take(values.index).T
+            self._corner_positions.append(axis.scale * of_corners + axis.offset)
+            plane = value_plane(geometry.planes, of_corners)
             a, b, c = (
                 axis.scale * of + axis.offset * of_w for of, of_w in zip(plane, inverse_w, strict=True)
             )
             self._planes.append((a, b, c))
+
+    def rounding(self, job: Job) -> float:
+        """Return by how many 256ths of a texel a position may be off, as planes and quotient are in float32.
+
+        Of one triangle and the whole window, so that what holds for all bands of a picture holds for the picture.
+        """
+        width, height = job.scene.size
+        w = job.geometry.primitives.clip[..., 3].max(axis=1)
+        of_w, *positions = (
+            (np.abs(a) * width + np.abs(b) * height + np.abs(c)) * w * SINGLE for a, b, c in self._planes
+        )
+        corners = (np.abs(of).max(axis=1) for of in self._corner_positions)
+        off = [of + at * (of_w + SINGLE) for of, at in zip(positions, corners, strict=True)]
+        return float(np.max(off, initial=0.0))
 
     def block(self, job: Job, triangle: int, band: Band | Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
@@ -111,7 +133,8 @@ def texture_colors(job: Job) -> TextureColors | None:
         return None
     if not isinstance(job.scene, ClipScene) and (values.rows[:, values.layout["color"]] != 1).any():
         return None
-    return TextureColors(job, texture)
+    colors = TextureColors(job, texture)
+    return colors if colors.rounding(job) <= MOST_ROUNDING else None
 
 
 def _only_texture(scene: AnyScene) -> Texture | None:

@@ -28,6 +28,8 @@ from core.steps import Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
 from core.trace.stage_trace import BufferTrack, StageTrace
 
+MOST_NUMBERS = 1 << 22
+"""Rows times the pieces of the pixel that has most: every row has room for them, some 32 bytes each."""
 MOST_CORNERS = 7
 """Corners of a square that three edges have cut."""
 KINDS = ("cut", "piece")
@@ -61,9 +63,9 @@ class PixelCuts:
     covered: Floats
     """(F,) float64, how much of the pixel shows any triangle after this one."""
     part_area: Floats
-    """(F, M) float64, areas of the parts that the pixel is in then; 0 where there is none."""
+    """(F, M) float64, how much of the pixel each of the primitives shows that are seen in it then; 0: there is none."""
     part_primitive: Integers
-    """(F, M) int64, what each part shows, -1: nothing."""
+    """(F, M) int64, these primitives, rising; -1: the background, or none."""
     primitive: Integers
     """(F,) int64, the primitive that was drawn."""
 
@@ -88,14 +90,14 @@ def cuts_of(
     parts = []
     for number, layer in enumerate(layers):
         count, there = len(layer.fragment), layer.there
-        area, of_pixel = area_of(there.pieces), there.pieces.number
-        shows_new = there.primitive == squares.primitive.take(layer.fragment).take(of_pixel)
+        areas, shown = _by_primitive(there.pieces.number, area_of(there.pieces), there.primitive, count)
+        new = squares.primitive.take(layer.fragment)
         fragment.append(layer.fragment)
         place.append(pixel[:count])
         rank.append(np.full(count, number))
-        seen.append(_sums(of_pixel, area * shows_new, count))
-        covered.append(_sums(of_pixel, area * (there.primitive >= 0), count))
-        parts.append(_side_by_side(of_pixel, area, there.primitive, count))
+        seen.append(_added_up(areas, shown == new[:, None]))
+        covered.append(_added_up(areas, shown >= 0))
+        parts.append((areas, shown))
     joined, at = np.concatenate(fragment), np.concatenate(place)
     triangle = triangle_of.take(squares.primitive.take(joined))
     order = np.lexsort((np.concatenate(rank), at))
@@ -116,20 +118,28 @@ def cuts_of(
     )
 
 
-def _sums(number: Integers, areas: Floats, count: int) -> Floats:
-    """Return the sums (count,) of areas (P,) by number (P,)."""
-    return np.bincount(number, areas, count).astype(np.float64)
+def _by_primitive(number: Integers, area: Floats, primitive: Integers, count: int) -> tuple[Floats, Integers]:
+    """Return how much of each of ``count`` pixels its primitives show, and which these are, (count, M) each.
 
-
-def _side_by_side(number: Integers, area: Floats, primitive: Integers, count: int) -> tuple[Floats, Integers]:
-    """Return areas and primitives of parts (P,) by number, (count, M) each, in their order."""
-    order = np.argsort(number, kind="stable")
-    sorted_number = number[order]
-    place = np.arange(len(order)) - np.searchsorted(sorted_number, sorted_number)
+    Given are pieces (P,) by the number of their pixel; one primitive may show hundreds of them in a pixel.
+    """
+    primitives = np.int64(primitive.max(initial=-1)) + 2
+    key, group = np.unique(number * primitives + (primitive + 1), return_inverse=True)
+    of_pixel, shown = key // primitives, key % primitives - 1
+    place = np.arange(len(key)) - np.searchsorted(of_pixel, of_pixel)
     most = int(place.max(initial=0)) + 1
-    areas, primitives = np.zeros((count, most)), np.full((count, most), -1)
-    areas[sorted_number, place], primitives[sorted_number, place] = area[order], primitive[order]
-    return areas, primitives
+    areas, primitives_of = np.zeros((count, most)), np.full((count, most), -1)
+    areas[of_pixel, place] = np.bincount(group, area, len(key))
+    primitives_of[of_pixel, place] = shown
+    return areas, primitives_of
+
+
+def _added_up(areas: Floats, chosen: Flags) -> Floats:
+    """Return the sums (F,) of the ``chosen`` (F, M) areas, one after another."""
+    total = np.zeros(len(areas))
+    for column in range(areas.shape[1]):
+        total += areas[:, column] * chosen[:, column]
+    return total
 
 
 def _joined_parts(of_layers: list[NDArray[Any]], missing: float) -> NDArray[Any]:
@@ -140,7 +150,13 @@ def _joined_parts(of_layers: list[NDArray[Any]], missing: float) -> NDArray[Any]
 
 
 def with_cuts(found: StageTrace, cuts: PixelCuts) -> StageTrace:
-    """Return the trace of the sums, one row a pixel, with the rows of the cuts before them."""
+    """Return the trace of the sums, one row a pixel, with the rows of the cuts before them.
+
+    Where they would take more than `MOST_NUMBERS` they are left out, and a constant says for how many triangles.
+    """
+    row_count = found.steps.row_count + 4 * len(cuts.place)
+    if row_count * found.columns["sample_weights"].shape[1] > MOST_NUMBERS:
+        return replace(found, constants={**found.constants, "untold_cuts": len(cuts.place)})
     joined = insert_rows(found, np.arange(found.steps.row_count), _inserted(cuts, found))
     rows = np.flatnonzero(joined.steps.kind == joined.steps.kinds.index("piece"))
     # The buffer fills as triangle after triangle comes.
@@ -164,11 +180,15 @@ def _written_too(track: BufferTrack, rows: Integers, places: Integers, values: F
     )
 
 
-def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
-    """Return the rows of all cuts, to stand before those of their pixels in ``found``."""
+ColumnsOfPairs = tuple[Integers, dict[str, NDArray[Any]]]
+"""Which pairs (R,) of pixel and triangle some rows are about, and their columns, name to (R, ...)."""
+
+
+def _cut_squares(cuts: PixelCuts) -> list[ColumnsOfPairs]:
+    """Return what the three edges cut off, one after another, and what is left of the squares in the end."""
     count = len(cuts.place)
     pieces = whole_pixels(np.arange(count))
-    parts: list[tuple[Integers, dict[str, NDArray[Any]]]] = []
+    parts: list[ColumnsOfPairs] = []
     for edge in range(3):
         is_cut = ~cuts.is_whole.take(pieces.number)
         whole, told = pieces.select(~is_cut), pieces.select(is_cut)
@@ -189,13 +209,18 @@ def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
         "part_primitive": cuts.part_primitive,
         "primitive": cuts.primitive,
     }
-    parts.append((np.arange(count), of_piece))
+    return [*parts, (np.arange(count), of_piece)]
+
+
+def _inserted(cuts: PixelCuts, found: StageTrace) -> InsertedRows:
+    """Return the rows of all cuts, to stand before those of their pixels in ``found``."""
+    parts = _cut_squares(cuts)
 
     # The rows of a pair of pixel and triangle stand together: its cuts, then what is left.
     pair = np.concatenate([of_pair for of_pair, _ in parts])
     kind = np.repeat([0, 0, 0, 1], [len(of_pair) for of_pair, _ in parts])
     order = np.argsort(pair, kind="stable")
-    names = [*parts[0][1], *(name for name in of_piece if name not in parts[0][1])]
+    names = dict.fromkeys(name for _, of_rows in parts for name in of_rows)
     columns = {name: _joined_column(name, parts)[order] for name in names}
     columns["corner_count"] = np.isfinite(columns["polygon"][..., 0]).sum(axis=1)
     pair = pair[order]
@@ -236,7 +261,7 @@ def _of_cut(
     }
 
 
-def _joined_column(name: str, parts: list[tuple[Integers, dict[str, NDArray[Any]]]]) -> NDArray[Any]:
+def _joined_column(name: str, parts: list[ColumnsOfPairs]) -> NDArray[Any]:
     """Return one column of all rows, empty where the rows have no such number."""
     of_any = next(columns[name] for _, columns in parts if name in columns)
     return np.concatenate([columns.get(name, empty_like(of_any, len(pair))) for pair, columns in parts])

@@ -9,6 +9,7 @@ from core.antialiased.sample_counts import sample_count
 from core.blend_choice import blend_choice
 from core.framebuffer.depth import DepthFormat
 from core.methods import table
+from core.settings import Settings
 from core.trace.source import TraceSource
 from core.why.at_samples import candidates_at
 from core.why.candidates import PixelCandidates, whole_geometry
@@ -59,9 +60,7 @@ def why(
     if sample is None:
         candidates = PixelCandidates(scene, settings, geometry, column, row, triangle)
     else:
-        samples = sample_count(settings)
-        if samples == 1 or not 0 <= sample < samples:
-            raise ValueError(f"sample must be 0 to {samples - 1} of several, got {sample} of {samples}")
+        _check_sample(sample, settings)
         candidates = candidates_at(source, column, row, triangle, sample)
     depth_format: DepthFormat = table.get("depth", settings.depth).function()
     events, counts, cover_count = list_events(candidates, depth_format)
@@ -70,6 +69,17 @@ def why(
     else:
         verdict = triangle_verdict(events, triangle)
     return PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
+
+
+def _check_sample(sample: int, settings: Settings) -> None:
+    """Refuse a sample that pixels do not have."""
+    count = sample_count(settings)
+    if count == 1:
+        raise ValueError(
+            f"a pixel must have several samples to be asked of one, got antialiasing {settings.antialiasing}"
+        )
+    if not 0 <= sample < count:
+        raise ValueError(f"sample must be 0 to {count - 1}, got {sample}")
 
 
 __all__ = ["Link", "PixelEvent", "PixelHistory", "PixelState", "why"]

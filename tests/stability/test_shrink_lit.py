@@ -200,3 +200,18 @@ def test_half_a_texture_keeps_its_texels_where_they_are() -> None:
     texels = [each.texture.pixels.ravel().tolist() for each in with_simpler_texels(parts)]
     assert texels[0] == [0, 0, 0, 0, 1, 1, 1, 1]
     assert [0, 0, 2, 3, 4, 5, 6, 7] in texels
+
+
+def test_light_camera_and_background_that_are_not_the_usual_ones_stand_in_the_text() -> None:
+    given = shining_sphere(6, 20.0, 0)
+    (mesh,), (light,) = given.meshes, given.lights
+    lit = replace(light, color=np.array([0.5, 0.75, 1.0]))
+    camera = replace(given.camera, up=np.array([0.6, 0.8, 0.0]))
+    background = np.array([0.1, 0.2, 0.3, 1.0])
+    scene = LIT_MESHES.as_case(replace(given, lights=(lit,), camera=camera, background=background))
+    names: dict = {"np": np}
+    exec(f"from core import *\n{scene_text(scene)}", names)
+    assert np.array_equal(render(names["scene"]).color, render(scene).color)
+    colored = replace(mesh, colors=np.ones((len(mesh.positions), 4)))
+    with pytest.raises(ValueError, match="in its own place and of one material"):
+        LIT_MESHES.take_apart(replace(given, meshes=(colored,)))

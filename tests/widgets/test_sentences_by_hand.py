@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
-from core.trace import Explanation
+from core.trace import Explanation, pixel_cuts
 from tests.widgets.explained_steps import rare_trace
 from widgets.sentences import sentence
 
@@ -30,6 +30,7 @@ def said(stage: str, settings: Settings, name: str = "lattice-ties") -> dict[str
 
 
 BRUTE_FORCE = Settings(fill="brute-force")
+AREA = Settings(antialiasing="area")
 CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
 
 
@@ -355,4 +356,17 @@ def test_a_tie_of_keys_names_the_triangle_that_came_first() -> None:
     assert explanation is not None
     assert sentence(explanation, 1, (1, 0)) == (
         "Pixel (1, 0) fails: the depths tie, and triangle 0 has the lower number, as it came first."
+    )
+
+
+def test_cuts_that_are_left_out_are_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pixel_cuts, "MOST_NUMBERS", 1)
+    found = trace(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(1, 1)), AREA).stage(
+        "resolve"
+    )
+    explained = found.explain(1)
+    assert explained is not None
+    assert sentence(explained, -1, (0, 0)) == (
+        "Pixel (0, 0): edges cut it into 2 pieces, and triangles cover 0.5 of its area. How they are cut is told of "
+        "one triangle, or of a smaller part of the picture."
     )

@@ -22,7 +22,7 @@ class CornerPlaces:
     y: Floats
     """(3, P) float64."""
     doubled_area: Floats
-    """(P,) float64, not 0."""
+    """(P,) float64, not 0: 1 for triangles without area, which cover no pixel."""
     is_thin: Flags
     """(P,) bool, see ``core.picture.cleared``."""
 
@@ -37,4 +37,5 @@ def corner_places(geometry: Geometry) -> CornerPlaces:
     for unsnapped, snapped in ((x, geometry.window_x), (y, geometry.window_y)):
         unsnapped[:, thin] = snapped.take(thin, axis=1)
     doubled_area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+    doubled_area[doubled_area == 0] = 1.0
     return CornerPlaces(x, y, doubled_area, thin_ones)

@@ -89,7 +89,7 @@ def lit_texture(job: Job) -> LitTexture | None:
         return None
     places = corner_places(job.geometry)
     position = _texel_positions(job.geometry, mesh, texture)
-    error = _texture_bytes(mesh, _position_error(places, position))
+    error = _texture_bytes(mesh, position_error(places, position))
     planes = lit_planes(job, mesh, places, error)
     if planes is None:
         return None
@@ -110,16 +110,21 @@ def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> lis
     ]
 
 
-def _position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
-    """Return by how many texels the position of a fragment of a triangle that is not thin may be off."""
+def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
+    """Return by how many texels the position of a fragment of a triangle that is not thin may be off.
+
+    ``position`` are the corners' places in the texture: for u and v three times (P,) float64 texels.
+    """
     extent = np.zeros(len(places.is_thin))
     for first, second, third in position:
         extent += np.abs(second - first)
         extent += np.abs(third - first)
     extent[places.is_thin] = 0
     extent /= np.abs(places.doubled_area)
-    reach = float(np.abs(places.x).max(initial=0)) * float(np.abs(places.y).max(initial=0))
-    return float(extent.max(initial=0)) * reach * ROUNDING
+    # Of one triangle, so that what holds for all bands of a picture holds for the picture.
+    extent *= np.abs(places.x).max(axis=0)
+    extent *= np.abs(places.y).max(axis=0)
+    return float(extent.max(initial=0)) * ROUNDING
 
 
 def _texture_bytes(mesh: LitMesh, texels: float) -> float:

@@ -64,8 +64,10 @@ def vertex_facts(values: CornerValues, mesh: Mesh) -> VertexFacts:
     for known in _last:
         if known.rows is values.rows:
             return known
-    _last[:] = [VertexFacts(values, mesh)]
-    return _last[0]
+    made = VertexFacts(values, mesh)
+    # Another thread may keep others the next moment.
+    _last[:] = [made]
+    return made
 
 
 def cosine(a: Floats, b: Floats) -> Floats:

@@ -7,7 +7,14 @@ from core.picture.record import Picture
 TRIANGLE, PIXEL = 60e-9, 1e-9
 """Seconds for a triangle that is drawn, and for a pixel that is cleared and shown; measured on one core, as all that
 follow, to within a factor of two."""
-FRAGMENT = {"layer": 6e-9, "words": 8e-9, "stacks": 60e-9, "frame": 250e-9, "supersampled": 8e-9}
+FRAGMENT = {
+    "layer": 6e-9,
+    "words": 8e-9,
+    "multisampled": 8e-9,
+    "stacks": 60e-9,
+    "frame": 250e-9,
+    "supersampled": 8e-9,
+}
 """Seconds for a covered pixel of a triangle, by ``Route.visibility``."""
 COLOR = {
     "palette": 1e-9,

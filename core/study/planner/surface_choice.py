@@ -262,7 +262,8 @@ class SurfaceChooser:
                 settings = replace(settings, visibility=ORDERS[0])
             return replace(start, settings=settings, is_once=True)
         is_drawn, doubtful = self._is_drawn(settings), []
-        for name in ORDERS:
+        # What is drawn behind a translucent surface that is there already fails the depth test: sorted, it would not.
+        for name in ORDERS[:1] if self._blended else ORDERS:
             drawing = table.get("visibility", name).function(
                 CornerPositionsOnDemand(touched.geometry.vertices)
             )

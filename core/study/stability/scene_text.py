@@ -4,8 +4,12 @@ from dataclasses import asdict
 
 import numpy as np
 
+from core.arrays import Floats, read_only
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Scene, Texture
 from core.study.stability.case_text import clip_text
+
+UP = read_only(np.array([0.0, 1.0, 0.0]))
+"""(3,) a camera's way up, if nothing is said of it."""
 
 
 def scene_text(scene: AnyScene) -> str:
@@ -20,7 +24,7 @@ def scene_text(scene: AnyScene) -> str:
 
 
 def _triangles_text(scene: ClipScene) -> str:
-    background = f", background=np.array({scene.background.tolist()})" if scene.background.any() else ""
+    background = _unless_usual("background", scene.background, 0.0)
     texture = "" if scene.texture is None else ", texture=texture"
     assert scene.attributes is not None
     return (
@@ -56,9 +60,14 @@ def _mesh_text(scene: Scene) -> str:
         f"material = Material({material})\n"
         f"mesh = Mesh(positions, np.array({mesh.triangles.tolist()}), normals, material=material)\n"
         f"{_camera_text(scene.camera)}\n"
-        f"light = DirectionalLight(np.array({light.direction.tolist()}))\n"
-        f"scene = Scene((mesh,), camera, (light,), {scene.size})"
+        f"light = DirectionalLight(np.array({light.direction.tolist()}){_unless_usual('color', light.color, 1.0)})\n"
+        f"scene = Scene((mesh,), camera, (light,), {scene.size}{_unless_usual('background', scene.background, 0.0)})"
     )
+
+
+def _unless_usual(name: str, numbers: Floats, usual: Floats | float) -> str:
+    """Return an argument that gives ``numbers`` (k,), or nothing where they are the ``usual`` ones."""
+    return "" if (numbers == usual).all() else f", {name}=np.array({numbers.tolist()})"
 
 
 def _camera_text(camera: Camera) -> str:
@@ -69,5 +78,6 @@ def _camera_text(camera: Camera) -> str:
     )
     return (
         f"eye, target = np.array({camera.eye.tolist()}), np.array({camera.target.tolist()})\n"
-        f"camera = Camera(eye, target, {opening}, near={camera.near}, far={camera.far})"
+        f"camera = Camera(eye, target{_unless_usual('up', camera.up, UP)}, {opening}, "
+        f"near={camera.near}, far={camera.far})"
     )

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
 from core.antialiased.exact_area import draw_pieces
-from core.antialiased.reference import many_samples
 from core.frame import STAGES, StageCount
 from core.geometry_stages import process_geometry
 from core.raster.schedule import make_raster
 from lessons.scenes import make_scene
+from tests.core.antialiased.many_samples import many_samples
 from tests.core.framebuffer.test_pixel_pieces import area, clipped
 from tests.core.trace.trace_cases import SCENES
 

@@ -119,5 +119,6 @@ SCENES = {
     "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
     "textured ball": (textured_ball(), replace(SPANS, cull="back")),
     "textured ball below a torn triangle": (textured_ball(True), replace(SPANS, cull="back")),
+    "multisampled": (textured_rings(), replace(SPANS, antialiasing="msaa-4")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }

@@ -89,3 +89,22 @@ def test_textured_triangles(
             assert away.max() <= 3
     else:
         assert away.max() == 0
+
+
+@pytest.mark.parametrize(
+    ("repeats", "color"), [(3.0, "texture"), (1e3, "texture"), (1e5, "deferred"), (1e9, "deferred")]
+)
+@pytest.mark.parametrize("encoded_as_bytes", [False, True])
+def test_coordinates_that_single_precision_cannot_tell_are_looked_up_in_double(
+    repeats: float, color: str, encoded_as_bytes: bool
+) -> None:
+    pixels = np.random.default_rng(1).random((8, 8, 3))
+    texture = Texture((np.round(255 * pixels) / 255 if encoded_as_bytes else pixels).astype(np.float32))
+    clip = clip_of_window(np.array([[[-3.0, 5.0], [400.0, 20.0], [60.0, 330.0]]]), (320, 240))
+    uv = repeats * np.array([[[0.1, 0.2], [1.0, 0.1], [0.3, 1.0]]])
+    scene = ClipScene(clip, uv, (320, 240), texture)
+    chosen = Settings(texture_filter="bilinear")
+    picture = draw_picture(scene, chosen, encoding="linear")
+    assert picture.route.color == color
+    away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, "linear"))
+    assert away.max() <= (2 if color == "texture" else 0)

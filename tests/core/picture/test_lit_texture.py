@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
 from core.methods import table
+from core.picture.lit.corner_places import CornerPlaces
+from core.picture.lit.textured import position_error
 from lessons.shapes import floor, knot, sphere, torus
 from tests.core.picture.references import exact_bytes
 
@@ -118,6 +120,41 @@ def test_a_part_has_the_bytes_of_the_whole(region: tuple[int, int, int, int]) ->
     whole = draw_picture(scene).pixels[row : row + rows, column : column + columns]
     part = draw_picture(scene, region=region)
     assert np.array_equal(part.pixels, whole)
+
+
+def test_a_piece_without_area_forbids_nothing() -> None:
+    """Clipping leaves a piece that snapping makes a point: it covers no pixel, and nothing is divided by its area."""
+    clipped = Settings(clipping="sutherland-hodgman")
+    camera = Camera(np.array([0.0, 0.0, 3.0]), np.zeros(3), near=2.5)
+    # All but a tip is nearer than the near plane.
+    flat = np.array([[-0.1, 0.0, 0.7], [0.1, 0.0, 0.7], [0.0, 0.1, 0.5 - 1e-7]])
+    ball = sphere()
+    assert ball.normals is not None
+    assert ball.uvs is not None
+    mesh = Mesh(
+        np.concatenate([0.4 * ball.positions, flat]),
+        np.concatenate([ball.triangles, [np.arange(3) + len(ball.positions)]]),
+        np.concatenate([ball.normals, np.tile([0.0, 0.0, 1.0], (3, 1))]),
+        uvs=np.concatenate([ball.uvs, flat[:, :2]]),
+    )
+    assert_close(scene_of(mesh, camera=camera), chosen=clipped)
+
+
+def test_how_far_positions_are_off_is_asked_of_one_triangle_at_a_time() -> None:
+    """What all bands of a picture allow the picture must allow: no mix of one triangle's texels, another's place."""
+    x = np.array([[1.0, 9000.0], [3.0, 9100.0], [2.0, 9050.0]])
+    y = np.array([[1.0, 9000.0], [1.0, 9000.0], [4.0, 9100.0]])
+    area = np.array([6.0, 10000.0])
+    across = [np.array([0.0, 0.0]), np.array([1e5, 1.0]), np.array([0.0, 0.0])]
+    both = position_error(CornerPlaces(x, y, area, np.zeros(2, bool)), [across, 3 * [np.zeros(2)]])
+    alone = [
+        position_error(
+            CornerPlaces(x[:, part], y[:, part], area[part], np.zeros(1, bool)),
+            [[of[part] for of in across], 3 * [np.zeros(1)]],
+        )
+        for part in (slice(0, 1), slice(1, 2))
+    ]
+    assert both == max(alone)
 
 
 def of_many_colors() -> Mesh:

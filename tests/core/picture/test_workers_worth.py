@@ -1,15 +1,20 @@
 """What a picture holds says whether it is worth more than one process."""
 
+from dataclasses import replace
+
 import pytest
 
 from core import Settings, draw_picture
 from core.picture.workers.worth import COLOR, FRAGMENT, Load, load_of
-from tests.core.picture.band_scenes import SCENES
+from tests.core.picture.band_scenes import SCENES, SPANS, ball
+
+# Bands of a supersampled picture have the bytes of the whole, but look at other parts exactly: no scene of `SCENES`.
+SUPERSAMPLED = {"supersampled": (ball(), replace(SPANS, antialiasing="ssaa-4"))}
 
 
-@pytest.mark.parametrize("name", list(SCENES))
+@pytest.mark.parametrize("name", [*SCENES, *SUPERSAMPLED])
 def test_every_way_of_drawing_has_its_estimate(name: str) -> None:
-    scene, settings = SCENES[name]
+    scene, settings = (SCENES | SUPERSAMPLED)[name]
     picture = draw_picture(scene, settings)
     load = load_of(picture)
     assert load.visibility in FRAGMENT

@@ -5,6 +5,7 @@ import pytest
 
 from core import Settings, render, trace
 from core.raster.edge_functions import covers
+from core.trace import pixel_cuts
 from tests.core.trace.trace_cases import SCENES
 
 SAMPLED = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16, "ssaa-n": 9}
@@ -66,7 +67,33 @@ def test_resolving_shows_what_each_sample_shows():
     found, frame = trace(scene, settings).stage("resolve"), render(scene, settings)
     triangles = found.columns["sample_triangle"].T.reshape(4, *frame.primitive.shape)
     assert np.array_equal(triangles, frame.samples.primitive)
-    resolved = trace(scene, Settings(antialiasing="area")).stage("resolve")
-    areas = resolved.columns["sample_weights"][resolved.steps.kind == resolved.steps.kinds.index("areas")]
+    summed = trace(scene, Settings(antialiasing="area")).stage("resolve")
+    areas = summed.columns["sample_weights"][summed.steps.kind == summed.steps.kinds.index("areas")]
     assert np.abs(areas.sum(axis=1) - 1).max() <= 1e-12
     assert ((areas > 0).sum(axis=1) > 2).any()
+
+
+def test_cuts_that_would_fill_the_memory_are_left_out_and_that_is_said(monkeypatch):
+    scene, settings = SCENES["intersecting"], Settings(antialiasing="area")
+    told = trace(scene, settings).stage("resolve")
+    sums = told.steps.kind == told.steps.kinds.index("areas")
+    pair_count = np.count_nonzero(told.steps.kind == told.steps.kinds.index("piece"))
+    monkeypatch.setattr(pixel_cuts, "MOST_NUMBERS", 1000)
+    left = trace(scene, settings).stage("resolve")
+    assert left.steps.kinds == ("areas",)
+    assert left.constants["untold_cuts"] == pair_count
+    assert np.array_equal(left.columns["samples"], told.columns["samples"][sums])
+    # One triangle in few pixels has few.
+    focused = trace(scene, settings, triangle=0, region=(8, 8, 2, 2)).stage("resolve")
+    assert "piece" in focused.steps.kinds
+    assert "untold_cuts" not in focused.constants
+
+
+def test_a_primitive_has_one_area_in_a_pixel_however_it_was_cut():
+    found = trace(SCENES["intersecting"], Settings(antialiasing="area")).stage("resolve")
+    pieces = np.flatnonzero(found.steps.kind == found.steps.kinds.index("piece"))
+    areas, shown = (found.columns[name][pieces] for name in ("part_area", "part_primitive"))
+    np.testing.assert_allclose(areas.sum(axis=1), 1, atol=1e-12)
+    for row_areas, row_shown in zip(areas, shown, strict=True):
+        there = row_shown[row_areas > 0]
+        assert len(set(there.tolist())) == len(there)

@@ -40,9 +40,9 @@ def test_the_history_of_a_sample_ends_in_the_picture(name, choice):
 
 def test_a_sample_that_is_not_there_is_refused():
     scene = SCENES["clip"]
-    with pytest.raises(ValueError, match="sample must be 0 to 3 of several, got 4 of 4"):
+    with pytest.raises(ValueError, match="sample must be 0 to 3, got 4"):
         why(TraceSource(scene, Settings(antialiasing="msaa-4")), 1, 1, sample=4)
-    with pytest.raises(ValueError, match="sample must be 0 to 0 of several, got 0 of 1"):
+    with pytest.raises(ValueError, match="several samples to be asked of one, got antialiasing none"):
         why(TraceSource(scene, Settings()), 1, 1, sample=0)
 
 

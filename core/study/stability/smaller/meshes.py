@@ -56,6 +56,9 @@ def take_apart(scene: AnyScene) -> LitMesh:
     (mesh,), (light,), camera = scene.meshes, scene.lights, scene.camera
     if mesh.normals is None or not isinstance(light, DirectionalLight):
         raise ValueError("a mesh with normals under a distant light is wanted, got another one")
+    is_placed = not np.array_equal(mesh.transform, np.eye(4))
+    if is_placed or mesh.colors is not None or mesh.texture is not None:
+        raise ValueError("a mesh in its own place and of one material is wanted, got another one")
     is_round = np.array_equal(mesh.normals, mesh.positions)
     is_perspective = camera.projection == "perspective"
     return LitMesh(
@@ -79,7 +82,8 @@ def put_together(parts: LitMesh) -> Scene:
     normals = parts.positions if parts.normals is None else parts.normals
     shape = Mesh(parts.positions, parts.triangles, normals, name=mesh.name)
     smaller = replace(shape, material=Material(*parts.material.tolist()))
-    return Scene((smaller,), parts.camera, (replace(light, direction=parts.light),), parts.size)
+    lit_by = (replace(light, direction=parts.light),)
+    return Scene((smaller,), parts.camera, lit_by, parts.size, parts.scene.background)
 
 
 def with_fewer_triangles(parts: LitMesh) -> Iterator[LitMesh]:

@@ -1,8 +1,7 @@
-"""Pictures that others are measured against: 256 samples a pixel, or as many as wanted; and exact areas.
+"""Pictures that exact areas are measured against: 256 samples a pixel, or as many as wanted.
 
-The picture of exact areas (``antialiasing="area"``) is the reference for edges and flat colours; it takes one colour a
-piece. Where textures or highlights change within a piece, the mean of 16 x 16 samples is the better one; at edges it is
-off by up to 1/16 of a pixel's contrast where an edge is level or upright, and by far less elsewhere.
+At edges their mean is off by up to 1/16 of a pixel's contrast where an edge is level or upright, and by far less
+elsewhere.
 """
 
 from dataclasses import replace
