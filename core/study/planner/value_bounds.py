@@ -182,7 +182,8 @@ def _gouraud_error(touched: Touched, scene: Scene) -> Floats:
         cosine = np.stack([(each * direction).sum(axis=1) for each in normal])
         bright, dark = np.maximum(cosine.max(axis=0), 0), np.maximum(-cosine.min(axis=0), 0)
         both = bright * dark / np.maximum(bright + dark, 1e-300)
-        error += (bright * sagitta + both + 2 * radius)[:, None] * color
+        # Where no corner is lit nothing between them is, however the normals turn.
+        error += (times(bright, sagitta) + both + 2 * radius)[:, None] * color
     material = materials(scene, touched.geometry.primitives.mesh)
     return np.where(_is_unit(normal)[:, None], material.diffuse[:, None] * error, np.inf)
 

@@ -10,7 +10,7 @@ from core.fragments.textures import texture_colors
 from core.framebuffer.display import srgb
 from core.geometry.vertex_stage import unit
 from core.pipeline import render
-from core.scene import ClipScene, DirectionalLight, Material, PointLight, Texture
+from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
 from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_check
 from core.study.planner import measuring
 from core.study.planner.bytes import byte_error, byte_width
@@ -223,3 +223,14 @@ def test_an_empty_picture_needs_nothing() -> None:
 def test_a_bound_that_is_far_longer_than_a_texture_is_not_told_in_numbers() -> None:
     assert step_text(1.0) == "2 texels at most"
     assert step_text(30.0) == "not known to be shorter than 16,384 texels"
+
+
+def test_normals_without_a_middle_that_no_light_reaches_are_not_off_at_all() -> None:
+    """Corners turned from the light, two of them opposite: nothing between them is lit, and nothing is undefined."""
+    positions = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    normals = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    away = DirectionalLight(np.array([0.0, 0.0, 1.0]))
+    camera = Camera(np.array([0.0, 0.0, 3.0]), np.zeros(3))
+    scene = Scene((Mesh(positions, np.array([[0, 1, 2]]), normals),), camera, (away,), (20, 20))
+    error = shading_error(touch(scene, everything_on(scene)), scene, "gouraud")
+    assert not error.diffuse.any()
