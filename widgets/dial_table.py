@@ -64,9 +64,10 @@ class DialTable(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, len(HEAD), parent)
         self._rows: tuple[DialRow, ...] = ()
-        self.setHorizontalHeaderLabels(list(HEAD))
-        for column, explanation in enumerate(EXPLANATIONS):
-            self.horizontalHeaderItem(column).setToolTip(explanation)
+        for column, (title, explanation) in enumerate(zip(HEAD, EXPLANATIONS, strict=True)):
+            item = QTableWidgetItem(title)
+            item.setToolTip(explanation)
+            self.setHorizontalHeaderItem(column, item)
         self.setAccessibleName("The pixel in every number format")
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)

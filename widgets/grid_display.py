@@ -13,7 +13,7 @@ from widgets.grid_canvas import GridCanvas
 from widgets.grid_geometry import GridGeometry, paint_focus
 from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
-from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid_paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
 from widgets.sample_dots import SampleDots
 from widgets.theme import current_theme, theme_notifier
@@ -214,12 +214,14 @@ class GridDisplay(QWidget):
     def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
-        if self._hover is not None and not self._compact and self._is_inside(self._hover):
-            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
         painter.save()
-        painter.setClipRect(placement.viewport)
         if self._geometry is not None:
+            if self._compact:
+                painter.setClipRect(placement.viewport)
+            else:
+                painter.setClipRegion(beside_rulers(placement, self.rect(), theme))
             self._paint_geometry(painter, placement, self._geometry)
+        painter.setClipRect(placement.viewport)
         if self._step is not None:
             paint_step(painter, placement, self._step, theme)
         if self._pin is not None and self._is_inside(self._pin):
@@ -227,6 +229,8 @@ class GridDisplay(QWidget):
         if self._hover is not None and self._is_inside(self._hover):
             paint_hover(painter, placement, self._hover)
         painter.restore()
+        if self._hover is not None and not self._compact and self._is_inside(self._hover):
+            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
 
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
         """Paint the triangle in focus from a kept layer: smooth lines are slow to draw at every move."""

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QRegion
 
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_overlay import Mark
@@ -202,26 +202,43 @@ def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
 def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
     """Write column numbers below and row numbers left of the viewport, as many as have room."""
     painter.save()
-    font = text_font(theme, theme.small_px)
-    metrics = QFontMetricsF(font)
+    painter.setFont(text_font(theme, theme.small_px))
+    painter.setPen(QColor(theme.muted_text))
+    for box, number in ruler_labels(placement, area, theme):
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, number)
+    painter.restore()
+
+
+def beside_rulers(placement: GridPlacement, area: QRect, theme: Theme) -> QRegion:
+    """Return the viewport without the numbers of the rulers, which no line may cross.
+
+    They stand at the raster; where it does not fill the viewport, outlines that leave it come upon them.
+    """
+    region = QRegion(placement.viewport)
+    for box, _ in ruler_labels(placement, area, theme):
+        region -= QRegion(box.toAlignedRect())
+    return region
+
+
+def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tuple[QRectF, str]]:
+    """Return the boxes and texts of the rulers' numbers, in widget pixels."""
+    metrics = QFontMetricsF(text_font(theme, theme.small_px))
     column0, row0, column1, row1 = placement.visible_cells()
     viewport = placement.viewport
     first_column, first_row = placement.origin
     widest = metrics.horizontalAdvance(str(first_column + placement.columns - 1))
     every_column = _ruler_step(placement.cell, widest + 8)
     every_row = _ruler_step(placement.cell, metrics.height() + 2)
-    center = Qt.AlignmentFlag.AlignCenter
-    painter.setFont(font)
-    painter.setPen(QColor(theme.muted_text))
+    labels = []
     for column in _ruler_numbers(column0, column1, first_column, every_column):
         x = placement.cells_rect(column, 0).center().x()
         if viewport.left() <= x <= viewport.right():
-            painter.drawText(_below(placement, area, x, 80), center, str(column + first_column))
+            labels.append((_below(placement, area, x, widest + 4), str(column + first_column)))
     for row in _ruler_numbers(row0, row1, first_row, every_row):
         y = placement.cells_rect(0, row).center().y()
         if viewport.top() <= y <= viewport.bottom():
-            painter.drawText(_beside(placement, area, y, 40), center, str(row + first_row))
-    painter.restore()
+            labels.append((_beside(placement, area, y, metrics.height()), str(row + first_row)))
+    return labels
 
 
 def _ruler_numbers(first: int, end: int, origin: int, step: int) -> range:

@@ -157,8 +157,9 @@ def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> In
 def nearest_triangle(scene: ClipScene, pixel: Pixel) -> Integers:
     """Return, as (1,) int64, the triangle whose farthest edge leaves the least of the centre outside, in float64."""
     edges = set_up_edges(place_corners(scene.clip, scene.size, "float64"), "shared-edge")
+    x, y = (np.array([[index + 0.5]]) for index in pixel)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        value = edge_value(edges.a, edges.b, edges.c, np.float64(pixel[0] + 0.5), np.float64(pixel[1] + 0.5))
+        value = edge_value(edges.a, edges.b, edges.c, x, y)
         inside = (value / np.hypot(edges.a, edges.b)).min(axis=1)
     return np.array([np.argmax(np.where(np.isnan(inside), -np.inf, inside))])
 
