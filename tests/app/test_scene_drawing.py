@@ -241,7 +241,9 @@ def test_every_route_has_words():
 @pytest.mark.parametrize("antialiasing", ["ssaa-4", "msaa-4"])
 def test_pictures_of_samples_have_words(antialiasing):
     route = draw_picture(make_scene("single-triangle"), Settings(antialiasing=antialiasing)).route
-    assert f"Seen: {VISIBILITIES[route.visibility]}." in drawing_text(figures_of(route=route))
+    assert f"Seen: {VISIBILITIES[route.visibility]}." in drawing_text(
+        figures_of(route=route, sharing=Sharing(reason="it is small"))
+    )
 
 
 def test_sizes_that_can_be_chosen():
