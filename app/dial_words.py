@@ -16,21 +16,19 @@ def dial_sentence(found: PixelInFormats, run: str) -> str:
         The method of the run, ``coverage=float32``.
     """
     column, row = found.pixel
-    names = [str(number) for number in found.triangles]
-    noun = "triangle" if len(names) == 1 else "triangles"
+    names = joined([str(number) for number in found.triangles])
+    noun = "triangle" if len(found.triangles) == 1 else "triangles"
     if found.is_touched:
         more = f" and {found.left_out:,} more" if found.left_out else ""
-        who = f"decided by {noun} {joined(names)}{more}"
+        who = f"{noun} {names}{more}"
     else:
-        who = f"not covered in any format; {noun} {joined(names)} comes nearest"
-    wanted = f"It should be covered {times(found.run_wanted)}"
+        who = f"not covered in any format, nearest {noun} {names}"
     if found.run_count is None:
-        said = f"{wanted}; {run} does not take the scene."
+        said = f"{run} does not take the scene"
     else:
-        verb = "and is" if found.run_count == found.run_wanted else "but is"
-        said = f"{wanted}, {verb} covered {drawn_words(found.run_count, found.run_wanted)} by {run}."
-    rule = "" if found.fill_rule == "shared-edge" else f" All formats with fill_rule={found.fill_rule}."
-    return f"Pixel ({column}, {row}): {who}. {said}{rule} A map's cell tells of the whole picture: see that column."
+        said = f"{times(found.run_count)} by {run}{_fault(found.run_count, found.run_wanted)}"
+    rule = "" if found.fill_rule == "shared-edge" else ", and all formats with this rule"
+    return f"Pixel ({column}, {row}), {who}: {times(found.run_wanted)} wanted, {said}{rule}."
 
 
 def dial_rows(found: PixelInFormats) -> tuple[DialRow, ...]:
@@ -65,14 +63,18 @@ def _decision(reading: DialReading, is_drawn: bool) -> tuple[tuple[str, ...], bo
 
 
 def times(count: int) -> str:
-    """Return how often in words: ``not at all``, ``once``, ``twice``, ``3 times``."""
-    return {0: "not at all", 1: "once", 2: "twice"}.get(count, f"{count:,} times")
+    """Return how often in words: ``0 times``, ``once``, ``twice``, ``3 times``."""
+    return {1: "once", 2: "twice"}.get(count, f"{count:,} times")
 
 
 def drawn_words(count: int, wanted: int) -> str:
     """Return how often a pixel is covered, and what is wrong with that."""
-    wrong = "" if count == wanted else ": hole" if count < wanted else ": too often"
-    return f"{times(count)}{wrong}"
+    return f"{times(count)}{_fault(count, wanted)}"
+
+
+def _fault(count: int, wanted: int) -> str:
+    """Return what is wrong with a count in brackets, empty where it is right."""
+    return "" if count == wanted else " (hole)" if count < wanted else " (too often)"
 
 
 def picture_words(each: FormatAtPixel) -> str:

@@ -202,7 +202,7 @@ class GridCanvas:
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)
         paint_border(painter, placement, theme)
-        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden)
+        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
         paint_above(painter, placement, self._overlays, theme)
         if self._geometry is not None:
             paint_outlines(painter, placement, self._geometry, theme)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.grid_buffer import GridBuffer
@@ -163,7 +163,8 @@ class GridDisplay(QWidget):
     def has_numbers(self) -> bool:
         """Return whether the values are written into the cells at this zoom."""
         buffer = self._canvas.buffer
-        return buffer is not None and has_numbers(self.placement(), buffer, current_theme())
+        samples = self._canvas.samples
+        return buffer is not None and has_numbers(self.placement(), buffer, current_theme(), samples)
 
     def samples_text(self, pixel: tuple[int, int]) -> str:
         """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
@@ -215,13 +216,9 @@ class GridDisplay(QWidget):
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
         painter.save()
-        if self._geometry is not None:
-            if self._compact:
-                painter.setClipRect(placement.viewport)
-            else:
-                painter.setClipRegion(beside_rulers(placement, self.rect(), theme))
-            self._paint_geometry(painter, placement, self._geometry)
         painter.setClipRect(placement.viewport)
+        if self._geometry is not None:
+            self._paint_geometry(painter, placement, self._geometry)
         if self._step is not None:
             paint_step(painter, placement, self._step, theme)
         if self._pin is not None and self._is_inside(self._pin):
@@ -237,16 +234,20 @@ class GridDisplay(QWidget):
         theme, ratio = current_theme(), painter.device().devicePixelRatioF()
         key = (geometry, placement, theme, self._vertex, ratio)
         if painter.device() is not self:
-            paint_focus(painter, placement, geometry, theme, self._vertex, self._compact)
+            paint_focus(painter, placement, geometry, theme, self._vertex, self._free(placement))
             return
         if self._layer is None or self._layer_key != key:
             self._layer = QPixmap(self.size() * ratio)
             self._layer.setDevicePixelRatio(ratio)
             self._layer.fill(Qt.GlobalColor.transparent)
             with QPainter(self._layer) as inner:
-                paint_focus(inner, placement, geometry, theme, self._vertex, self._compact)
+                paint_focus(inner, placement, geometry, theme, self._vertex, self._free(placement))
             self._layer_key = key
         painter.drawPixmap(0, 0, self._layer)
+
+    def _free(self, placement: GridPlacement) -> QRegion | None:
+        """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
+        return None if self._compact else beside_rulers(placement, self.rect(), current_theme())
 
     def _update_dirty(self) -> None:
         """Have the cells painted that changed."""

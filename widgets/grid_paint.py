@@ -10,6 +10,7 @@ from widgets.grid_overlay import Mark
 from widgets.grid_view import GridPlacement
 from widgets.mark_patterns import cell_tile
 from widgets.overlay_paint import paint_pattern
+from widgets.sample_dots import SampleDots, between_samples, has_room
 from widgets.theme import Theme, text_font
 
 LINE_CELL = 6.0
@@ -20,6 +21,8 @@ NUMBER_CELL = 40.0
 """Side from which values are written into the cells, if they fit."""
 _GAP = 5.0
 """Between the sample centre and the value below it, which else would read as an i."""
+TALLNESS = 0.8
+"""Height of digits as a part of the size of their type, with the room that they need between dots."""
 _LEAST_CHARACTERS = 6
 """Values are written only where so many digits fit."""
 
@@ -79,18 +82,27 @@ def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, t
             paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
 
 
-def has_numbers(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
+def has_numbers(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> bool:
     """Return whether the values are written into the cells at this zoom."""
-    return buffer.kind != "bool" and _number_size(placement, buffer, theme) is not None
+    return buffer.kind != "bool" and _number_size(placement, buffer, theme, samples) is not None
 
 
-def _number_size(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> int | None:
-    """Return the text size of the values in logical pixels, or None where the cells are too small."""
+def _number_size(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> int | None:
+    """Return the text size of the values in logical pixels, or None where cells are too small, or full of dots."""
     cell, least = placement.cell, round(0.73 * theme.small_px)
     room = (cell - 6) / (1.25 * buffer.channels)
     if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
         return None
     size = max(int(min(cell / 5.2, room, theme.text_px)), least)
+    if samples is not None and has_room(placement, samples):
+        _, free = between_samples(placement, samples)
+        size = min(size, int(free / (TALLNESS * buffer.channels)))
+        if size < least:
+            return None
     return size if _characters(cell, size, theme) >= _LEAST_CHARACTERS else None
 
 
@@ -112,16 +124,22 @@ def paint_numbers(
     theme: Theme,
     cells: tuple[int, int, int, int],
     hidden: NDArray[np.bool_] | None,
+    samples: SampleDots | None = None,
 ) -> None:
-    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better."""
-    size = _number_size(placement, buffer, theme)
+    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better.
+
+    They stand clear of the sample in the middle, or of several ``samples`` where there is room between them.
+    """
+    size = _number_size(placement, buffer, theme, samples)
     if size is None or buffer.kind == "bool":
         return
     font = text_font(theme, size)
     metrics = QFontMetricsF(font)
     height = metrics.height() * 0.95
     width = _characters(placement.cell, size, theme)
-    below = _stands_below(placement, buffer.channels, height)
+    has_dots = samples is not None and has_room(placement, samples)
+    below = not has_dots and _stands_below(placement, buffer.channels, height)
+    shift = between_samples(placement, samples)[0] if has_dots and samples is not None else 0.0
     dark, light = QColor("#000000"), QColor("#ffffff")
     backdrop = QColor(theme.canvas)
     is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
@@ -141,8 +159,8 @@ def paint_numbers(
                 chip.moveCenter(rect.center() + QPointF(0, _GAP + height * len(lines) / 2 if below else 0))
                 painter.fillRect(chip, QColor(theme.nan_light))
                 painter.setPen(dark)
-            # Below the sample centre if there is room, so that both can be read.
-            top = rect.center().y() + (_GAP if below else -height * len(lines) / 2)
+            # Below the sample centre if there is room, or between samples, so that both can be read.
+            top = rect.center().y() + (_GAP if below else shift - height * len(lines) / 2)
             for index, line in enumerate(lines):
                 box = QRectF(rect.left(), top + index * height, rect.width(), height)
                 painter.drawText(box, flags, line)

@@ -288,14 +288,14 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
     pin = page.case.pin
     assert pin is not None
     sentence = page.case.formats.sentence.text()
-    assert sentence.startswith(
-        f"Pixel ({pin[0]}, {pin[1]}): decided by triangle 0. It should be covered once, "
-    )
-    assert "but is covered not at all: hole by coverage=float16" in sentence
-    assert by_format["float16"].cells[HEAD.index("Whole picture")].endswith(f"first ({pin[0]}, {pin[1]})")
+    place = f"({pin[0]}, {pin[1]})"
+    assert sentence == f"Pixel {place}, triangle 0: once wanted, 0 times by coverage=float16 (hole)."
+    assert by_format["float16"].cells[HEAD.index("Whole picture")].endswith(f"first {place}")
     page.case.linked.pixel_clicked.emit(0, 0)
     qtbot.waitUntil(lambda: all(row.is_right for row in page.case.formats.rows), timeout=60000)
-    assert page.case.formats.sentence.text().startswith("Pixel (0, 0): not covered in any format; triangle 0")
+    assert page.case.formats.sentence.text().startswith(
+        "Pixel (0, 0), not covered in any format, nearest triangle 0: "
+    )
 
 
 def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbot: QtBot) -> None:
@@ -309,7 +309,9 @@ def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbo
     assert len(rows) == 8 * len(triangles)
     assert {row.cells[HEAD.index("Flipped by")] for row in rows} >= {"fill rule"}
     assert [row.cells[0] for row in rows].count("") == len(rows) - 8
-    assert "decided by triangles" in page.case.formats.sentence.text()
+    sentence = page.case.formats.sentence.text()
+    assert ", triangles " in sentence
+    assert sentence.endswith("0 times by fill_rule=exclusive (hole), and all formats with this rule.")
 
 
 def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
