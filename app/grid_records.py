@@ -71,7 +71,10 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     if track.kind == "color":
         values = np.where(known[..., None], values, 0.0)
     scale = track.value_range if track.kind in ("scalar", "signed", "count") else None
-    return GridBuffer(track.name, values, KINDS[track.kind], range=scale, origin=origin, known=known)
+    title = track.name.replace("color", "colour")
+    return GridBuffer(
+        track.name, values, KINDS[track.kind], range=scale, title=title, origin=origin, known=known
+    )
 
 
 def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> GridGeometry:

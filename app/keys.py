@@ -98,7 +98,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("unpin", ("Escape",), "Close what is on top, stop what runs, or take the pin away", VIEWING),
     *_on(
         "step",
-        KeyAction("fit_view", ("W",), "Show the whole raster", VIEWING, "View"),
+        KeyAction("fit_view", ("W",), "Show all stepped pixels", VIEWING, "View"),
         KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
         KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),

@@ -82,6 +82,7 @@ class MainWindow(QMainWindow):
         self.pages.page_made.connect(self._take_page)
         self.pages.page_changed.connect(self._show_page)
         page.timeline.speed_changed.connect(self._remember_speed)
+        page.stepping.message_ended.connect(self._end_hint)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
         page.view_bar.currentChanged.connect(self._show_view)
         menus.action_chosen.connect(self.run_action)
@@ -148,6 +149,12 @@ class MainWindow(QMainWindow):
             self.statusBar().showMessage(text, HINT_MILLISECONDS)
         else:
             self.messages.show_message(Message(kind, text, details))
+
+    @Slot(str)
+    def _end_hint(self, text: str) -> None:
+        """Take a hint away that is true no longer, if it is still shown."""
+        if self.statusBar().currentMessage() == sentence_case(text):
+            self.statusBar().clearMessage()
 
     @Slot(str)
     def _warn(self, text: str) -> None:

@@ -2,12 +2,17 @@
 
 import numpy as np
 
+from app.message_words import sentence_case
 from core.antialiased.sample_counts import sample_count
+from core.arrays import Singles
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.trace import TraceSource
 from core.why import PixelHistory, PixelState, why
+from core.why.pieces import PixelPieces, pixel_pieces
 from widgets.marks import Mark
+from widgets.number_text import counted
 from widgets.pixel_history import HistoryEntry, PixelStory, PixelValue
+from widgets.why_pieces import piece_reason, pieces_verdict
 from widgets.why_samples import of_sample, samples_name, samples_verdict
 from widgets.why_sentences import count_sentences, event_reason, event_title, verdict_sentence
 
@@ -23,13 +28,58 @@ def story_of(
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
     if sample_count(source.settings) > 1:
         return _story_of_samples(source, column, row, triangle)
+    pieces = pixel_pieces(source, column, row) if source.settings.antialiasing == "area" else None
+    if pieces is not None:
+        return _story_of_pieces(source, pieces, triangle)
     history = why(source, column, row, triangle)
     lines = _lines(history)
     mark = Mark.COVERED if history.final.triangle >= 0 else Mark.REJECTED
-    verdict = verdict_sentence(history)
-    if source.settings.antialiasing == "area":
-        verdict = f"At the pixel's centre, whatever its pieces are: {verdict}"
-    return _story(column, row, verdict, mark, lines)
+    return _story(column, row, verdict_sentence(history), mark, lines)
+
+
+def _story_of_pieces(
+    source: TraceSource, pieces: PixelPieces, triangle: int | None
+) -> tuple[PixelStory, list[int | None]]:
+    """Return what triangles did to the pieces of a pixel, and how much of it each of them has."""
+    lines: Lines = [(HistoryEntry("Clear", after=_swatch(pieces.background_color)), None)]
+    for event in pieces.events:
+        is_rejected = not event.passed
+        lines.append(
+            (
+                HistoryEntry(
+                    f"Triangle {event.triangle}",
+                    _swatch(event.before),
+                    None if is_rejected else _swatch(event.color),
+                    _swatch(event.after),
+                    Mark.REJECTED if is_rejected else Mark.COVERED,
+                    sentence_case(f"{piece_reason(event.area, event.passed, event.seen)}."),
+                    is_rejected,
+                ),
+                event.triangle,
+            )
+        )
+    if pieces.untouching_count:
+        others = counted(pieces.untouching_count, "triangle does", "triangles do")
+        lines.append((HistoryEntry(f"{others} not touch the pixel", is_rejected=True), None))
+    mark = Mark.COVERED if any(event.seen for event in pieces.events) else Mark.REJECTED
+    verdict = _pieces_verdict(source, pieces, triangle)
+    return _story(pieces.column, pieces.row, verdict, mark, lines)
+
+
+def _pieces_verdict(source: TraceSource, pieces: PixelPieces, triangle: int | None) -> str:
+    """Return what the pixel shows; of a triangle that was asked about, what it covers, or why it touches nothing."""
+    areas: dict[int, float] = {}
+    for event in pieces.events:
+        areas[event.triangle] = areas.get(event.triangle, 0.0) + event.seen
+    shown = [(number, area) for number, area in areas.items() if area]
+    verdict = pieces_verdict(shown, pieces.background, pieces.is_blended)
+    if triangle is None:
+        return verdict
+    own = [event for event in pieces.events if event.triangle == triangle]
+    if not own:
+        return f"{verdict} {verdict_sentence(why(source, pieces.column, pieces.row, triangle))}"
+    area, passed, seen = (sum(getattr(event, name) for event in own) for name in ("area", "passed", "seen"))
+    return f"{verdict} Triangle {triangle} {piece_reason(area, passed, seen)}."
 
 
 def _story_of_samples(
@@ -113,8 +163,11 @@ def _story(
 
 
 def _value(state: PixelState | None) -> PixelValue | None:
-    if state is None:
-        return None
-    color = np.asarray(state.color, np.float32)
+    return None if state is None else _swatch(state.color, float(state.depth))
+
+
+def _swatch(linear: Singles, depth: float | None = None) -> PixelValue:
+    """Return a linear colour (4,) as it is displayed."""
+    color = np.asarray(linear, np.float32)
     red, green, blue = (int(byte) for byte in encode_srgb(color[:3]))
-    return PixelValue((red, green, blue, int(encode_linear(color[3:])[0])), float(state.depth))
+    return PixelValue((red, green, blue, int(encode_linear(color[3:])[0])), depth)

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.dial_words import dial_rows, dial_sentence
 from app.pages import StepRequest
-from app.stability_desk import CaseFound, CaseOrder, ShrunkFound, StabilityDesk
+from app.stability_desk import CaseFound, CaseOrder, ShrunkFound, StabilityDesk, wanted_cover
 from app.stability_presenter import StabilityPresenter
 from app.stability_records import (
     case_record,
-    dial_row,
     first_failure,
     has_formats,
     place_on_curve,
@@ -20,7 +20,7 @@ from app.stability_records import (
 from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import StressCancelledError
-from core.study.stability.coverage.precision_dial import DialReading
+from core.study.stability.coverage.dial_pixel import PixelInFormats
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
@@ -165,7 +165,7 @@ class StabilityCasePresenter(QObject):
     # The precision dial.
 
     def _dial_pinned(self) -> None:
-        self._view.show_formats(())
+        self._view.show_formats("", ())
         if self._view.pin is not None:
             self._read_dial(*self._view.pin)
 
@@ -176,11 +176,13 @@ class StabilityCasePresenter(QObject):
             return
         opening = self._found.opening if self._shrunk is None else self._shrunk.shrunk.opening
         if opening is not None and has_formats(opening) and isinstance(opening.scene, ClipScene):
-            self._desk.read_dial(opening.scene, (column, row))
+            wanted = wanted_cover(self._found.order.experiment, is_part=self._shrunk is not None)
+            self._desk.read_dial(opening.scene, opening.settings, (column, row), wanted)
 
     @Slot(object)
-    def _show_dial(self, readings: tuple[DialReading, ...]) -> None:
-        self._view.show_formats([dial_row(reading) for reading in readings])
+    def _show_dial(self, found: PixelInFormats) -> None:
+        if self._found is not None:
+            self._view.show_formats(dial_sentence(found, self._found.order.place.key), dial_rows(found))
 
     @Slot(object)
     def _tell_no_dial(self, error: Exception) -> None:

@@ -13,12 +13,11 @@ from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.study import Opening, machine
 from core.study.stability import Axis, Experiment, Verdict, stress
-from core.study.stability.coverage.precision_dial import DialReading, precision_dial
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, Wanted, as_given, once_everywhere
+from core.study.stability.coverage.dial_pixel import PixelInFormats, pixel_in_formats
 from core.study.stability.shrink import Shrunk, shrink_cell
 from widgets.atlas_records import CellPlace
 
-MOST_DIALLED = 64
-"""Triangles of a scene that are looked through for one on which the number formats disagree."""
 MOST_PIXELS = 1 << 20
 """Of a picture that is drawn beside the maps; a larger one is only opened in the stepper."""
 
@@ -82,7 +81,7 @@ class StabilityDesk(Desk):
         self.shrinking = self.add_job()
         """Gives a `ShrunkFound`."""
         self.reading = self.add_job()
-        """Gives a tuple of ``DialReading``."""
+        """Gives a ``PixelInFormats``."""
 
     @property
     def is_running(self) -> bool:
@@ -150,11 +149,11 @@ class StabilityDesk(Desk):
 
         self.shrinking.start(work)
 
-    def read_dial(self, scene: ClipScene, pixel: tuple[int, int]) -> None:
-        """Evaluate a pixel in every number format."""
+    def read_dial(self, scene: ClipScene, settings: Settings, pixel: tuple[int, int], wanted: Wanted) -> None:
+        """Look at a pixel of a run in every number format."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[DialReading, ...]:
-            return readings_at(scene, pixel, is_cancelled)
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PixelInFormats:
+            return pixel_in_formats(scene, settings, pixel, wanted, is_cancelled)
 
         self.reading.start(work)
 
@@ -165,19 +164,10 @@ class StabilityDesk(Desk):
             job.cancel()
 
 
-def readings_at(
-    scene: ClipScene, pixel: tuple[int, int], is_cancelled: Callable[[], bool]
-) -> tuple[DialReading, ...]:
-    """Return the readings of the first triangle on which the formats disagree, or else of the first one."""
-    first: tuple[DialReading, ...] = ()
-    for triangle in range(min(len(scene.clip), MOST_DIALLED)):
-        readings = precision_dial(scene, pixel, triangle)
-        first = first or readings
-        if any(not reading.is_right for reading in readings):
-            return readings
-        if is_cancelled():
-            break
-    return first
+def wanted_cover(experiment: Experiment, is_part: bool) -> Wanted:
+    """Return how often pixels are to be covered by the triangles of an experiment, or by ``is_part`` of a mesh."""
+    wanted = experiment.wanted if isinstance(experiment, CoverageExperiment) else as_given
+    return as_given if is_part and wanted is once_everywhere else wanted
 
 
 def drawn(scene: AnyScene, settings: Settings) -> Frame | None:

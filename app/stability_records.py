@@ -17,10 +17,8 @@ from core.framebuffer.display import to_display
 from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
-from core.study.stability.coverage.precision_dial import DialReading
 from widgets.atlas_records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
 from widgets.case_view import CaseRecord
-from widgets.dial_table import DialRow
 from widgets.grid_buffer import GridBuffer
 from widgets.number_text import counted, number_text
 
@@ -99,10 +97,11 @@ def experiment_text(choice: ExperimentChoice) -> str:
         f"{escape(f' {axis.unit}' if axis.unit else '')}, {counted(len(axis.values), 'value')}</li>"
         for axis in info.axes
     )
-    methods = "".join(f"<li>{escape(method)}</li>" for method in info.methods)
+    methods = "".join(f"<li>{escape(line)}</li>" for line in method_lines(choice))
+    order = "in the order of the maps" if choice.result is None else "most failures first"
     parts = [
         f"<b>{escape(info.title)}</b><p>Axes:</p><ul style='margin-left:-24px'>{axes}</ul>",
-        f"Methods, weakest first:<ul style='margin-left:-24px'>{methods}</ul>",
+        f"Methods, {order}:<ul style='margin-left:-24px'>{methods}</ul>",
     ]
     result = choice.result
     if result is not None:
@@ -112,6 +111,16 @@ def experiment_text(choice: ExperimentChoice) -> str:
             "<p>Point at a cell to read what came of it. Click it to see the case; double-click to step it.</p>"
         )
     return "".join(parts)
+
+
+def method_lines(choice: ExperimentChoice) -> tuple[str, ...]:
+    """Return the methods; of an experiment that has been run with what was measured, most failures first."""
+    if choice.result is None:
+        return choice.info.methods
+    fails = failure_counts(choice.result)
+    size = {each.method: each.outcome.size for each in choice.result.atlas.maps}
+    worst = sorted(fails, key=lambda method: -fails[method])
+    return tuple(f"{method}: {fails[method]:,} of {size[method]:,} fail" for method in worst)
 
 
 def cell_text(
@@ -181,23 +190,6 @@ def has_formats(opening: Opening) -> bool:
     return is_filled and isinstance(opening.scene, ClipScene)
 
 
-def dial_row(reading: DialReading) -> DialRow:
-    """Return what one number format makes of a pixel."""
-    value = reading.values[reading.edge]
-    return DialRow(
-        (
-            reading.coverage,
-            ("covered" if reading.is_covered else "outside") + ("" if reading.is_right else ": wrong"),
-            str(reading.edge),
-            number_text(value),
-            number_text(reading.exact_value),
-            reading.flipped_by,
-            reading.bits,
-        ),
-        reading.is_right,
-    )
-
-
 def verdict_sentence(outcome: Outcome, remark: str) -> str:
     """Return what came of a run in one sentence."""
     word = WORDS[outcome]
@@ -214,12 +206,17 @@ def case_buffers(frame: Frame) -> tuple[GridBuffer, GridBuffer]:
     )
 
 
-def counts_sentence(result: AtlasResult) -> str:
-    """Return in words how many cells of which method fail."""
-    fails = {
+def failure_counts(result: AtlasResult) -> dict[str, int]:
+    """Return how many cells of each method fail; what was refused, with a reason, does not."""
+    return {
         each.method: each.outcome.size - each.count(Outcome.RIGHT) - each.count(Outcome.REFUSED)
         for each in result.atlas.maps
     }
+
+
+def counts_sentence(result: AtlasResult) -> str:
+    """Return in words how many cells of which method fail."""
+    fails = failure_counts(result)
     total = sum(fails.values())
     worst = max(fails, key=lambda method: fails[method])
     cells = sum(each.outcome.size for each in result.atlas.maps)

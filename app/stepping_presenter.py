@@ -1,24 +1,23 @@
 """Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
 
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.rail_entries import rail_entries
 from app.session import Session
 from app.views.scene_figures import FrameFigures
 from core import STAGES
 from core.arrays import Flags, Integers
 from core.conditions import Condition, parse_condition
-from core.frame import StageCount
 from core.raster.fills import suited_fill
 from core.run_to import next_at_pixel, next_marked
 from core.steps import Level
 from core.trace import StageTrace
 from widgets.marks import Mark
-from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
-from widgets.sentences_numbers import replaced_fill
+from widgets.pipeline_rail import PipelineRail
 from widgets.stage_texts import SHORT_TITLES
 from widgets.timeline import Timeline
 from widgets.timeline_run import TimelineRun
@@ -68,18 +67,13 @@ def nearest(positions: Integers, position: int, direction: int) -> int | None:
     return int(found[0 if direction > 0 else -1]) if len(found) else None
 
 
-INSERTED_FOR = {
-    "clip": "corners in front of the eye",
-    "blend": 'pixels that are mixed with what is there: they are blended "over"',
-}
-"""What a method lacked that made the pipeline insert a stage."""
-
-
 class SteppingPresenter(QObject):
     """Shows where the cursor is and moves it."""
 
     message_sent = Signal(str)
     """Something to tell: there is no further event."""
+    message_ended = Signal(str)
+    """What was told is true no longer, since the cursor or the pin is elsewhere."""
     condition_changed = Signal(str)
     """The condition of a breakpoint, empty: none."""
 
@@ -96,10 +90,13 @@ class SteppingPresenter(QObject):
         self.bookmarks: list[Bookmark] = []
         self._condition: Condition | None = None
         self._frame: FrameFigures | None = None
+        self._told = ""
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
         session.pin_changed.connect(self.refresh_marks)
         session.predicting_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self._end_message)
+        session.pin_changed.connect(self._end_message)
         timeline.position_requested.connect(session.scrub)
         timeline.step_requested.connect(self.step)
         timeline.ends_requested.connect(self.go_to_end)
@@ -107,6 +104,16 @@ class SteppingPresenter(QObject):
         rail.stage_chosen.connect(self.choose_stage)
         self._stage = ""
         self.refresh_run()
+
+    def _tell(self, text: str) -> None:
+        self._told = text
+        self.message_sent.emit(text)
+
+    @Slot()
+    def _end_message(self) -> None:
+        if self._told:
+            text, self._told = self._told, ""
+            self.message_ended.emit(text)
 
     # Showing.
 
@@ -173,34 +180,16 @@ class SteppingPresenter(QObject):
         else:
             counts = self._session.trace.source.picture.statistics
             whole, measured = sum(count.seconds for count in counts.values()), "the traced picture"
-        entries = []
-        for index, stage in enumerate(STAGES):
-            state = StageState.CURRENT if stage == self._session.cursor.stage else StageState.DONE
-            share = counts[stage].seconds / whole if whole > 0 else 0.0
-            entries.append(
-                replace(self._entry(index, stage, counts[stage], state), share=share, measured=measured)
+        session = self._session
+        self._rail.show_stages(
+            rail_entries(
+                counts,
+                current=session.cursor.stage,
+                whole_seconds=whole,
+                measured=measured,
+                coverage=session.document.settings.coverage,
+                is_predicting=session.is_predicting,
             )
-        self._rail.show_stages(entries)
-
-    def _entry(self, index: int, stage: str, count: StageCount, state: StageState) -> StageEntry:
-        reason, inserted = "", False
-        if count.note == "not-chosen":
-            reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
-            state = StageState.SKIPPED if state is StageState.DONE else state
-        elif count.note and stage == "raster":
-            inserted = True
-            reason = replaced_fill(count.note, self._session.document.settings.coverage)
-        elif count.note:
-            inserted = True
-            reason = f"Inserted because {count.note} needs {INSERTED_FOR[stage]}."
-        return StageEntry(
-            SHORT_TITLES[stage],
-            str((index + 1) % 10) if index < 10 else "",
-            "? → ?" if self._session.is_predicting else f"{count.incoming:,} → {count.outgoing:,}",
-            f"{count.seconds * 1000:.1f} ms",
-            state,
-            inserted,
-            reason,
         )
 
     # Moving.
@@ -245,7 +234,7 @@ class SteppingPresenter(QObject):
         """Go to the next or last step at the pinned pixel."""
         pin = self._session.pin
         if pin is None:
-            self.message_sent.emit("Pin a pixel first: click it.")
+            self._tell("Pin a pixel first: click it.")
             return
         reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
         self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
@@ -272,21 +261,19 @@ class SteppingPresenter(QObject):
         if len(rows):
             self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
         else:
-            self.message_sent.emit(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
+            self._tell(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
 
     def _go_on(self, reached: int | None, direction: int, what: str) -> None:
         """Go to a position that a run has reached, or tell that there is none."""
         if reached is not None:
             self._session.go_to(reached)
         else:
-            self.message_sent.emit(
-                f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage."
-            )
+            self._tell(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
 
     def toggle_pixel_breakpoint(self) -> None:
         """Set or take away a breakpoint at the pinned pixel."""
         if self._session.pin is None:
-            self.message_sent.emit("Pin a pixel first: click it.")
+            self._tell("Pin a pixel first: click it.")
             return
         self.pixel_breakpoints ^= {self._session.pin}
         self.refresh_marks()
@@ -369,7 +356,7 @@ class SteppingPresenter(QObject):
         if mark in self.bookmarks:
             self.bookmarks.remove(mark)
         elif len(self.bookmarks) >= 10:
-            self.message_sent.emit("Ten bookmarks are set; take one away first.")
+            self._tell("Ten bookmarks are set; take one away first.")
         else:
             self.bookmarks.append(mark)
         self.refresh_marks()
@@ -377,7 +364,7 @@ class SteppingPresenter(QObject):
     def go_to_bookmark(self, index: int) -> None:
         """Go to a bookmark by its number from 0."""
         if index >= len(self.bookmarks):
-            self.message_sent.emit(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
+            self._tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
             return
         mark = self.bookmarks[index]
         self._session.set_stage(mark.stage, mark.position)

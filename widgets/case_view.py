@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.dial_table import DialRow, DialTable
+from widgets.dial_table import DialRow, DialView
 from widgets.flow_layout import FlowLayout
 from widgets.grid_buffer import GridBuffer
 from widgets.linked_grids import LinkedGrids
@@ -68,7 +68,7 @@ class CaseView(QWidget):
         self.values = QLabel(self)
         self.values.setProperty("role", "muted")
         self.values.setWordWrap(True)
-        self.formats = DialTable(self)
+        self.formats = DialView(self)
         self.tabs = QTabWidget(self)
         self.step_button = button_with_tip(
             "Open in the stepper",
@@ -146,9 +146,9 @@ class CaseView(QWidget):
         self.save_button.setEnabled(record.can_save)
         self._show_pointing()
 
-    def show_formats(self, rows: Sequence[DialRow]) -> None:
-        """Show what every number format makes of the pinned pixel."""
-        self.formats.show_rows(rows)
+    def show_formats(self, sentence: str, rows: Sequence[DialRow]) -> None:
+        """Show what every number format makes of the pinned pixel, and say which pixel that is."""
+        self.formats.show_pixel(sentence, rows)
 
     def show_tab(self, name: str) -> None:
         """Show ``pictures`` or ``formats``."""

@@ -9,15 +9,13 @@ import math
 from collections.abc import Sequence
 
 from widgets.formula import Formula
-from widgets.number_text import number_text, position_text
+from widgets.number_text import EXACT_DIGITS, is_short, number_text, position_text
 
 Part = str | tuple[str, float | str]
 """An operator, or a symbol with its number (or with LaTeX to stand under it)."""
 
-EXACT_DIGITS = 7
-"""Numbers that are exact with so many digits are written out."""
 DIGITS = 4
-"""Significant digits of the others."""
+"""Significant digits of numbers that are not exact with ``EXACT_DIGITS``."""
 MOST_DIGITS = 12
 """Significant digits that a number gets at most, where a sum would not come out with fewer."""
 RELATIONS = {"=", "<", ">", r"\le", r"\ge", r"\quad", r"\land", r"\lor", r"\Rightarrow"}
@@ -30,7 +28,7 @@ def number_latex(value: float, digits: int = DIGITS) -> str:
     if math.isinf(value):
         return r"\infty" if value > 0 else r"-\infty"
     text = repr(float(value) + 0.0).removesuffix(".0")
-    if "e" in text or len(text.replace(".", "").lstrip("-0")) > max(EXACT_DIGITS, digits):
+    if not is_short(value, max(EXACT_DIGITS, digits)):
         text = number_text(value, digits).replace("−", "-")
     if "e" in text:
         mantissa, exponent = text.split("e")
@@ -75,8 +73,8 @@ def digits_that_differ(first: float, second: float) -> int:
 
 def _shown(value: float, digits: int) -> float:
     """Return a number as `number_latex` writes it."""
-    is_short = len(repr(value).removesuffix(".0").replace(".", "").lstrip("-0")) <= max(EXACT_DIGITS, digits)
-    return value if is_short or not math.isfinite(value) else float(f"{value:.{digits}g}")
+    is_exact = not math.isfinite(value) or is_short(value, max(EXACT_DIGITS, digits))
+    return value if is_exact else float(f"{value:.{digits}g}")
 
 
 def vector_latex(values: Sequence[float]) -> str:

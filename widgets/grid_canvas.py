@@ -9,6 +9,7 @@ from widgets.grid_buffer import GridBuffer
 from widgets.grid_geometry import GridGeometry, paint_outlines
 from widgets.grid_overlay import Overlay, bounds, changed_cells, union
 from widgets.grid_paint import (
+    beside_rulers,
     centres_are_free,
     paint_border,
     paint_hidden,
@@ -165,9 +166,11 @@ class GridCanvas:
         painter.save()
         if cells is None:
             painter.fillRect(area, QColor(theme.panel))
-            if not self._is_compact:
+            if self._is_compact:
+                painter.setClipRect(placement.viewport)
+            else:
                 paint_rulers(painter, placement, area, theme)
-            painter.setClipRect(placement.viewport)
+                painter.setClipRegion(beside_rulers(placement, area, theme))
         else:
             # One cell more on each side: glyphs, outlines and lines reach over the border of a cell.
             visible = (
@@ -199,7 +202,7 @@ class GridCanvas:
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)
         paint_border(painter, placement, theme)
-        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden)
+        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
         paint_above(painter, placement, self._overlays, theme)
         if self._geometry is not None:
             paint_outlines(painter, placement, self._geometry, theme)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.grid_buffer import GridBuffer
@@ -13,7 +13,7 @@ from widgets.grid_canvas import GridCanvas
 from widgets.grid_geometry import GridGeometry, paint_focus
 from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
-from widgets.grid_paint import has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid_paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
 from widgets.sample_dots import SampleDots
 from widgets.theme import current_theme, theme_notifier
@@ -163,7 +163,8 @@ class GridDisplay(QWidget):
     def has_numbers(self) -> bool:
         """Return whether the values are written into the cells at this zoom."""
         buffer = self._canvas.buffer
-        return buffer is not None and has_numbers(self.placement(), buffer, current_theme())
+        samples = self._canvas.samples
+        return buffer is not None and has_numbers(self.placement(), buffer, current_theme(), samples)
 
     def samples_text(self, pixel: tuple[int, int]) -> str:
         """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
@@ -214,8 +215,6 @@ class GridDisplay(QWidget):
     def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
-        if self._hover is not None and not self._compact and self._is_inside(self._hover):
-            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
         painter.save()
         painter.setClipRect(placement.viewport)
         if self._geometry is not None:
@@ -227,22 +226,28 @@ class GridDisplay(QWidget):
         if self._hover is not None and self._is_inside(self._hover):
             paint_hover(painter, placement, self._hover)
         painter.restore()
+        if self._hover is not None and not self._compact and self._is_inside(self._hover):
+            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
 
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
         """Paint the triangle in focus from a kept layer: smooth lines are slow to draw at every move."""
         theme, ratio = current_theme(), painter.device().devicePixelRatioF()
         key = (geometry, placement, theme, self._vertex, ratio)
         if painter.device() is not self:
-            paint_focus(painter, placement, geometry, theme, self._vertex, self._compact)
+            paint_focus(painter, placement, geometry, theme, self._vertex, self._free(placement))
             return
         if self._layer is None or self._layer_key != key:
             self._layer = QPixmap(self.size() * ratio)
             self._layer.setDevicePixelRatio(ratio)
             self._layer.fill(Qt.GlobalColor.transparent)
             with QPainter(self._layer) as inner:
-                paint_focus(inner, placement, geometry, theme, self._vertex, self._compact)
+                paint_focus(inner, placement, geometry, theme, self._vertex, self._free(placement))
             self._layer_key = key
         painter.drawPixmap(0, 0, self._layer)
+
+    def _free(self, placement: GridPlacement) -> QRegion | None:
+        """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
+        return None if self._compact else beside_rulers(placement, self.rect(), current_theme())
 
     def _update_dirty(self) -> None:
         """Have the cells painted that changed."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
 
 from widgets.grid_view import GridPlacement
 from widgets.line_clip import widget_lines
@@ -109,13 +109,14 @@ def paint_focus(
     geometry: GridGeometry,
     theme: Theme,
     held: int | None,
-    small: bool,
+    free: QRegion | None,
 ) -> None:
     """Paint the triangle in focus: edges and vertices in their colours, snapped positions as hollow diamonds.
 
-    ``held`` is the vertex under the pointer or being dragged; ``small`` leaves out handles and names, for
-    thumbnails.
+    ``held`` is the vertex under the pointer or being dragged; ``free`` is where lines may go, which cross no number of
+    the rulers, while handles and names may lie on them. ``None``: a thumbnail, without rulers, handles and names.
     """
+    small = free is None
     corners = geometry.focus_vertices
     if not corners:
         return
@@ -128,12 +129,15 @@ def paint_focus(
     halo = QColor(theme.halo())
     halo.setAlphaF(0.75)
     painter.setPen(QPen(halo, width + 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    if free is not None:
+        painter.setClipRegion(free)
     painter.drawLines(lines)
     for line, edge in zip(lines, source.tolist(), strict=True):
         painter.setPen(
             QPen(QColor(theme.vertex[edge]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
         )
         painter.drawLine(line)
+    painter.setClipRect(placement.viewport)
     for place in range(3):
         position = vertex_place(geometry, placement, corners[place])
         if position is not None and not small:
@@ -196,6 +200,8 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
         reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + width / 2
         box = QRectF(0, 0, width, height)
         box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
+        if QRectF(placement.viewport).contains(position):
+            box = moved_inside(box, QRectF(placement.viewport))
         chip = QColor(theme.panel)
         chip.setAlphaF(0.88)
         painter.setPen(Qt.PenStyle.NoPen)
@@ -203,6 +209,13 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
         painter.drawRoundedRect(box, 3, 3)
         painter.setPen(QColor(theme.vertex_text[place]))
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def moved_inside(box: QRectF, area: QRectF) -> QRectF:
+    """Return a box moved as little as it takes to lie in an area; its left and top do where it is too large."""
+    left = max(min(box.left(), area.right() - box.width()), area.left())
+    top = max(min(box.top(), area.bottom() - box.height()), area.top())
+    return QRectF(left, top, box.width(), box.height())
 
 
 def _place(placement: GridPlacement, position: NDArray[np.float64]) -> QPointF | None:

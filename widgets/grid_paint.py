@@ -3,13 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QRegion
 
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_overlay import Mark
 from widgets.grid_view import GridPlacement
 from widgets.mark_patterns import cell_tile
 from widgets.overlay_paint import paint_pattern
+from widgets.sample_dots import SampleDots, between_samples, has_room
 from widgets.theme import Theme, text_font
 
 LINE_CELL = 6.0
@@ -20,6 +21,8 @@ NUMBER_CELL = 40.0
 """Side from which values are written into the cells, if they fit."""
 _GAP = 5.0
 """Between the sample centre and the value below it, which else would read as an i."""
+TALLNESS = 0.8
+"""Height of digits as a part of the size of their type, with the room that they need between dots."""
 _LEAST_CHARACTERS = 6
 """Values are written only where so many digits fit."""
 
@@ -79,18 +82,27 @@ def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, t
             paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
 
 
-def has_numbers(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
+def has_numbers(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> bool:
     """Return whether the values are written into the cells at this zoom."""
-    return buffer.kind != "bool" and _number_size(placement, buffer, theme) is not None
+    return buffer.kind != "bool" and _number_size(placement, buffer, theme, samples) is not None
 
 
-def _number_size(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> int | None:
-    """Return the text size of the values in logical pixels, or None where the cells are too small."""
+def _number_size(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> int | None:
+    """Return the text size of the values in logical pixels, or None where cells are too small, or full of dots."""
     cell, least = placement.cell, round(0.73 * theme.small_px)
     room = (cell - 6) / (1.25 * buffer.channels)
     if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
         return None
     size = max(int(min(cell / 5.2, room, theme.text_px)), least)
+    if samples is not None and has_room(placement, samples):
+        _, free = between_samples(placement, samples)
+        size = min(size, int(free / (TALLNESS * buffer.channels)))
+        if size < least:
+            return None
     return size if _characters(cell, size, theme) >= _LEAST_CHARACTERS else None
 
 
@@ -112,16 +124,22 @@ def paint_numbers(
     theme: Theme,
     cells: tuple[int, int, int, int],
     hidden: NDArray[np.bool_] | None,
+    samples: SampleDots | None = None,
 ) -> None:
-    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better."""
-    size = _number_size(placement, buffer, theme)
+    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better.
+
+    They stand clear of the sample in the middle, or of several ``samples`` where there is room between them.
+    """
+    size = _number_size(placement, buffer, theme, samples)
     if size is None or buffer.kind == "bool":
         return
     font = text_font(theme, size)
     metrics = QFontMetricsF(font)
     height = metrics.height() * 0.95
     width = _characters(placement.cell, size, theme)
-    below = _stands_below(placement, buffer.channels, height)
+    has_dots = samples is not None and has_room(placement, samples)
+    below = not has_dots and _stands_below(placement, buffer.channels, height)
+    shift = between_samples(placement, samples)[0] if has_dots and samples is not None else 0.0
     dark, light = QColor("#000000"), QColor("#ffffff")
     backdrop = QColor(theme.canvas)
     is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
@@ -141,8 +159,8 @@ def paint_numbers(
                 chip.moveCenter(rect.center() + QPointF(0, _GAP + height * len(lines) / 2 if below else 0))
                 painter.fillRect(chip, QColor(theme.nan_light))
                 painter.setPen(dark)
-            # Below the sample centre if there is room, so that both can be read.
-            top = rect.center().y() + (_GAP if below else -height * len(lines) / 2)
+            # Below the sample centre if there is room, or between samples, so that both can be read.
+            top = rect.center().y() + (_GAP if below else shift - height * len(lines) / 2)
             for index, line in enumerate(lines):
                 box = QRectF(rect.left(), top + index * height, rect.width(), height)
                 painter.drawText(box, flags, line)
@@ -202,26 +220,43 @@ def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
 def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
     """Write column numbers below and row numbers left of the viewport, as many as have room."""
     painter.save()
-    font = text_font(theme, theme.small_px)
-    metrics = QFontMetricsF(font)
+    painter.setFont(text_font(theme, theme.small_px))
+    painter.setPen(QColor(theme.muted_text))
+    for box, number in ruler_labels(placement, area, theme):
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, number)
+    painter.restore()
+
+
+def beside_rulers(placement: GridPlacement, area: QRect, theme: Theme) -> QRegion:
+    """Return the viewport without the numbers of the rulers, which no line may cross.
+
+    They stand at the raster; where it does not fill the viewport, outlines that leave it come upon them.
+    """
+    region = QRegion(placement.viewport)
+    for box, _ in ruler_labels(placement, area, theme):
+        region -= QRegion(box.toAlignedRect())
+    return region
+
+
+def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tuple[QRectF, str]]:
+    """Return the boxes and texts of the rulers' numbers, in widget pixels."""
+    metrics = QFontMetricsF(text_font(theme, theme.small_px))
     column0, row0, column1, row1 = placement.visible_cells()
     viewport = placement.viewport
     first_column, first_row = placement.origin
     widest = metrics.horizontalAdvance(str(first_column + placement.columns - 1))
     every_column = _ruler_step(placement.cell, widest + 8)
     every_row = _ruler_step(placement.cell, metrics.height() + 2)
-    center = Qt.AlignmentFlag.AlignCenter
-    painter.setFont(font)
-    painter.setPen(QColor(theme.muted_text))
+    labels = []
     for column in _ruler_numbers(column0, column1, first_column, every_column):
         x = placement.cells_rect(column, 0).center().x()
         if viewport.left() <= x <= viewport.right():
-            painter.drawText(_below(placement, area, x, 80), center, str(column + first_column))
+            labels.append((_below(placement, area, x, widest + 4), str(column + first_column)))
     for row in _ruler_numbers(row0, row1, first_row, every_row):
         y = placement.cells_rect(0, row).center().y()
         if viewport.top() <= y <= viewport.bottom():
-            painter.drawText(_beside(placement, area, y, 40), center, str(row + first_row))
-    painter.restore()
+            labels.append((_beside(placement, area, y, metrics.height()), str(row + first_row)))
+    return labels
 
 
 def _ruler_numbers(first: int, end: int, origin: int, step: int) -> range:

@@ -10,6 +10,9 @@ from collections.abc import Sequence
 SUBPIXELS = 256
 """Steps of one pixel that a snapped position can take; fractions are shown in these."""
 
+EXACT_DIGITS = 7
+"""Formulas and variables write numbers out that are exact with so many digits."""
+
 _DECIMAL = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = re.compile(
     rf"^(?P<sign>[+\-]?)\s*(?:(?P<whole>\d+)\s+(?=\d+\s*/))?"
@@ -80,6 +83,17 @@ def number_text(value: float, digits: int = 4) -> str:
         mantissa, exponent = text.split("e")
         text = f"{mantissa}e{int(exponent)}"
     return text.replace("-", "\u2212")
+
+
+def is_short(value: float, digits: int = EXACT_DIGITS) -> bool:
+    """Tell whether a number is exact with so many digits, without a power of ten."""
+    text = repr(float(value))
+    return "e" not in text and len(text.removesuffix(".0").replace(".", "").lstrip("-0")) <= digits
+
+
+def exact_text(value: float) -> str:
+    """Write a number in full where that is short, as formulas do, else with four significant digits."""
+    return full_text(value) if math.isfinite(value) and is_short(value) else number_text(value)
 
 
 def fraction_text(value: float) -> str:

@@ -39,7 +39,7 @@ class PixelGrid(GridDisplay):
 
     Wheel: zoom about the pointer. Middle drag, right drag or Space and drag: pan. Click: ``pixel_clicked``.
     Vertices of the triangle in focus can be dragged; Shift rounds to half pixels, Escape takes the drag
-    back. Double click beside the raster, or :meth:`fit`: the whole raster. Ctrl+C copies the pinned value
+    back. Double click beside the raster, or :meth:`fit`: all of its pixels. Ctrl+C copies the pinned value
     in full precision.
     """
 
@@ -78,7 +78,7 @@ class PixelGrid(GridDisplay):
         self._has_brush = has_brush
 
     def fit(self) -> None:
-        """Show the whole raster, as the user's wish."""
+        """Show all pixels that the grid has, as the user's wish."""
         self._change_view(FIT)
 
     def zoom_by(self, factor: float) -> None:
@@ -156,7 +156,7 @@ class PixelGrid(GridDisplay):
         self._point_at(event.position())
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Show the whole raster after a double click beside it; elsewhere it is two clicks."""
+        """Show all pixels after a double click beside them; elsewhere it is two clicks."""
         beside = self.placement().pixel_at(event.position()) is None
         if beside and event.button() == Qt.MouseButton.LeftButton and self.buffer() is not None:
             self.fit()

@@ -13,6 +13,8 @@ from widgets.number_text import joined
 
 LEAST_CELL = 12.0
 """Side of a cell in logical pixels from which one sample is drawn; of n x n samples n times as much."""
+LIGHT_RING = 4.0
+"""By how much the diameter of a dot's light ring is more than that of what is filled."""
 MOST_NAMED = 4
 """Samples that a tooltip names one by one; of more it counts them."""
 
@@ -51,6 +53,23 @@ class SampleDots:
         return text[0].upper() + text[1:]
 
 
+def between_samples(placement: GridPlacement, dots: SampleDots) -> tuple[float, float]:
+    """Return where a number stands best in a cell: between two rows of dots, near the middle.
+
+    Returns
+    -------
+    below : float
+        How far below the cell's middle, in logical pixels.
+    room : float
+        Height that is free of dots there, in logical pixels.
+    """
+    heights = np.unique(dots.position[:, 1])
+    middle, gap = (heights[1:] + heights[:-1]) / 2, np.diff(heights)
+    chosen = int(np.abs(middle - 0.5).argmin())
+    dot = _fill_of(placement, dots) + LIGHT_RING
+    return float(0.5 - middle[chosen]) * placement.cell, float(gap[chosen]) * placement.cell - dot
+
+
 def has_room(placement: GridPlacement, dots: SampleDots) -> bool:
     """Tell whether the dots of a pixel stand clearly apart at this zoom."""
     return bool(placement.cell >= LEAST_CELL * len(dots.position) ** 0.5)
@@ -71,17 +90,22 @@ def paint_samples(
     x = placement.left + (columns + dots.position[:, 0, None, None]) * placement.cell
     y = placement.bottom - (rows + dots.position[:, 1, None, None]) * placement.cell
     shown = dots.shown[:, row0:row1, column0:column1]
-    fill = min(max(placement.cell / len(dots.position) ** 0.5 * 0.14, 3.0), 9.0)
+    fill = _fill_of(placement, dots)
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     is_had = shown >= 0
     _paint_points(painter, x[~is_had], y[~is_had], (("#ffffff", 3.6), ("#000000", 2.0)))
-    _paint_points(painter, x[is_had], y[is_had], (("#ffffff", fill + 4.0), ("#000000", fill + 2.4)))
+    _paint_points(painter, x[is_had], y[is_had], (("#ffffff", fill + LIGHT_RING), ("#000000", fill + 2.4)))
     colors = id_table()
     for triangle in np.unique(shown[is_had]).tolist():
         color = QColor(*colors[triangle % len(colors)].tolist())
         _paint_points(painter, x[shown == triangle], y[shown == triangle], ((color, fill),))
     painter.restore()
+
+
+def _fill_of(placement: GridPlacement, dots: SampleDots) -> float:
+    """Return the diameter of what is filled of a dot, in logical pixels."""
+    return float(min(max(placement.cell / len(dots.position) ** 0.5 * 0.14, 3.0), 9.0))
 
 
 def _paint_points(

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.key_claim import KeyClaim
-from widgets.number_text import fraction_text, full_text, number_text
+from widgets.number_text import exact_text, fraction_text, full_text, number_text
 from widgets.theme import current_theme, theme_notifier
 from widgets.typed_value import tabular_font
 
@@ -47,7 +47,10 @@ class Variable:
 
 
 def value_text(value: Value, *, is_full: bool = False, is_fraction: bool = False) -> str:
-    """Return a value as text: four significant digits, in full, or in exact 1/256ths."""
+    """Return a value as text: as formulas write it, in full, or in exact 1/256ths.
+
+    A vector's numbers stand side by side and have four significant digits.
+    """
     if value is None:
         return "–"
     if isinstance(value, bool):
@@ -55,11 +58,16 @@ def value_text(value: Value, *, is_full: bool = False, is_fraction: bool = False
     if isinstance(value, str):
         return value
     if isinstance(value, tuple):
-        parts = (value_text(part, is_full=is_full, is_fraction=is_fraction) for part in value)
+        parts = (
+            value_text(part, is_full=is_full, is_fraction=is_fraction)
+            if is_full or is_fraction
+            else number_text(part)
+            for part in value
+        )
         return f"({', '.join(parts)})"
     if is_full:
         return full_text(value)
-    return fraction_text(value) if is_fraction else number_text(value)
+    return fraction_text(value) if is_fraction else exact_text(value)
 
 
 def _is_same(first: Value, second: Value) -> bool:

@@ -4,15 +4,18 @@ from dataclasses import dataclass
 
 from core.frame import StageCount
 from core.picture import Route
+from core.picture.record import Coloring, Visibility
 from core.picture.workers import Sharing
 
-VISIBILITIES = {
+VISIBILITIES: dict[Visibility, str] = {
     "layer": "no depth, since no pixel belongs to two triangles",
     "words": "depth and triangle number in one word, the least is seen",
     "stacks": "every fragment in its turn, blended",
     "frame": "through all buffers",
+    "supersampled": "a picture of all samples, drawn like any other, then averaged",
+    "multisampled": "one word for each of four samples, averaged where they differ",
 }
-COLORS = {
+COLORS: dict[Coloring, str] = {
     "palette": "one for each triangle",
     "bytes": "corner colours interpolated as bytes",
     "normals": "light once per visible pixel, from packed normals",

@@ -161,4 +161,4 @@ def _blend(
         source = weigh_alpha(source, fragments)
         rule = table.get("blend", blend_choice(settings)[0]).function
         blend_stacks(color, source, np.cumsum(passes) - 1, decided.stacks, passes, rule)
-        counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
+        counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = len(fragments)

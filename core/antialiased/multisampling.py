@@ -139,4 +139,6 @@ def _blend(
         for of_sample, each, fragments, of_fragment in zip(color, decided, passing, number, strict=True):
             weighed = weigh_alpha(source.take(of_fragment, axis=0), fragments)
             blend_stacks(of_sample, weighed, np.cumsum(each.passes) - 1, each.stacks, each.passes, rule)
-        counts["blend"].incoming = counts["blend"].outgoing = sum(len(f) for f in passing)
+        counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = sum(
+            map(len, passing)
+        )

@@ -5,6 +5,7 @@ Depth test and blending then go layer by layer (``stacks``), by the rules of eve
 """
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,7 +28,17 @@ STRIP_FRAGMENTS = 1 << 17
 """Fragments of a strip of rows, about: sorting them stays in the processor's cache."""
 
 
-def draw_blended(job: Job, palette: Floats | None) -> Split:
+class Blended(NamedTuple):
+    """What was drawn."""
+
+    split: Split
+    passed: int
+    """Fragments that passed the depth test and were blended."""
+    visible: int
+    """Pixels that have any of them."""
+
+
+def draw_blended(job: Job, palette: Floats | None) -> Blended:
     """Draw every fragment in its turn, one strip of rows after another.
 
     ``palette`` (P, 4) has the colours of triangles of one colour each.
@@ -37,21 +48,21 @@ def draw_blended(job: Job, palette: Floats | None) -> Split:
     columns = end_column - first_column
     expected = float(np.abs(geometry.doubled_area[geometry.is_projected]).sum()) / 2
     rows = max(int((end_row - first_row) * STRIP_FRAGMENTS / max(expected, 1)), 1)
-    fragments = 0
+    fragments = passed = visible = 0
     for row in range(first_row, end_row, rows):
         region = (first_column, row, columns, min(rows, end_row - row))
         at = slice((row - first_row) * columns, (row - first_row + region[3]) * columns)
         strip = replace(job, raster=replace(raster, region=region), pixels=job.pixels[at])
-        color, count = _draw_strip(strip, palette)
+        color, found = _draw_strip(strip, palette)
         with job.timed("resolve"):
             strip.pixels[:] = job.encode(color)
-        fragments += count
+        fragments, passed, visible = fragments + found[0], passed + found[1], visible + found[2]
     walked = int(np.count_nonzero(geometry.is_projected))
-    return Split(walked, 0, len(geometry.primitives) - walked, fragments)
+    return Blended(Split(walked, 0, len(geometry.primitives) - walked, fragments), passed, visible)
 
 
-def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, int]:
-    """Return the blended colours of a strip, (h*W, 4) float32, and how many fragments it had."""
+def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
+    """Return the blended colours of a strip, (h*W, 4) float32, its fragments, those blended, and their pixels."""
     geometry, raster = job.geometry, job.raster
     pixel, primitive = _fragments(job)
     with job.timed("depth"):
@@ -76,7 +87,9 @@ def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, int]:
         color[:] = job.scene.background
         rule = table.get("blend", job.settings.blend).function
         blend_stacks(color, source, number, stacks, passes, rule)
-    return color, len(order)
+    blended = pixel if passes is None else pixel[passes]
+    visible = int(np.count_nonzero(blended[1:] != blended[:-1])) + min(len(blended), 1)
+    return color, (len(order), len(blended), visible)
 
 
 def _test_depth(job: Job, fragments: Fragments, pixel: Integers) -> tuple[Fragments, Integers, Flags]:

@@ -8,6 +8,7 @@ colours are those of the unsnapped triangle and may leave the range of its corne
 """
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from core.picture.byte_errors import (
 )
 from core.picture.byte_words import FIELDS, unpack
 from core.picture.job import Job, Words, blocks
+from core.picture.record import Coloring
 from core.raster.spans.bands import Strip
 from core.surface import shade_fragments
 
@@ -53,7 +55,7 @@ class ByteColors:
     """(P,) float64."""
     center: float
     """Offset of a pixel's centre."""
-    name = "bytes"
+    name: ClassVar[Coloring] = "bytes"
     stage = "interpolate"
     fits_layer = True
 

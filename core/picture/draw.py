@@ -18,7 +18,7 @@ from core.picture.job import Job, Words, encode
 from core.picture.multisampled import draw_multisampled
 from core.picture.opaque import draw_opaque
 from core.picture.palette import palette
-from core.picture.record import Picture, Route
+from core.picture.record import Coloring, Passing, Picture, Route
 from core.picture.supersampled import draw_supersampled
 from core.pipeline import draw
 from core.raster.number_format import number_format
@@ -100,7 +100,7 @@ def draw_picture(
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
     depth = None
     if not with_depth and _is_multisampled(settings):
-        route = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
+        route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
     elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
     else:
@@ -108,9 +108,10 @@ def draw_picture(
         job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
         if settings.blend == "opaque":
             route, depth = draw_opaque(job, with_depth, plain_colors)
+            passing = Passing(route.visible, route.visible)
         else:
-            route = _draw_stacks(job)
-    _count(counts, route, sample_count(settings) * len(pixels), len(pixels))
+            route, passing = _draw_stacks(job)
+    _count(counts, route, passing, sample_count(settings) * len(pixels), len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
 
@@ -138,12 +139,13 @@ def _draw_frame(
     return Picture(_bytes(pixels, raster), depth, frame.statistics, route)
 
 
-def _draw_stacks(job: Job) -> Route:
+def _draw_stacks(job: Job) -> tuple[Route, Passing]:
     """Draw every fragment in its turn."""
     with job.timed("shade"):
         of_triangles = palette(job)
-    split = draw_blended(job, of_triangles)
-    return Route("stacks", "deferred" if of_triangles is None else "palette", split, split.fragments)
+    blended = draw_blended(job, of_triangles)
+    color: Coloring = "deferred" if of_triangles is None else "palette"
+    return Route("stacks", color, blended.split, blended.visible), Passing(blended.passed, blended.passed)
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
@@ -153,14 +155,16 @@ def is_drawn_by_spans(settings: Settings) -> bool:
     return settings.fill == "spans" and not is_outlined and suits_spans and settings.antialiasing == "none"
 
 
-def _count(counts: dict[str, StageCount], route: Route, sample_count: int, pixel_count: int) -> None:
-    """Note how much each stage took in and gave out."""
+def _count(
+    counts: dict[str, StageCount], route: Route, passing: Passing, sample_count: int, pixel_count: int
+) -> None:
+    """Note how much each stage took in and gave out; the ends of spans are computed, so no pixel was tested."""
     fragments = route.split.fragments if route.split else 0
     counts["bin"].incoming = counts["edges"].outgoing
     counts["bin"].outgoing = counts["raster"].outgoing = counts["depth"].incoming = fragments
-    for stage in ("interpolate", "shade", "blend"):
-        counts[stage].incoming = counts[stage].outgoing = route.visible
-    counts["depth"].outgoing = route.visible
+    for stage in ("interpolate", "shade"):
+        counts[stage].incoming = counts[stage].outgoing = passing.shaded
+    counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = passing.passed
     counts["resolve"].incoming, counts["resolve"].outgoing = sample_count, pixel_count
 
 

@@ -15,6 +15,8 @@ class FragmentColors:
 
     def __init__(self, job: Job) -> None:
         self._job = job
+        self.count = 0
+        """Fragments that have been coloured so far."""
         values, settings = job.geometry.primitives.values, job.settings
         how = settings.interpolation, settings.provoking, settings.correction_interval
         with job.timed("interpolate"):
@@ -23,6 +25,7 @@ class FragmentColors:
     def at(self, primitive: Integers, column: Integers, row: Integers) -> Floats:
         """Return the linear colours (F, 4) float64 of primitives (F,) at pixels (F,)."""
         job, primitives = self._job, self._job.geometry.primitives
+        self.count += len(primitive)
         with job.timed("interpolate"):
             x, y = job.raster.centers(column, row)
             rows = job.arena("values", self._interpolator.value_count, len(primitive))

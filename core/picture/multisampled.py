@@ -23,7 +23,7 @@ from core.geometry_stages import process_geometry
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, Words, blocks
 from core.picture.palette import palette
-from core.picture.record import Route, Split
+from core.picture.record import Passing, Route, Split
 from core.picture.visible import find_visible
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
@@ -44,7 +44,7 @@ def draw_multisampled(
     pixels: Words,
     counts: dict[str, StageCount],
     arena: Arena,
-) -> Route:
+) -> tuple[Route, Passing]:
     """Draw opaque filled triangles with four samples a pixel into ``pixels`` (H*W,): the bytes of `render`."""
     weights = filter_weights(ROTATED_GRID, settings.resolve_filter)
     wide = grown(raster, reach_of(weights))
@@ -55,23 +55,24 @@ def draw_multisampled(
     job = Job(scene, settings, geometry, wide, encoding, room, counts, arena)
     numbers, split = _find_samples(job)
     route = Route("multisampled", "deferred", split, int(np.count_nonzero(numbers.any(axis=0))))
+    sample_count = int(np.count_nonzero(numbers))
     if reach_of(weights):
-        _resolve_all(job, numbers, weights, raster, pixels)
-        return route
+        return route, Passing(sample_count, _resolve_all(job, numbers, weights, raster, pixels))
     with job.timed("shade"):
         of_triangles = palette(job)
     words = None if of_triangles is None else job.encode(of_triangles)
-    colors = FragmentColors(job)
+    colors, looked_up = FragmentColors(job), 0
     for part in blocks(len(pixels)):
         number = numbers[:, part]
         is_mixed = (number[1:] != number[0]).any(axis=0)
         pixels[part] = job.background
-        _color_alike(job, colors, words, np.where(is_mixed, 0, number[0]), part)
+        looked_up += _color_alike(job, colors, words, np.where(is_mixed, 0, number[0]), part)
         mixed = np.flatnonzero(is_mixed)
         color = sample_colors(job, colors, number[:, mixed], mixed + part.start)
         with job.timed("resolve"):
             pixels[part][mixed] = job.encode(resolve_samples(color[:, None], weights)[0])
-    return route if words is None else replace(route, color="palette")
+    passing = Passing(sample_count, colors.count + looked_up)
+    return route if words is None else replace(route, color="palette"), passing
 
 
 def _find_samples(job: Job) -> tuple[Numbers, Split]:
@@ -88,10 +89,11 @@ def _find_samples(job: Job) -> tuple[Numbers, Split]:
     return numbers, replace(split, fragments=fragments)
 
 
-def _color_alike(job: Job, colors: FragmentColors, words: Words | None, number: Numbers, part: slice) -> None:
+def _color_alike(job: Job, colors: FragmentColors, words: Words | None, number: Numbers, part: slice) -> int:
     """Write the pixels of a part of the picture that one triangle has all samples of.
 
-    ``number`` (N,) is its primitive plus one, 0: leave the pixel; ``words`` (P,) the colours of triangles of one each.
+    ``number`` (N,) is its primitive plus one, 0: leave the pixel; ``words`` (P,) the colours of triangles of one each,
+    and what is returned how many of them were looked up.
     """
     place = np.flatnonzero(number)
     primitive = number.take(place).astype(np.int64) - 1
@@ -99,6 +101,7 @@ def _color_alike(job: Job, colors: FragmentColors, words: Words | None, number: 
         color = colors.at(primitive, *job.raster.position(place + part.start))
     with job.timed("resolve"):
         job.pixels[part][place] = job.encode(color) if words is None else words.take(primitive)
+    return 0 if words is None else len(place)
 
 
 def sample_colors(job: Job, colors: FragmentColors, number: Numbers, place: Integers) -> Singles:
@@ -131,8 +134,11 @@ def sample_colors(job: Job, colors: FragmentColors, number: Numbers, place: Inte
         return shaded.take(row_of_color, axis=0)
 
 
-def _resolve_all(job: Job, numbers: Numbers, weights: Floats, raster: Raster, pixels: Words) -> None:
-    """Colour all samples of a job's raster, and resolve those of ``raster`` into ``pixels`` (H*W,)."""
+def _resolve_all(job: Job, numbers: Numbers, weights: Floats, raster: Raster, pixels: Words) -> int:
+    """Colour all samples of a job's raster, and resolve those of ``raster`` into ``pixels`` (H*W,).
+
+    Returns how many fragments were coloured.
+    """
     colors = FragmentColors(job)
     for band in bands_of(raster, 1, BAND):
         around = grown(band, reach_of(weights))
@@ -144,3 +150,4 @@ def _resolve_all(job: Job, numbers: Numbers, weights: Floats, raster: Raster, pi
             at = (band.bounds[1] - raster.bounds[1]) * raster.shape[1]
             inner = resolved[inner_of(around, band)].reshape(-1, 4)
             pixels[at : at + len(inner)] = job.encode(inner)
+    return colors.count

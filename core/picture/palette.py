@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.byte_words import OPAQUE, pack_level
 from core.picture.job import BLOCK, Job, Words
+from core.picture.record import Coloring
 from core.primitives import CornerValues
 from core.scene import ClipScene, Scene
 from core.surface import shade_fragments
@@ -62,7 +64,7 @@ class PaletteColors:
 
     words: Words
     """(P,) uint32."""
-    name = "palette"
+    name: ClassVar[Coloring] = "palette"
     stage = "resolve"
 
     @property

@@ -1,12 +1,15 @@
 """What drawing a picture returns."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.frame import StageCount
+
+Visibility = Literal["layer", "words", "stacks", "frame", "supersampled", "multisampled"]
+Coloring = Literal["palette", "bytes", "normals", "lit-texture", "texture", "deferred"]
 
 
 @dataclass(frozen=True)
@@ -27,12 +30,12 @@ class Split:
 class Route:
     """How a picture was drawn, and the counts that decided it."""
 
-    visibility: str
+    visibility: Visibility
     """``layer``: no pixel belongs to two triangles, so none is hidden; ``words``: nearest of all fragments;
     ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``; ``supersampled``: a
     picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
     and what they show averaged where they differ."""
-    color: str
+    color: Coloring
     """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
     lit once per visible pixel; ``lit-texture``: the same times a texture, read in single precision; ``texture``: packed
     texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
@@ -47,6 +50,15 @@ class Route:
     def depth_complexity(self) -> float:
         """Fragments for each pixel that something is seen at."""
         return self.split.fragments / max(self.visible, 1) if self.split else 0.0
+
+
+class Passing(NamedTuple):
+    """How much of a picture passed the depth test."""
+
+    passed: int
+    """Fragments, or where a pixel has several samples, those of them that show a triangle."""
+    shaded: int
+    """Fragments that were given a colour: fewer where several samples of a pixel show one triangle."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -141,11 +141,9 @@ def _region(raster: Raster) -> tuple[int, int, int, int]:
 def _add(counts: dict[str, StageCount], of_band: dict[str, StageCount]) -> None:
     """Add the counts of a band: each of them has all triangles, and pixels of its own."""
     for stage, count in of_band.items():
-        is_shared = STAGES.index(stage) <= STAGES.index("edges")
-        if is_shared:
-            counts[stage].incoming, counts[stage].outgoing = count.incoming, count.outgoing
-        else:
-            counts[stage].incoming += count.incoming
-            counts[stage].outgoing += count.outgoing
+        place = STAGES.index(stage)
+        is_of_triangles, gives_pixels = place <= STAGES.index("bin"), place >= STAGES.index("bin")
+        counts[stage].incoming = count.incoming + (0 if is_of_triangles else counts[stage].incoming)
+        counts[stage].outgoing = count.outgoing + (counts[stage].outgoing if gives_pixels else 0)
         counts[stage].seconds += count.seconds
         counts[stage].note = count.note

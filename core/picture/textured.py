@@ -4,6 +4,8 @@ For a picture whose bytes are linear, of triangles so few and large that a band 
 ``packed_texture`` for how close the bytes are.
 """
 
+from typing import ClassVar
+
 import numpy as np
 
 from core.arrays import Singles
@@ -12,6 +14,7 @@ from core.fragments.packed_texture import FARTHEST, PackedSampler, has_bytes, is
 from core.framebuffer.display import encode_linear
 from core.framebuffer.nearest import NearestFragments
 from core.picture.job import Job, Words
+from core.picture.record import Coloring
 from core.raster.spans.bands import Band, Strip, bands
 from core.scene import AnyScene, ClipScene, Texture
 
@@ -26,7 +29,7 @@ SINGLE = 2.0**-23
 class TextureColors:
     """Colours of the textured triangles of a job, block by block; the texture is packable."""
 
-    name = "texture"
+    name: ClassVar[Coloring] = "texture"
     stage = "shade"
     fits_layer = True
 

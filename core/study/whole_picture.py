@@ -42,6 +42,8 @@ MEASURES = (MEAN_COLOR, LARGEST_COLOR, WRONG_VISIBLE, SAMPLED_COLOR)
 
 LOOKS = ("cull", "polygon_mode", "pixel_center", "provoking", "wrap", "shading", "blend", "line")
 """Families that choose what is to be seen, not how well: the reference takes them from the settings given."""
+TITLES = {"pixel_center": "Pixel centres"}
+"""Titles of families whose name is not one."""
 SCALES = Dial("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
 
 
@@ -198,5 +200,5 @@ def standing_in(family: str) -> StudyFamily:
     def make(assignment: Assignment) -> PictureTask:
         return PictureTask(scaled(standard_scene(), assignment.dials["scale"]), assignment.settings, family)
 
-    title = family.replace("_", " ").capitalize()
+    title = TITLES.get(family, family.replace("_", " ").capitalize())
     return StudyFamily(family, title, (family,), (PICTURE,), MEASURES, make, base)

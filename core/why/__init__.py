@@ -2,7 +2,7 @@
 
 The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
 Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
-own; of exact areas it is that of the pixel's centre.
+own; of exact areas ``pieces`` tells who covers how much of the pixel, and this one what is at its centre.
 """
 
 from core.antialiased.sample_counts import sample_count

@@ -1,11 +1,13 @@
 """The history of a pixel with several samples: what each of them shows, and why."""
 
 import numpy as np
+import pytest
 
 from app.pixel_stories import story_of
 from core import Settings, render
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
+from widgets.why_pieces import piece_reason, pieces_verdict
 from widgets.why_samples import of_sample, samples_name, samples_verdict
 
 
@@ -53,10 +55,66 @@ def test_a_pixel_inside_tells_one_history() -> None:
     assert triangles == [None, 0]
 
 
-def test_exact_areas_tell_of_the_centre() -> None:
+def test_exact_areas_tell_who_covers_how_much() -> None:
+    settings = Settings(antialiasing="area")
     scene = make_scene("single-triangle")
-    story, _ = story_of(TraceSource(scene, Settings(antialiasing="area")), 0, 0)
-    assert story.verdict.startswith("At the pixel's centre, whatever its pieces are: ")
+    alpha = render(scene, settings).color[..., 3]
+    row, column = np.argwhere((alpha > 0.1) & (alpha < 0.9))[0]
+    source = TraceSource(scene, settings)
+    story, triangles = story_of(source, int(column), int(row))
+    area = float(alpha[row, column])
+    assert story.verdict == f"Triangle 0 is seen in {area:.4g} of the pixel, none in {1 - area:.4g}."
+    assert [entry.title for entry in story.entries] == ["Clear", "Triangle 0"]
+    assert story.entries[1].reason == f"Covers {area:.4g} of the pixel."
+    assert triangles == [None, 0]
+    told, _ = story_of(source, int(column), int(row), 0)
+    assert told.verdict == f"{story.verdict} Triangle 0 covers {area:.4g} of the pixel."
+
+
+def test_a_pixel_that_no_triangle_touches_says_so_and_why() -> None:
+    source = TraceSource(make_scene("single-triangle"), Settings(antialiasing="area"))
+    story, triangles = story_of(source, 0, 0)
+    assert story.verdict == "No triangle is seen in any part of the pixel."
+    assert [entry.title for entry in story.entries] == ["Clear", "1 triangle does not touch the pixel"]
+    assert triangles == [None, None]
+    told, _ = story_of(source, 0, 0, 0)
+    assert told.verdict.startswith(f"{story.verdict} Triangle 0 has no fragment here")
+
+
+def test_outlines_of_exact_areas_are_told_at_the_centre() -> None:
+    settings = Settings(antialiasing="area", polygon_mode="wireframe")
+    story, _ = story_of(TraceSource(make_scene("single-triangle"), settings), 0, 0)
+    assert "of the pixel" not in story.verdict
+
+
+@pytest.mark.parametrize(
+    ("area", "passed", "seen", "text"),
+    [
+        (1.0, 1.0, 1.0, "covers all of the pixel"),
+        (0.5, 0.5, 0.25, "covers 0.5 of the pixel; 0.25 is seen in the end"),
+        (0.5, 0.25, 0.25, "covers 0.5 of the pixel, 0.25 of it passes the depth test"),
+        (
+            0.5,
+            0.25,
+            0.0,
+            "covers 0.5 of the pixel, 0.25 of it passes the depth test; nothing of it is seen in the end",
+        ),
+        (0.5, 0.0, 0.0, "covers 0.5 of the pixel, none of it passes the depth test"),
+        (1 - 1e-6, 1 - 1e-6, 1 - 1e-6, "covers almost all of the pixel"),
+    ],
+)
+def test_what_became_of_a_piece(area: float, passed: float, seen: float, text: str) -> None:
+    assert piece_reason(area, passed, seen) == text
+
+
+def test_of_many_triangles_the_largest_pieces_are_named() -> None:
+    shown = [(number, 0.1 + 0.01 * number) for number in range(6)]
+    verdict = pieces_verdict(shown, 1 - sum(area for _, area in shown), False)
+    assert verdict == (
+        "Triangle 5 is seen in 0.15 of the pixel, triangle 4 in 0.14, triangle 3 in 0.13, triangle 2 in 0.12, "
+        "2 more in 0.21, none in 0.25."
+    )
+    assert pieces_verdict([(3, 1.0)], 0.0, True) == "Triangle 3 lies on top in all of the pixel."
 
 
 def test_names_of_samples() -> None:

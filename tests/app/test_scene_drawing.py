@@ -1,6 +1,7 @@
 import threading
 from dataclasses import replace
 from functools import partial
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,16 +10,17 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.document import open_document
-from app.views.scene_figures import FrameFigures, drawing_text, figures_text
+from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
 from app.views.scene_lines import SpaceLine, draw_space_lines, visible_part
 from app.views.scene_picture import SceneShot, draw_scene, space_lines, triangle_seen
 from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
-from core import STAGES, render
+from core import STAGES, Settings, render
 from core.geometry.culling import plane_distances
 from core.geometry.vertex_stage import transform_vertices
-from core.picture import Route, Split
+from core.picture import Route, Split, draw_picture
+from core.picture.record import Coloring, Visibility
 from core.picture.workers import BandTime, BandWorkers, Sharing
 from lessons.scenes import make_scene
 from widgets.orbit import fitted
@@ -229,6 +231,19 @@ def test_how_a_frame_was_drawn_as_text():
 def test_every_way_of_drawing_has_words(name):
     figures = draw_scene(shot_of(name, (64, 48)), BandWorkers(1)).figures
     assert drawing_text(figures).startswith("Drawn by one process: one process is all there is to be.")
+
+
+def test_every_route_has_words():
+    assert set(VISIBILITIES) == set(get_args(Visibility))
+    assert set(COLORS) == set(get_args(Coloring))
+
+
+@pytest.mark.parametrize("antialiasing", ["ssaa-4", "msaa-4"])
+def test_pictures_of_samples_have_words(antialiasing):
+    route = draw_picture(make_scene("single-triangle"), Settings(antialiasing=antialiasing)).route
+    assert f"Seen: {VISIBILITIES[route.visibility]}." in drawing_text(
+        figures_of(route=route, sharing=Sharing(reason="it is small"))
+    )
 
 
 def test_sizes_that_can_be_chosen():

@@ -1,5 +1,6 @@
 """The Stability page: running, maps, cells, the case behind a cell, shrinking, and files; with real runs."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -107,7 +108,12 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
     for wanted in (EXCLUSIVE, "Outcome: <b>hole</b>", "of 1,024 pixels missing", "Severity"):
         assert wanted in page.readout.text()
     QTest.mouseMove(page.maps.canvas, QPoint(1, 1))
-    assert "Methods, weakest first" in page.readout.text()
+    text = page.readout.text()
+    assert "Methods, most failures first" in text
+    fails = [int(found) for found in re.findall(r": (\d+) of \d+ fail<", text)]
+    assert len(fails) == len(page.runs.info.methods)
+    assert fails == sorted(fails, reverse=True)
+    assert fails[0] > fails[-1] == 0
 
 
 def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbot: QtBot) -> None:
@@ -277,9 +283,35 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
     by_format = {row.cells[0]: row for row in page.case.formats.rows}
     assert by_format["exact"].is_right
     assert not by_format["float16"].is_right
+    assert by_format["float16"].is_count_right is False
     assert by_format["float16"].cells[HEAD.index("Bits of the value")].replace(" ", "") == "0" * 16
+    pin = page.case.pin
+    assert pin is not None
+    sentence = page.case.formats.sentence.text()
+    place = f"({pin[0]}, {pin[1]})"
+    assert sentence == f"Pixel {place}, triangle 0: once wanted, 0 times by coverage=float16 (hole)."
+    assert by_format["float16"].cells[HEAD.index("Whole picture")].endswith(f"first {place}")
     page.case.linked.pixel_clicked.emit(0, 0)
     qtbot.waitUntil(lambda: all(row.is_right for row in page.case.formats.rows), timeout=60000)
+    assert page.case.formats.sentence.text().startswith(
+        "Pixel (0, 0), not covered in any format, nearest triangle 0: "
+    )
+
+
+def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbot: QtBot) -> None:
+    run(page, qtbot)
+    click(page, CellPlace(EXCLUSIVE, 1, 0))
+    wait_for_case(page, qtbot)
+    qtbot.waitUntil(lambda: bool(page.case.formats.rows), timeout=60000)
+    rows = page.case.formats.rows
+    triangles = {row.cells[HEAD.index("Triangle")] for row in rows}
+    assert len(triangles) > 1
+    assert len(rows) == 8 * len(triangles)
+    assert {row.cells[HEAD.index("Flipped by")] for row in rows} >= {"fill rule"}
+    assert [row.cells[0] for row in rows].count("") == len(rows) - 8
+    sentence = page.case.formats.sentence.text()
+    assert ", triangles " in sentence
+    assert sentence.endswith("0 times by fill_rule=exclusive (hole), and all formats with this rule.")
 
 
 def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:

@@ -46,6 +46,22 @@ def test_an_event_that_does_not_come_is_told(window: MainWindow) -> None:
     assert window.statusBar().currentMessage().startswith("No further step")
 
 
+def test_a_hint_goes_when_it_is_true_no_longer(window: MainWindow) -> None:
+    bar = window.statusBar()
+    window.session.set_pin((0, 0))
+    window.page.stepping.run_to_pin(1)
+    window.session.go_to(window.session.stage_trace.steps.count)
+    window.page.stepping.run_to_pin(1)
+    assert bar.currentMessage() == "No further step at pixel (0, 0) in this stage."
+    window.session.set_pin((1, 0))
+    assert bar.currentMessage() == ""
+    window.page.stepping.run_to_pin(1)
+    assert "(1, 0)" in bar.currentMessage()
+    window.tell("Saved.")
+    window.session.go_to(0)
+    assert bar.currentMessage() == "Saved.", "another message stays"
+
+
 def test_every_event_can_be_chosen(window: MainWindow) -> None:
     box = window.page.event_box
     assert [box.itemData(k) for k in range(box.count())] == list(EVENT_TITLES)
@@ -171,8 +187,8 @@ def test_the_rail_shows_the_frames_of_the_3d_view_while_it_is_seen(window: MainW
     def tells_of_the_last_frame() -> bool:
         drawn = window.page.views.scene_presenter.drawn
         assert drawn is not None
-        count = drawn.figures.stages["raster"]
-        return f"{count.incoming:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
+        binned, count = (drawn.figures.stages[stage] for stage in ("bin", "raster"))
+        return f"{binned.outgoing:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
 
     qtbot.waitUntil(tells_of_the_last_frame)  # a second frame may have come meanwhile
     shares = [button.entry().share for button in window.page.rail.buttons()]

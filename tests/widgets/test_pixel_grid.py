@@ -3,7 +3,7 @@ import weakref
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QBuffer, QEvent, QIODevice, QObject, QPoint, QPointF, QSize, Qt
+from PySide6.QtCore import QBuffer, QEvent, QIODevice, QObject, QPoint, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtTest import QTest
@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import Mark, MaskOverlay
+from widgets.grid_paint import ruler_labels
 from widgets.grid_view import FIT, GridView
 from widgets.pixel_grid import PixelGrid
 from widgets.theme import current_theme
@@ -29,6 +30,29 @@ def grid(qtbot) -> PixelGrid:
     widget.show()
     qtbot.waitExposed(widget)
     return widget
+
+
+def test_no_line_crosses_the_numbers_of_the_rulers(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    # Narrow: the raster does not fill the viewport, and the rulers stand at the raster.
+    widget.resize(400, 700)
+    widget.show_buffer(GridBuffer("z", np.zeros((16, 24), np.float32)))
+    widget.show()
+    qtbot.waitExposed(widget)
+    labels = ruler_labels(widget.placement(), widget.rect(), current_theme())
+    columns = [box for box, _ in labels if QRectF(widget.placement().viewport).contains(box.center())]
+    assert columns
+    before = picture(widget)
+    steep = np.array([[x + 0.5, y] for x in range(24) for y in (-30.0, 20.0)])
+    corners = np.array([[2 * k, 2 * k + 1, (2 * k + 2) % 48] for k in range(24)])
+    for focus in (0, -1):
+        widget.show_geometry(GridGeometry(steep, corners, focus=focus))
+        after = picture(widget)
+        assert after != before
+        for box in columns:
+            area = box.toRect()
+            assert after.copy(area) == before.copy(area)
 
 
 def at(grid: PixelGrid, x: float, y: float) -> QPoint:

@@ -8,7 +8,8 @@ from widgets.colormaps import id_table
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_view import GridView
 from widgets.pixel_grid import PixelGrid
-from widgets.sample_dots import SampleDots
+from widgets.sample_dots import SampleDots, between_samples
+from widgets.theme import current_theme
 
 
 @pytest.fixture
@@ -75,3 +76,35 @@ def test_the_samples_of_a_pixel_are_told_in_words(grid: PixelGrid) -> None:
     assert many.text_at(0, 0) == "5 of 9 samples show triangle 0, 4 of 9 samples none"
     with pytest.raises(ValueError, match=r"shown must be \(4, H, W\), got \(3, 2, 2\)"):
         SampleDots(PLACES, np.zeros((3, 2, 2), int))
+
+
+@pytest.mark.parametrize("across", [2, 3, 4])
+@pytest.mark.parametrize("cell", [44, 72, 150])
+def test_numbers_stand_between_dots_or_not_at_all(qtbot, across: int, cell: int) -> None:
+    place = (np.arange(across) + 0.5) / across
+    position = np.stack(np.meshgrid(place, place), axis=-1).reshape(-1, 2)
+    grid = PixelGrid()
+    qtbot.addWidget(grid)
+    grid.resize(3 * cell + 60, 2 * cell + 60)
+    grid.show_buffer(GridBuffer("z", np.full((2, 3), 0.2864, np.float32)))
+    assert grid.has_numbers()
+    dots = SampleDots(position, np.zeros((len(position), 2, 3), np.int64))
+    grid.show_samples(dots)
+    below, room = between_samples(grid.placement(), dots)
+    side = grid.placement().cell
+    centres = side * (0.5 - position[:, 1])
+    assert np.abs(centres - below).min() > max(room, 0.0) / 2
+    assert abs(below) < side / across
+    assert grid.has_numbers() == (room >= 0.8 * round(0.73 * current_theme().small_px))
+
+
+def test_the_numbers_of_four_samples_come_with_zoom(qtbot) -> None:
+    grid = PixelGrid()
+    qtbot.addWidget(grid)
+    grid.show_buffer(GridBuffer("z", np.zeros((2, 3), np.float32)))
+    grid.show_samples(SampleDots(PLACES, np.zeros((4, 2, 3), np.int64)))
+    grid.resize(190, 140)
+    assert 40 <= grid.placement().cell < 60
+    assert not grid.has_numbers()
+    grid.resize(400, 300)
+    assert grid.has_numbers()

@@ -4,6 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 
+from widgets.equation import number_latex
 from widgets.theme import current_theme
 from widgets.variables import Variable, VariablesView, value_text
 
@@ -29,7 +30,18 @@ STEP = (
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(None, "–"), (True, "yes"), ("tie", "tie"), ((1.0, 0.5), "(1, 0.5)"), (1 / 3, "0.3333"), (7, "7")],
+    [
+        (None, "–"),
+        (True, "yes"),
+        ("tie", "tie"),
+        ((1.0, 0.5), "(1, 0.5)"),
+        ((1542.75, 1 / 3), "(1543, 0.3333)"),
+        (1 / 3, "0.3333"),
+        (7, "7"),
+        (1542.75, "1542.75"),
+        (-1542.75, "−1542.75"),
+        (123456.78, "1.235e5"),
+    ],
 )
 def test_values_as_text(value: object, text: str) -> None:
     assert value_text(value) == text
@@ -105,3 +117,11 @@ def test_other_names_give_other_rows_and_none_gives_an_empty_pane(view) -> None:
 def test_vertex_colours_name_the_vertex(view) -> None:
     view.show_variables(STEP)
     assert view.topLevelItem(2).foreground(0).color() == QColor(current_theme().vertex_text[0])
+
+
+@pytest.mark.parametrize("value", [1542.75, -0.0078125, 1 / 3, 98765.4321, 12.0])
+def test_variables_have_the_digits_of_formulas(value: float) -> None:
+    text = value_text(value).replace("−", "-")
+    written = number_latex(value)
+    assert text == written or "e" in text
+    assert ("cdot" in written) == ("e" in text)

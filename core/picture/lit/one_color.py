@@ -7,6 +7,7 @@ Used where the bytes stay within `TOLERANCE` of those of ``render`` before both 
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from core.arrays import Integers
 from core.framebuffer.nearest import NearestFragments
@@ -17,6 +18,7 @@ from core.picture.lit.light_visible import LitPlanes
 from core.picture.lit.packed_normals import corner_w, pack_normals
 from core.picture.lit.pixel_light import PixelLight, pixel_light
 from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
+from core.picture.record import Coloring
 from core.scene import DirectionalLight, Scene
 
 TOLERANCE = 1.0
@@ -30,7 +32,7 @@ class LitNormals:
     planes: LitPlanes
     albedo: Color
     """Linear grey, or red, green and blue, of everything."""
-    name = "normals"
+    name: ClassVar[Coloring] = "normals"
     stage = "shade"
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:

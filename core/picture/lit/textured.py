@@ -14,6 +14,7 @@ have no such bound: their pixels are coloured once more, exactly (``light_visibl
 
 from dataclasses import dataclass
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 
@@ -30,6 +31,7 @@ from core.picture.lit.light_visible import LitPlanes
 from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
 from core.picture.lit.packed_normals import corner_w
 from core.picture.lit.vertex_facts import Color
+from core.picture.record import Coloring
 from core.scene import Texture
 
 ROUNDING = 2.0**-48
@@ -49,7 +51,7 @@ class LitTexture:
     color: Color
     """What the texture is multiplied with: linear grey, or red, green and blue."""
     sampler: SingleSampler
-    name = "lit-texture"
+    name: ClassVar[Coloring] = "lit-texture"
     stage = "shade"
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:

@@ -2,21 +2,21 @@
 
 from dataclasses import dataclass
 
-from core.picture.record import Picture
+from core.picture.record import Coloring, Picture, Visibility
 
 TRIANGLE, PIXEL = 60e-9, 1e-9
 """Seconds for a triangle that is drawn, and for a pixel that is cleared and shown; measured on one core, as all that
 follow, to within a factor of two."""
-FRAGMENT = {
+FRAGMENT: dict[Visibility, float] = {
     "layer": 6e-9,
     "words": 8e-9,
-    "multisampled": 8e-9,
     "stacks": 60e-9,
     "frame": 250e-9,
     "supersampled": 8e-9,
+    "multisampled": 8e-9,
 }
 """Seconds for a covered pixel of a triangle, by ``Route.visibility``."""
-COLOR = {
+COLOR: dict[Coloring, float] = {
     "palette": 1e-9,
     "bytes": 5e-9,
     "texture": 25e-9,
@@ -44,9 +44,9 @@ class Load:
     """Covered pixels of all triangles."""
     visible: int
     """Pixels that something is seen at."""
-    visibility: str = "words"
+    visibility: Visibility = "words"
     """As in ``Route``, which see; also ``color``."""
-    color: str = "bytes"
+    color: Coloring = "bytes"
 
     @property
     def seconds(self) -> float:

@@ -51,7 +51,8 @@ class ExperimentInfo:
     axes: tuple[Axis, ...]
     """One or two."""
     methods: tuple[str, ...]
-    """``family=name``, several joined by a blank; weakest first."""
+    """``family=name``, several joined by a blank; in the order of the maps, the exact ones last. Which fails most is
+    measured, not said here."""
     claim: str
     """One sentence that tests/stability pins down: who fails where, and who holds."""
 

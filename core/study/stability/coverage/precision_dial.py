@@ -29,6 +29,9 @@ AREA = "sign of the doubled area"
 ELIMINATION = "elimination"
 ANCHORED = "direction of the edge"
 OVERFLOW = "overflow"
+SHARED_EDGE = "shared-edge"
+FILL_RULE = "fill rule"
+"""What turns the decision where the centre lies exactly on the edge, and the fill rule is another than shared-edge."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,9 @@ class DialReading:
     """All operations of that edge at this pixel; none where its coefficients are not made so."""
 
 
-def precision_dial(scene: ClipScene, pixel: tuple[int, int], triangle: int = 0) -> tuple[DialReading, ...]:
+def precision_dial(
+    scene: ClipScene, pixel: tuple[int, int], triangle: int = 0, fill_rule: str = SHARED_EDGE
+) -> tuple[DialReading, ...]:
     """Evaluate one triangle at one pixel in every number format.
 
     Parameters
@@ -62,21 +67,31 @@ def precision_dial(scene: ClipScene, pixel: tuple[int, int], triangle: int = 0) 
     scene : ClipScene
     pixel : (column, row)
     triangle : int
+    fill_rule : str
+        That of the formats; what is right is always who owns the centre by ``shared-edge``.
 
     Returns
     -------
     tuple of DialReading
-        From the weakest format to the exact one.
+        In the order of ``FORMATS``.
 
     Raises
     ------
     ValueError
-        If there is no such triangle.
+        If there is no such triangle, or a format does not take it.
     """
+    return tuple(
+        read_format(method.partition("=")[2], scene, pixel, triangle, fill_rule) for method in FORMATS
+    )
+
+
+def read_format(
+    coverage: str, scene: ClipScene, pixel: tuple[int, int], triangle: int = 0, fill_rule: str = SHARED_EDGE
+) -> DialReading:
+    """Evaluate one triangle at one pixel in one number format, see ``precision_dial``."""
     if not 0 <= triangle < len(scene.clip):
         raise ValueError(f"triangle must be from 0 to {len(scene.clip) - 1}, got {triangle}")
-    case = _exact_case(scene, triangle, pixel)
-    return tuple(_read(method.partition("=")[2], case) for method in FORMATS)
+    return _read(coverage, _exact_case(scene, triangle, pixel), fill_rule)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +127,9 @@ def _exact_case(scene: ClipScene, triangle: int, pixel: tuple[int, int]) -> _Cas
     return _Case(scene.clip[[triangle]], scene.size, pixel, placed, turn, tuple(values), np.array(sides))
 
 
-def _read(name: str, case: _Case) -> DialReading:
+def _read(name: str, case: _Case, fill_rule: str) -> DialReading:
     """Return what one format makes of the pixel."""
-    edges = set_up_edges(place_corners(case.clip, case.size, name), "shared-edge")
+    edges = set_up_edges(place_corners(case.clip, case.size, name), fill_rule)
     numbers = edges.numbers
     x, y = (numbers.of_pixels(np.array([[index + 0.5]])) for index in case.pixel)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -134,7 +149,7 @@ def _read(name: str, case: _Case) -> DialReading:
         bits=_bits(float(values[edge]), numbers),
         exact_value=float(case.values[edge]),
         is_right=is_right,
-        flipped_by="" if is_right else _flipped_by(name, steps, bool(case.sides[edge])),
+        flipped_by="" if is_right else _flipped_by(name, steps, case, edge, fill_rule),
         steps=steps,
     )
 
@@ -152,15 +167,17 @@ def _steps(edges: EdgeFunctions, edge: int, case: _Case) -> tuple[EdgeStep, ...]
         return ()
 
 
-def _flipped_by(name: str, steps: tuple[EdgeStep, ...], side: bool) -> str:
+def _flipped_by(name: str, steps: tuple[EdgeStep, ...], case: _Case, edge: int, fill_rule: str) -> str:
     """Return the operation after which the decision stays wrong, whatever else is exact."""
+    if fill_rule != SHARED_EDGE and _read(name, case, SHARED_EDGE).is_right:
+        return FILL_RULE
     if name == INVERSE:
         return ELIMINATION
     if not steps:
         return ANCHORED if name == "snapped" else OVERFLOW
     turning = AREA
     for step in reversed(steps):
-        if step.is_inside == side:
+        if step.is_inside == bool(case.sides[edge]):
             break
         turning = step.operation
     return turning

@@ -1,0 +1,58 @@
+"""What a fast picture says of its stages is what the plain one says; every way of drawing has an estimate."""
+
+from typing import get_args
+
+import pytest
+
+from core import STAGES, Settings, render
+from core.picture import draw_picture
+from core.picture.record import Coloring, Visibility
+from core.picture.workers import BandWorkers
+from core.picture.workers.worth import COLOR, FRAGMENT
+from lessons.scenes import make_scene
+
+SETTINGS = {
+    "one sample": Settings(),
+    "samples": Settings(antialiasing="ssaa-4"),
+    "multisampled": Settings(antialiasing="msaa-4"),
+    "blended": Settings(blend="over"),
+    "blended samples": Settings(blend="over", antialiasing="msaa-4"),
+    "no depth test": Settings(blend="over", visibility="last-drawn"),
+}
+
+
+@pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
+@pytest.mark.parametrize("name", ["single-triangle", "shared-edge", "near-plane", "intersecting", "cube"])
+def test_a_fast_picture_counts_as_the_plain_one_does(name: str, settings: Settings) -> None:
+    scene = make_scene(name)
+    plain, fast = render(scene, settings).statistics, draw_picture(scene, settings).statistics
+    for stage in STAGES:
+        found = fast[stage].incoming, fast[stage].outgoing
+        assert found == (plain[stage].incoming, plain[stage].outgoing), stage
+
+
+@pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
+def test_what_comes_out_of_a_stage_goes_into_the_next(settings: Settings) -> None:
+    counts = render(make_scene("intersecting"), settings).statistics
+    assert counts["bin"].outgoing == counts["raster"].outgoing == counts["depth"].incoming
+    assert counts["depth"].outgoing == counts["blend"].incoming
+
+
+def test_the_pixels_of_a_blended_picture_are_counted_once() -> None:
+    route = draw_picture(make_scene("intersecting"), SETTINGS["blended"]).route
+    seen = render(make_scene("intersecting"), SETTINGS["blended"]).primitive >= 0
+    assert route.split is not None
+    assert route.visible == seen.sum() < route.split.fragments
+    assert route.depth_complexity > 1
+
+
+def test_every_way_of_drawing_has_an_estimate() -> None:
+    assert set(FRAGMENT) == set(get_args(Visibility))
+    assert set(COLOR) == set(get_args(Coloring))
+
+
+def test_workers_take_multisampled_pictures() -> None:
+    scene = make_scene("single-triangle")
+    with BandWorkers(1) as workers:
+        picture = workers.draw(scene, SETTINGS["multisampled"])
+    assert picture.route.visibility == "multisampled"
