@@ -109,8 +109,8 @@ def plan(
     watch(*step)
     # Beyond the corners of a triangle only what makes no difference at all is sure.
     left = tolerance.bytes - surface.error if surface.pattern.stays_inside else 0.0
-    seen, side = surface.surfaces.is_candidate, surface.pattern.side
-    values = choose_values(touched, surface.colors, scene, surface.settings, seen, left, side, costs)
+    seen, pattern = surface.surfaces.is_candidate, surface.pattern
+    values = choose_values(touched, surface.colors, scene, surface.settings, seen, left, pattern, costs)
     chosen = replace(
         surface.settings,
         interpolation=values["interpolation"].chosen,

@@ -12,17 +12,13 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.scene import AnyScene, Scene
 from core.settings import Settings, with_method
-from core.study.planner.bytes import byte_error
+from core.study.planner.bytes import byte_error, times
 from core.study.planner.color_ranges import ColorRanges
 from core.study.planner.costs import Costs
+from core.study.planner.patterns import Pattern
+from core.study.planner.shading_bounds import shading_error
 from core.study.planner.touched import Touched, is_cut
-from core.study.planner.value_bounds import (
-    filter_error,
-    interpolation_error,
-    shading_error,
-    share_of_range,
-    times,
-)
+from core.study.planner.value_bounds import filter_error, interpolation_error, share_of_range
 
 FILTERS = ("nearest", "bilinear")
 SHADINGS = ("unlit", "flat", "gouraud")
@@ -86,7 +82,7 @@ def choose_values(
     settings: Settings,
     seen: Flags,
     left: float,
-    side: int,
+    pattern: Pattern,
     costs: Costs,
 ) -> dict[str, ValueChoice]:
     """Choose by family.
@@ -102,8 +98,8 @@ def choose_values(
         The pairs of the look that may be seen.
     left : float
         What is left of the tolerance, in 1/255.
-    side : int
-        Samples on a side of a pixel.
+    pattern : Pattern
+        The samples that were chosen.
     costs : Costs
     """
     index = np.flatnonzero(seen)
@@ -132,17 +128,19 @@ def choose_values(
             errors[name] = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
         shading = choose("shading", errors)
     has_texture = "uv" in touched.geometry.primitives.layout
-    filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
+    filters = {name: filter_error(touched, colors, scene, name, pattern.side) for name in FILTERS}
     found = choose("texture_filter", filters) if has_texture else ValueChoice("nearest", 0.0, ())
 
-    def moved(share: Floats) -> Floats:
-        return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
+    def moved(name: str) -> Floats:
+        where = shares[name], shading.chosen, found.chosen, pattern
+        return interpolation_error(touched, colors, scene, *where, is_affine=name == "affine")
 
+    is_clipped = settings.clipping != "homogeneous"
     shares = {
         # One vertex's value is off by the whole range; of a cut triangle it is another vertex than the piece's.
         "flat": np.where(is_cut(touched), np.inf, 1.0),
-        "affine": share_of_range(touched),
-        "affine-n": share_of_range(touched, settings.correction_interval),
+        "affine": share_of_range(touched, is_clipped),
+        "affine-n": share_of_range(touched, is_clipped, settings.correction_interval),
     }
-    interpolation = choose("interpolation", {name: moved(shares[name]) for name in INTERPOLATIONS})
+    interpolation = choose("interpolation", {name: moved(name) for name in INTERPOLATIONS})
     return {"interpolation": interpolation, "texture_filter": found, "shading": shading}
