@@ -28,6 +28,7 @@ from core.study.planner.patterns import Pattern
 from core.study.planner.texture_ranges import texture_ranges
 from core.study.planner.touched import Touched, is_cut
 from core.study.planner.translucency import ROUNDING
+from core.study.planner.tried_light import tried_error
 
 EQUAL = 1e-12
 """Ratios of w no farther from 1 are 1, but for rounding."""
@@ -88,7 +89,7 @@ def interpolation_error(
 ) -> Floats:
     """Return how far colours are off, (Q, 3) linear, if attributes are by ``share`` (P,) of their range.
 
-    If interpolation ``is_affine`` and nothing else, it may be tried at the samples where bounds say little.
+    If interpolation ``is_affine``, it is tried at the samples where bounds say little.
 
     Notes
     -----
@@ -118,8 +119,9 @@ def interpolation_error(
         error[chosen] += times(np.minimum(step, as_rgb(ranges.contrast[None])), colors.gain[chosen])
     if "normal" in layout and shading != "unlit":
         assert isinstance(scene, Scene)
-        diffuse, specular = interpolated_light_error(
-            touched, scene, share, shading, pattern if is_affine and pattern.stays_inside else None
-        )
-        error += times(colors.albedo, diffuse) + specular
+        light = interpolated_light_error(touched, scene, share, shading)
+        of_light = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+        if is_affine and shading == "phong":
+            of_light = tried_error(of_light, touched, colors, scene, pattern, "affine")
+        error += of_light
     return error

@@ -18,6 +18,7 @@ from core.study.planner.costs import Costs
 from core.study.planner.patterns import Pattern
 from core.study.planner.shading_bounds import shading_error
 from core.study.planner.touched import Touched, is_cut
+from core.study.planner.tried_light import tried_error
 from core.study.planner.value_bounds import filter_error, interpolation_error, share_of_range
 
 FILTERS = ("nearest", "bilinear")
@@ -125,7 +126,9 @@ def choose_values(
         for name in SHADINGS:
             light = shading_error(touched, scene, name)
             primitive = touched.primitive
-            errors[name] = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+            error = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+            is_lit = name != "unlit"
+            errors[name] = tried_error(error, touched, colors, scene, pattern, name) if is_lit else error
         shading = choose("shading", errors)
     has_texture = "uv" in touched.geometry.primitives.layout
     filters = {name: filter_error(touched, colors, scene, name, pattern.side) for name in FILTERS}
