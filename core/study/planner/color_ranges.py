@@ -18,13 +18,14 @@ from core.settings import Settings
 from core.study.planner.light_ranges import Cones, LightRange, Reflectances, cones, light_range
 from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
 from core.study.planner.touched import MARGIN, Touched
+from core.study.planner.watching import Pause, unpaused
 from core.surface import viewpoint
 
 Levels = tuple[Floats, Floats]
 """The least and the largest level of detail (Q,)."""
 SAMPLES = 4
 """Samples on a side of a pixel of everything on."""
-CHUNK = 1 << 16
+CHUNK = 1 << 14
 """Pairs that are worked on together."""
 SNAPPED = 0.75 / 256
 """Pixels that snapping moves a corner at most: half a step each way."""
@@ -83,9 +84,16 @@ class Hull:
 
 
 def color_ranges(
-    touched: Touched, scene: AnyScene, settings: Settings, chosen: Flags, stays_inside: bool = True
+    touched: Touched,
+    scene: AnyScene,
+    settings: Settings,
+    chosen: Flags,
+    stays_inside: bool = True,
+    pause: Pause = unpaused,
 ) -> ColorRanges:
-    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time; of the others nothing is known.
+    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time and a ``pause`` between them.
+
+    Of the others nothing is known.
 
     Where colours are taken at the pixels' centres, they may be those of places beyond the triangle: it does not
     ``stay inside``, and its corners bound nothing.
@@ -98,6 +106,7 @@ def color_ranges(
         if not stays_inside:
             corners = replace(corners, is_sound=np.zeros_like(corners.is_sound))
         for part in _parts(len(index)):
+            pause()
             levels = _levels_of_detail(seen, scene, part, stays_inside)
             lod[part] = levels[1]
             for row, values in zip(rows, _ranges(seen, scene, settings, levels, corners, part), strict=True):

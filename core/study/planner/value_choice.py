@@ -20,6 +20,7 @@ from core.study.planner.shading_bounds import shading_error
 from core.study.planner.touched import Touched, is_cut
 from core.study.planner.tried_light import tried_error
 from core.study.planner.value_bounds import filter_error, interpolation_error, share_of_range
+from core.study.planner.watching import Pause, unpaused
 
 FILTERS = ("nearest", "bilinear")
 SHADINGS = ("unlit", "flat", "gouraud")
@@ -85,6 +86,7 @@ def choose_values(
     left: float,
     pattern: Pattern,
     costs: Costs,
+    pause: Pause = unpaused,
 ) -> dict[str, ValueChoice]:
     """Choose by family.
 
@@ -102,6 +104,8 @@ def choose_values(
     pattern : Pattern
         The samples that were chosen.
     costs : Costs
+    pause : callable, optional
+        Asked between the methods, see `Pause`.
     """
     index = np.flatnonzero(seen)
     touched, colors = touched.take(index), colors.take(index)
@@ -124,17 +128,20 @@ def choose_values(
     if isinstance(scene, Scene) and settings.shading != "unlit":
         errors = {}
         for name in SHADINGS:
+            pause()
             light = shading_error(touched, scene, name)
             primitive = touched.primitive
             error = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
             is_lit = name != "unlit"
             errors[name] = tried_error(error, touched, colors, scene, pattern, name) if is_lit else error
         shading = choose("shading", errors)
+    pause()
     has_texture = "uv" in touched.geometry.primitives.layout
     filters = {name: filter_error(touched, colors, scene, name, pattern.side) for name in FILTERS}
     found = choose("texture_filter", filters) if has_texture else ValueChoice("nearest", 0.0, ())
 
     def moved(name: str) -> Floats:
+        pause()
         where = shares[name], shading.chosen, found.chosen, pattern
         return interpolation_error(touched, colors, scene, *where, is_affine=name == "affine")
 
