@@ -8,6 +8,7 @@ from app.study_words import digits, time_text
 from core.methods import table
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
+from core.study.planner.phrases import in_bytes
 from widgets.number_text import counted, joined
 from widgets.plan_rows import PlanRow, Verdict
 from widgets.stage_texts import family_title
@@ -69,7 +70,7 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
 
 def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> str:
     """Return the predicted and the measured error, and what the choice saves by itself."""
-    predicted = f"predicted {bound_text(decision.predicted_error)}"
+    predicted = f"predicted {in_bytes(decision.predicted_error)}"
     if decision.predicted_pixels:
         predicted += f" but for {counted(decision.predicted_pixels, 'pixel')}"
     if outcome is None or report is None:
@@ -87,7 +88,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
 def headline(plan: Plan, report: PlanReport | None) -> str:
     """Return in one sentence what the plan comes to."""
     if report is None:
-        return f"Predicted: {bound_text(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
+        return f"Predicted: {in_bytes(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
     everything, chosen = (
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
@@ -107,7 +108,7 @@ def predicted_time(plan: Plan, start: str) -> str:
 def details(plan: Plan, report: PlanReport) -> str:
     """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
     parts = [
-        f"Largest difference {bound_text(report.largest_error)}, predicted {bound_text(plan.predicted_error)} at most; "
+        f"Largest difference {bound_text(report.largest_error)}, predicted {in_bytes(plan.predicted_error)} at most; "
         f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
         f"{plan.tolerance.pixels:,} allowed."
     ]

@@ -41,7 +41,9 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
         Fact("convex", "Closed and convex meshes", _those(scene, is_convex)),
         Fact("layers", "Triangles that may be seen in a pixel, at most", f"{int(layers.max(initial=0)):,}"),
         Fact("depth-range", "Window depth", _depth_range(touched)),
-        Fact("contrast", "Pixels whose candidates differ by more than 2/255", _count(seen.width > 2)),
+        Fact(
+            "contrast", "Pixels in which what can be seen differs by more than 2/255", _count(seen.width > 2)
+        ),
         Fact(
             "largest-contrast", "Largest difference within a pixel", f"{seen.width.max(initial=0.0):.3g}/255"
         ),

@@ -10,14 +10,15 @@ from core.study.planner.color_ranges import ColorRanges, color_ranges
 from core.study.planner.costs import Costs, TriedCosts
 from core.study.planner.everything import everything_on
 from core.study.planner.facts import facts_of
-from core.study.planner.reasons import surface_reasons, value_reasons
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
 from core.study.planner.surface_choice import SurfaceChoice, SurfaceChooser
+from core.study.planner.surface_reasons import surface_reasons
 from core.study.planner.surfaces import may_be_seen
 from core.study.planner.tessellation import tessellations
 from core.study.planner.touched import Touched, touch
 from core.study.planner.translucency import is_translucent
 from core.study.planner.value_choice import ValueChoice, choose_values
+from core.study.planner.value_reasons import value_reasons
 from core.study.planner.watching import Pause, Watch, unpaused, unwatched
 
 STAGES = (

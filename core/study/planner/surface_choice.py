@@ -31,8 +31,11 @@ DEPTHS = ("z-16", "z-24", "z-float32")
 ORDERS = ("last-drawn", "painters")
 """Visibility without a depth buffer, the cheaper first."""
 FEWER = ("none", "msaa-4", "ssaa-4")
-"""Fewer samples than everything on has. Exact areas are bounded by the widths alone: where these are small enough, one
-sample does too, and costs a tenth and less."""
+"""Fewer samples than everything on has.
+
+Exact areas are bounded by the widths alone: where these are small enough, one sample does too; else they take 0.8 to 60
+times as long as 4 x 4 samples. 3 x 3 samples are within 8/255 of these on 25 of 70 scenes of ``corpus``, 2 x 2 on 23,
+nearly all of which need one only."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,6 +40,10 @@ class ValueChoice:
     """Cheaper methods and their bounds in 1/255, which are too large."""
     slower: tuple[str, ...] = ()
     """Methods that would do, but take longer."""
+    is_dearest: bool = False
+    """Whether nothing cheaper was chosen than everything on has."""
+    allowed: float = 0.0
+    """What was left of the tolerance before, in 1/255."""
 
 
 class Budget:
@@ -62,6 +66,7 @@ class Budget:
         self, options: dict[str, Floats], dearest: str, is_slower: Callable[[str], bool]
     ) -> ValueChoice:
         """Return the first of the ``options``, each with its error (Q, 3), that fits and is no slower, and spend it."""
+        allowed = self.left
         rejected: list[tuple[str, float]] = []
         slower: list[str] = []
         for name, error in options.items():
@@ -73,8 +78,8 @@ class Budget:
             else:
                 self.left -= cost
                 self._spent += error
-                return ValueChoice(name, cost, tuple(rejected), tuple(slower))
-        return ValueChoice(dearest, 0.0, tuple(rejected), tuple(slower))
+                return ValueChoice(name, cost, tuple(rejected), tuple(slower), allowed=allowed)
+        return ValueChoice(dearest, 0.0, tuple(rejected), tuple(slower), is_dearest=True, allowed=allowed)
 
 
 def choose_values(

@@ -204,7 +204,7 @@ def test_a_choice_that_is_measured_to_be_wrong_is_put_back(monkeypatch: pytest.M
     wrong = measuring.measure_plan(scene, careless(), 1)
     assert not wrong.is_within
     texts = {each.decision.setting: each.text for each in wrong.outcomes}
-    assert texts["shading"].startswith("predicted 0.5/255, measured ")
+    assert texts["shading"].startswith("predicted 1/255 (0.5 before rounding), measured ")
     assert texts["shading"].endswith("the prediction was wrong")
 
 

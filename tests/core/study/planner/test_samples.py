@@ -85,7 +85,7 @@ def test_the_contrast_of_an_edge_decides_how_many_samples_it_takes() -> None:
 def test_a_method_that_would_do_but_takes_longer_is_told() -> None:
     chosen = plan(halves(0.47), Tolerance(6.0), costs=WithoutMultisampling())
     reason = next(each.reason for each in chosen.decisions if each.setting == "antialiasing")
-    assert "msaa-4 would do, but takes longer here." in reason
+    assert "Multisampling with 4 samples would do, but takes longer here." in reason
 
 
 def test_every_method_with_samples_has_a_pattern() -> None:
