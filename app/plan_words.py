@@ -8,7 +8,7 @@ from app.study_words import digits, time_text
 from core.methods import table
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
-from core.study.planner.phrases import in_bytes
+from core.study.planner.words.phrases import in_bytes
 from widgets.number_text import counted, joined
 from widgets.plan_rows import PlanRow, Verdict
 from widgets.stage_texts import family_title

@@ -12,10 +12,10 @@ from core.picture import draw_picture
 from core.pipeline import render
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
-from core.study.planner.phrases import in_bytes, opened, phrase
 from core.study.planner.planning import plan
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
 from core.study.planner.watching import Watch, unwatched
+from core.study.planner.words.phrases import in_bytes, opened, phrase
 from core.study.speed_accuracy import collector_off
 
 ROUNDS = 5

@@ -6,20 +6,20 @@ from time import perf_counter
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.planner.color_ranges import ColorRanges, color_ranges
-from core.study.planner.costs import Costs, TriedCosts
+from core.study.planner.bounds.color_ranges import ColorRanges, color_ranges
+from core.study.planner.bounds.translucency import is_translucent
+from core.study.planner.choices.costs import Costs, TriedCosts
+from core.study.planner.choices.surface_choice import SurfaceChoice, SurfaceChooser
+from core.study.planner.choices.value_choice import ValueChoice, choose_values
 from core.study.planner.everything import everything_on
-from core.study.planner.facts import facts_of
+from core.study.planner.look.surfaces import may_be_seen
+from core.study.planner.look.tessellation import tessellations
+from core.study.planner.look.touched import Touched, touch
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
-from core.study.planner.surface_choice import SurfaceChoice, SurfaceChooser
-from core.study.planner.surface_reasons import surface_reasons
-from core.study.planner.surfaces import may_be_seen
-from core.study.planner.tessellation import tessellations
-from core.study.planner.touched import Touched, touch
-from core.study.planner.translucency import is_translucent
-from core.study.planner.value_choice import ValueChoice, choose_values
-from core.study.planner.value_reasons import value_reasons
 from core.study.planner.watching import Pause, Watch, unpaused, unwatched
+from core.study.planner.words.facts import facts_of
+from core.study.planner.words.surface_reasons import surface_reasons
+from core.study.planner.words.value_reasons import value_reasons
 
 STAGES = (
     "cull",

@@ -13,17 +13,17 @@ from core.pipeline import render
 from core.scene import ClipScene, DirectionalLight, Material, PointLight, Texture
 from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_check
 from core.study.planner import measuring
-from core.study.planner.bytes import byte_error, byte_width
-from core.study.planner.color_ranges import color_ranges
-from core.study.planner.convexity import is_closed
-from core.study.planner.light_ranges import Reflectances, light_range
-from core.study.planner.orders import overlap
-from core.study.planner.shading_bounds import shading_error
-from core.study.planner.surfaces import format_margin, surfaces
-from core.study.planner.tessellation import sagitta, sphere_edges, tessellations
-from core.study.planner.texture_ranges import magnified_range, minified_range, range_around, step_text
-from core.study.planner.touched import components, touch
-from core.study.planner.value_bounds import share_of_range
+from core.study.planner.bounds.bytes import byte_error, byte_width
+from core.study.planner.bounds.color_ranges import color_ranges
+from core.study.planner.bounds.light_ranges import Reflectances, light_range
+from core.study.planner.bounds.shading_bounds import shading_error
+from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around, step_text
+from core.study.planner.bounds.value_bounds import share_of_range
+from core.study.planner.look.convexity import is_closed
+from core.study.planner.look.orders import overlap
+from core.study.planner.look.surfaces import format_margin, surfaces
+from core.study.planner.look.tessellation import sagitta, sphere_edges, tessellations
+from core.study.planner.look.touched import components, touch
 from core.study.workloads import checkerboard, overlapping_triangles, sphere_mesh, sphere_scene, textured_quad
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from core.settings import Settings, with_method
 from core.study import Tolerance, everything_on, plan
-from core.study.planner.costs import PIXELS, LectureOrder, TriedCosts
+from core.study.planner.choices.costs import PIXELS, LectureOrder, TriedCosts
 from core.study.planner.planning import STAGES
 from core.study.workloads import sphere_scene
 from tests.core.study.planner.needy_scenes import highlight

@@ -13,17 +13,17 @@ from core.geometry.vertex_stage import CornerPositionsOnDemand
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings, with_method
-from core.study.planner.closer import doubtful_backs, doubtful_depths
-from core.study.planner.color_ranges import ColorRanges, color_ranges, joined_ranges
-from core.study.planner.costs import Costs
-from core.study.planner.covered_once import is_covered_once
-from core.study.planner.orders import doubtful_pixels
-from core.study.planner.patterns import PATTERNS, Pattern
+from core.study.planner.bounds.color_ranges import ColorRanges, color_ranges, joined_ranges
+from core.study.planner.bounds.sample_errors import SampleError, sample_error
+from core.study.planner.bounds.translucency import alphas, is_translucent
+from core.study.planner.choices.costs import Costs
+from core.study.planner.look.closer import doubtful_backs, doubtful_depths
+from core.study.planner.look.covered_once import is_covered_once
+from core.study.planner.look.orders import doubtful_pixels
+from core.study.planner.look.patterns import PATTERNS, Pattern
+from core.study.planner.look.surfaces import Surfaces, format_margin, surfaces
+from core.study.planner.look.touched import Touched, is_cut
 from core.study.planner.records import Tolerance
-from core.study.planner.sample_errors import SampleError, sample_error
-from core.study.planner.surfaces import Surfaces, format_margin, surfaces
-from core.study.planner.touched import Touched, is_cut
-from core.study.planner.translucency import alphas, is_translucent
 from core.study.planner.watching import Pause, unpaused
 
 DEPTHS = ("z-16", "z-24", "z-float32")

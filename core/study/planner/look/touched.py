@@ -25,7 +25,7 @@ from core.methods import table
 from core.raster.snapping import snap
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.planner.pieces import Pieces, pieces_of
+from core.study.planner.look.pieces import Pieces, pieces_of
 from core.study.planner.watching import Pause, unpaused
 
 MARGIN = 1 / 64

@@ -15,9 +15,9 @@ from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
-from core.study.planner.light_ranges import Cones, LightRange, Reflectances, cones, light_range
-from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
-from core.study.planner.touched import MARGIN, Touched
+from core.study.planner.bounds.light_ranges import Cones, LightRange, Reflectances, cones, light_range
+from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around
+from core.study.planner.look.touched import MARGIN, Touched
 from core.study.planner.watching import Pause, unpaused
 from core.surface import viewpoint
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from core.arrays import Flags
 from core.scene import AnyScene, Scene
-from core.study.planner.color_ranges import ColorRanges, materials, normal_cones, w_ratio
-from core.study.planner.phrases import bound, counted, figure, listed, opened, phrase
-from core.study.planner.surface_choice import SurfaceChoice
-from core.study.planner.touched import Touched
-from core.study.planner.value_choice import ValueChoice
+from core.study.planner.bounds.color_ranges import ColorRanges, materials, normal_cones, w_ratio
+from core.study.planner.choices.surface_choice import SurfaceChoice
+from core.study.planner.choices.value_choice import ValueChoice
+from core.study.planner.look.touched import Touched
+from core.study.planner.words.phrases import bound, counted, figure, listed, opened, phrase
 
 USELESS = 128
 """1/255: a bound from here on says next to nothing."""

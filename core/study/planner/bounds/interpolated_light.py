@@ -8,11 +8,11 @@ import numpy as np
 
 from core.arrays import Floats
 from core.scene import Scene
-from core.study.planner.bytes import times
-from core.study.planner.light_changes import LightError, moved_light_error
-from core.study.planner.lit_patches import lit_primitives, lit_triangles
-from core.study.planner.shading_bounds import spread_of
-from core.study.planner.touched import Touched
+from core.study.planner.bounds.bytes import times
+from core.study.planner.bounds.light_changes import LightError, moved_light_error
+from core.study.planner.bounds.lit_patches import lit_primitives, lit_triangles
+from core.study.planner.bounds.shading_bounds import spread_of
+from core.study.planner.look.touched import Touched
 
 
 def interpolated_light_error(touched: Touched, scene: Scene, share: Floats, shading: str) -> LightError:

@@ -1,9 +1,9 @@
 """Why each method was chosen of what decides which surface is seen where: sentences with the numbers."""
 
 from core.settings import Settings
-from core.study.planner.phrases import bound, counted, listed, opened, phrase
+from core.study.planner.choices.surface_choice import SurfaceChoice
 from core.study.planner.records import Tolerance
-from core.study.planner.surface_choice import SurfaceChoice
+from core.study.planner.words.phrases import bound, counted, listed, opened, phrase
 
 STEPS = "1.5 of its 65,535 steps"
 """How close two depths must be for 16 bits to take one for the other."""

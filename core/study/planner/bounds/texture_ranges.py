@@ -14,7 +14,7 @@ from core.arrays import Floats, Integers, Singles
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
 from core.scene import Texture
-from core.study.planner.phrases import figure
+from core.study.planner.words.phrases import figure
 
 _kept: WeakKeyDictionary[Texture, "TextureRanges"] = WeakKeyDictionary()
 LONGEST_LEVEL = 14.0

@@ -12,14 +12,14 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.scene import AnyScene, Scene
 from core.settings import Settings, with_method
-from core.study.planner.bytes import byte_error, times
-from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.costs import Costs
-from core.study.planner.patterns import Pattern
-from core.study.planner.shading_bounds import shading_error
-from core.study.planner.touched import Touched, is_cut
-from core.study.planner.tried_light import tried_error
-from core.study.planner.value_bounds import filter_error, interpolation_error, share_of_range
+from core.study.planner.bounds.bytes import byte_error, times
+from core.study.planner.bounds.color_ranges import ColorRanges
+from core.study.planner.bounds.shading_bounds import shading_error
+from core.study.planner.bounds.tried_light import tried_error
+from core.study.planner.bounds.value_bounds import filter_error, interpolation_error, share_of_range
+from core.study.planner.choices.costs import Costs
+from core.study.planner.look.patterns import Pattern
+from core.study.planner.look.touched import Touched, is_cut
 from core.study.planner.watching import Pause, unpaused
 
 FILTERS = ("nearest", "bilinear")

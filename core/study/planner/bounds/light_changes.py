@@ -32,8 +32,8 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.geometry.vertex_stage import unit
 from core.scene import DirectionalLight, Scene
-from core.study.planner.light_ranges import Cones, angle, angles_between, cones, halfway
-from core.study.planner.lit_patches import LitPatches
+from core.study.planner.bounds.light_ranges import Cones, angle, angles_between, cones, halfway
+from core.study.planner.bounds.lit_patches import LitPatches
 
 BENT = 2 / np.sqrt(3.0)
 """Second derivative of the direction of a point on a line, over the square of its speed by its distance, at most."""

@@ -18,10 +18,10 @@ import numpy as np
 from core.arrays import Floats
 from core.geometry.vertex_stage import unit
 from core.scene import DirectionalLight, Scene
-from core.study.planner.light_changes import LightError, bent_light_error
-from core.study.planner.light_ranges import LightRange, cones, light_range
-from core.study.planner.lit_patches import LitPatches, lit_primitives, lit_triangles, normals_of_faces
-from core.study.planner.touched import Touched
+from core.study.planner.bounds.light_changes import LightError, bent_light_error
+from core.study.planner.bounds.light_ranges import LightRange, cones, light_range
+from core.study.planner.bounds.lit_patches import LitPatches, lit_primitives, lit_triangles, normals_of_faces
+from core.study.planner.look.touched import Touched
 
 
 def shading_error(touched: Touched, scene: Scene, name: str) -> LightError:

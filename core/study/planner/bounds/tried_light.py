@@ -12,13 +12,13 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.fragments.lighting import Reflectance, light_surface
 from core.scene import Scene
-from core.study.planner.bytes import times
-from core.study.planner.closer import sample_pairs
-from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.light_changes import LightError
-from core.study.planner.lit_patches import LitPatches, lit_primitives, normals_of_faces
-from core.study.planner.patterns import Pattern
-from core.study.planner.touched import Touched, is_cut
+from core.study.planner.bounds.bytes import times
+from core.study.planner.bounds.color_ranges import ColorRanges
+from core.study.planner.bounds.light_changes import LightError
+from core.study.planner.bounds.lit_patches import LitPatches, lit_primitives, normals_of_faces
+from core.study.planner.look.closer import sample_pairs
+from core.study.planner.look.patterns import Pattern
+from core.study.planner.look.touched import Touched, is_cut
 from core.surface import viewpoint
 
 MOST = 2048
@@ -88,18 +88,18 @@ def _weights(touched: Touched, index: Integers, place: Floats) -> tuple[Floats, 
 
 
 def interpolated(scene: Scene, patches: LitPatches, weights: Floats, _affine: Floats) -> Light:
-    """Light R places by the normals that are interpolated there."""
+    """Light places by the normals that are interpolated there, by the ``weights`` (3, R) of the corners."""
     mixed = ((weights[..., None] * each).sum(axis=0) for each in (patches.position, patches.normal))
     return _light(scene, patches, *mixed)
 
 
 def interpolated_affinely(scene: Scene, patches: LitPatches, _weights: Floats, affine: Floats) -> Light:
-    """Light R places by normals and positions that are interpolated in the window."""
+    """Light places by normals and positions that are interpolated in the window, by ``affine`` weights (3, R)."""
     return interpolated(scene, patches, affine, affine)
 
 
 def at_vertices(scene: Scene, patches: LitPatches, weights: Floats, _affine: Floats) -> Light:
-    """Light the corners and interpolate the light."""
+    """Light the corners and interpolate the light by the ``weights`` (3, R)."""
     corners = [
         _light(scene, patches, position, normal)
         for position, normal in zip(patches.position, patches.normal, strict=True)
@@ -112,7 +112,7 @@ def at_vertices(scene: Scene, patches: LitPatches, weights: Floats, _affine: Flo
 
 
 def at_faces(scene: Scene, patches: LitPatches, _weights: Floats, _affine: Floats) -> Light:
-    """Light the middle of each face by its own normal."""
+    """Light the middle of each face by its own normal, whatever the weights (3, R)."""
     return _light(scene, patches, patches.position.mean(axis=0), normals_of_faces(patches))
 
 

@@ -9,9 +9,9 @@ from core.fragments.lighting import planes
 from core.fragments.shading import face_normals
 from core.geometry.vertex_stage import unit
 from core.scene import Scene
-from core.study.planner.color_ranges import MOST_WEIGHT, materials, weights_below_zero
-from core.study.planner.light_ranges import Reflectances
-from core.study.planner.touched import Touched
+from core.study.planner.bounds.color_ranges import MOST_WEIGHT, materials, weights_below_zero
+from core.study.planner.bounds.light_ranges import Reflectances
+from core.study.planner.look.touched import Touched
 from core.surface import viewpoint
 
 
