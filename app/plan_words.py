@@ -8,6 +8,7 @@ from app.study_words import digits, time_text
 from core.methods import table
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
+from core.study.planner.words.phrases import in_bytes
 from widgets.number_text import counted, joined
 from widgets.plan_rows import PlanRow, Verdict
 from widgets.stage_texts import family_title
@@ -34,11 +35,6 @@ def tolerance_text(tolerance: Tolerance) -> str:
     return f"within {tolerance.bytes}/255, {counted(tolerance.pixels, 'pixel')} beyond"
 
 
-def bound_text(error: float) -> str:
-    """Return an error with its unit."""
-    return f"{digits(error)}/255"
-
-
 def rows_of(plan: Plan, report: PlanReport | None) -> tuple[PlanRow, ...]:
     """Return a row for every decision; without a report nothing has been measured yet."""
     outcomes = {} if report is None else {outcome.decision.setting: outcome for outcome in report.outcomes}
@@ -50,7 +46,7 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
     is_cheaper = decision.chosen != decision.dearest
     instead = f"instead of {table.get(decision.setting, decision.dearest).title}" if is_cheaper else ""
     if not is_cheaper:
-        instead = "expensive, and needed" if decision.is_needed else "there is nothing cheaper"
+        instead = "kept: nothing cheaper is sure to do" if decision.is_needed else "there is nothing cheaper"
     verdict = Verdict.OPEN
     if outcome is not None:
         verdict = Verdict.HELD if outcome.is_right else Verdict.WRONG
@@ -69,12 +65,12 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
 
 def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> str:
     """Return the predicted and the measured error, and what the choice saves by itself."""
-    predicted = f"predicted {bound_text(decision.predicted_error)}"
+    predicted = f"predicted {in_bytes(decision.predicted_error)}"
     if decision.predicted_pixels:
         predicted += f" but for {counted(decision.predicted_pixels, 'pixel')}"
     if outcome is None or report is None:
         return predicted
-    measured = f"measured {bound_text(outcome.measured_error)}"
+    measured = f"measured {in_bytes(outcome.measured_error)}"
     if outcome.measured_pixels:
         measured += f", {counted(outcome.measured_pixels, 'pixel')} beyond"
     lines = [predicted, measured]
@@ -87,7 +83,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
 def headline(plan: Plan, report: PlanReport | None) -> str:
     """Return in one sentence what the plan comes to."""
     if report is None:
-        return f"Predicted: {bound_text(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
+        return f"Predicted: {in_bytes(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
     everything, chosen = (
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
@@ -107,7 +103,7 @@ def predicted_time(plan: Plan, start: str) -> str:
 def details(plan: Plan, report: PlanReport) -> str:
     """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
     parts = [
-        f"Largest difference {bound_text(report.largest_error)}, predicted {bound_text(plan.predicted_error)} at most; "
+        f"Largest difference {in_bytes(report.largest_error)}, predicted {in_bytes(plan.predicted_error)} at most; "
         f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
         f"{plan.tolerance.pixels:,} allowed."
     ]
@@ -123,7 +119,8 @@ def details(plan: Plan, report: PlanReport) -> str:
             f"The first plan was beyond the tolerance when measured, so everything is on again at {names}."
         )
     needed = [family_title(each.setting) for each in plan.decisions if each.is_needed]
-    parts.append(f"Expensive and needed: {joined(needed)}." if needed else "Nothing expensive is needed.")
+    kept = f"Kept, as nothing cheaper is sure to do: {joined(needed)}."
+    parts.append(kept if needed else "Nothing expensive is needed.")
     return " ".join(parts)
 
 

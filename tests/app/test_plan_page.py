@@ -18,8 +18,8 @@ from app.plan_words import details, headline, rows_of
 from app.study_words import names_of
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
 from core.study.family import Candidate, settings_of
-from core.study.planner import touched
-from core.study.planner.costs import LectureOrder
+from core.study.planner.choices.costs import LectureOrder
+from core.study.planner.look import touched
 from core.study.planner.planning import STAGES
 from core.study.whole_picture import PIPELINE
 from lessons.scenes import built_in_scene
@@ -85,7 +85,7 @@ def test_a_look_shows_every_stage_with_reason_and_numbers(page: PlanPage, qtbot:
         for text in ("predicted", "measured 0/255", "time alone"):
             assert (text in view.numbers.text()) == is_cheaper
         assert (view.property("role") == "kept") == decision.is_needed
-    assert "needed" in page.rows.rows["antialiasing"].instead.text()
+    assert "kept" in page.rows.rows["antialiasing"].instead.text()
     assert "Within the tolerance" in page.summary.headline.text()
     assert "everything on" in page.summary.headline.text()
     assert "0 pixels beyond 2/255, 0 allowed" in page.summary.details.text()

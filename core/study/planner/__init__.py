@@ -1,4 +1,8 @@
-"""No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance."""
+"""No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance.
+
+A plan looks at the scene (``look``), bounds what cheaper methods would change (``bounds``), chooses stage by stage
+(``choices``), says why (``words``), and is measured (``measuring``).
+"""
 
 from core.study.planner.everything import everything_on
 from core.study.planner.measuring import check_plan, measure_plan, plan_and_check

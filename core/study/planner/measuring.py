@@ -12,8 +12,10 @@ from core.picture import draw_picture
 from core.pipeline import render
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
-from core.study.planner.planning import Watch, plan, unwatched
+from core.study.planner.planning import plan
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
+from core.study.planner.watching import Watch, unwatched
+from core.study.planner.words.phrases import in_bytes, opened, phrase
 from core.study.speed_accuracy import collector_off
 
 ROUNDS = 5
@@ -59,7 +61,7 @@ def measure_plan(
     beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
     outcomes = []
     for decision in cheaper:
-        steps.next(f"Comparing: {decision.setting} {decision.chosen}")
+        steps.next(f"Comparing: {phrase(decision.setting, decision.chosen)}")
         before, alone = alone_settings(chosen, decision)
         drawn_before = reference if before == chosen.everything else shown(scene, before)
         outcomes.append(_outcome(decision, difference(shown(scene, alone), drawn_before)))
@@ -139,7 +141,8 @@ def put_back(chosen: Plan, setting: str) -> Plan:
     decisions = []
     for decision in chosen.decisions:
         if decision.setting == setting:
-            reason = f"{decision.chosen} was measured to be too far off, so {decision.dearest} is kept."
+            cheaper, dearest = (phrase(setting, name) for name in (decision.chosen, decision.dearest))
+            reason = f"{opened(cheaper)} was measured to be too far off, so {dearest} stays."
             decision = replace(
                 decision,
                 chosen=decision.dearest,
@@ -172,7 +175,7 @@ def _outcome(decision: Decision, differences: Integers) -> Outcome:
     measured = float(ranked[place])
     is_right = beyond <= decision.predicted_pixels
     pixels = f" but for {decision.predicted_pixels:,} pixels" if decision.predicted_pixels else ""
-    text = f"predicted {decision.predicted_error:.3g}/255{pixels}, measured {measured:g}/255"
+    text = f"predicted {in_bytes(decision.predicted_error)}{pixels}, measured {measured:g}/255"
     if decision.predicted_pixels:
         text += f" and {beyond:,} pixels"
     verdict = "the prediction held" if is_right else "the prediction was wrong"

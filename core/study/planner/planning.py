@@ -1,24 +1,25 @@
 """The plan: look at a scene, choose stage by stage what is cheapest within the tolerance, and say why."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
 
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.planner.color_ranges import ColorRanges, color_ranges
-from core.study.planner.costs import Costs, TriedCosts
+from core.study.planner.bounds.color_ranges import ColorRanges, color_ranges
+from core.study.planner.bounds.translucency import is_translucent
+from core.study.planner.choices.costs import Costs, TriedCosts
+from core.study.planner.choices.surface_choice import SurfaceChoice, SurfaceChooser
+from core.study.planner.choices.value_choice import ValueChoice, choose_values
 from core.study.planner.everything import everything_on
-from core.study.planner.facts import facts_of
-from core.study.planner.reasons import surface_reasons, value_reasons
+from core.study.planner.look.surfaces import may_be_seen
+from core.study.planner.look.tessellation import tessellations
+from core.study.planner.look.touched import Touched, touch
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
-from core.study.planner.surface_choice import SurfaceChoice, SurfaceChooser
-from core.study.planner.surfaces import may_be_seen
-from core.study.planner.tessellation import tessellations
-from core.study.planner.touched import Touched, touch
-from core.study.planner.translucency import is_translucent
-from core.study.planner.value_choice import ValueChoice, choose_values
+from core.study.planner.watching import Pause, Watch, unpaused, unwatched
+from core.study.planner.words.facts import facts_of
+from core.study.planner.words.surface_reasons import surface_reasons
+from core.study.planner.words.value_reasons import value_reasons
 
 STAGES = (
     "cull",
@@ -32,14 +33,6 @@ STAGES = (
     "antialiasing",
 )
 """Families that a plan decides on, in pipeline order."""
-
-
-Watch = Callable[[float, str], None]
-"""Told the part that is done and what is done next; whatever it raises ends planning or measuring."""
-
-
-def unwatched(done: float, doing: str) -> None:
-    """Let everything be done."""
 
 
 def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:
@@ -90,9 +83,16 @@ def plan(
     """
     tolerance = tolerance or Tolerance()
     everything = everything_on(scene, base)
-    watch(0.0, "Looking at the scene")
+    step = (0.0, "Looking at the scene")
+
+    def pause() -> None:
+        """Tell the step that is being done once more."""
+        watch(*step)
+
+    pause()
     start = perf_counter()
-    touched, colors = _look(scene, everything)
+    touched, colors = _look(scene, everything, pause)
+    pause()
     findings = Findings(facts_of(touched, colors, scene), perf_counter() - start)
     advice = tessellations(scene)
     if table.get("polygon_mode", everything.polygon_mode).function():
@@ -102,15 +102,17 @@ def plan(
         )
         return Plan(tolerance, everything, everything, kept, findings, advice)
     step = (1 / 4, "Choosing how what is seen is found")
-    costs = TriedCosts(scene, lambda: watch(*step)) if costs is None else costs
-    watch(*step)
-    surface = SurfaceChooser(touched, colors, scene, everything, tolerance, costs).choose()
+    costs = TriedCosts(scene, pause) if costs is None else costs
+    pause()
+    surface = SurfaceChooser(touched, colors, scene, everything, tolerance, costs, pause).choose()
     step = (1 / 2, "Choosing how it is coloured")
-    watch(*step)
+    pause()
     # Beyond the corners of a triangle only what makes no difference at all is sure.
     left = tolerance.bytes - surface.error if surface.pattern.stays_inside else 0.0
-    seen, side = surface.surfaces.is_candidate, surface.pattern.side
-    values = choose_values(touched, surface.colors, scene, surface.settings, seen, left, side, costs)
+    seen, pattern = surface.surfaces.is_candidate, surface.pattern
+    values = choose_values(
+        touched, surface.colors, scene, surface.settings, seen, left, pattern, costs, pause
+    )
     chosen = replace(
         surface.settings,
         interpolation=values["interpolation"].chosen,
@@ -120,7 +122,7 @@ def plan(
     decisions = _decisions(everything, chosen, surface, values, tolerance, touched, colors, scene)
     error = surface.error + sum(value.error for value in values.values())
     step = (3 / 4, "Predicting the time")
-    watch(*step)
+    pause()
     pixels = surface.pixels
     if costs.is_slower(chosen, everything):
         chosen, error, pixels = everything, 0.0, 0
@@ -136,10 +138,13 @@ ALL_SLOWER = "All choices together take longer here than everything on, so none 
 WIREFRAME = "Outlines have no areas whose colours could be bounded, so nothing is left out."
 
 
-def _look(scene: AnyScene, everything: Settings) -> tuple[Touched, ColorRanges]:
-    touched = touch(scene, replace(everything, polygon_mode="fill"))
+def _look(scene: AnyScene, everything: Settings, pause: Pause = unpaused) -> tuple[Touched, ColorRanges]:
+    touched = touch(scene, replace(everything, polygon_mode="fill"), pause)
     is_blended = is_translucent(touched, scene) or everything.blend == "additive"
-    return touched, color_ranges(touched, scene, everything, may_be_seen(touched, is_blended))
+    pause()
+    seen = may_be_seen(touched, is_blended)
+    pause()
+    return touched, color_ranges(touched, scene, everything, seen, pause=pause)
 
 
 def _decisions(

@@ -13,16 +13,17 @@ from core.pipeline import render
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
 from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_check
 from core.study.planner import measuring
-from core.study.planner.bytes import byte_error, byte_width
-from core.study.planner.color_ranges import color_ranges
-from core.study.planner.convexity import is_closed
-from core.study.planner.light_ranges import Reflectances, light_range
-from core.study.planner.orders import overlap
-from core.study.planner.surfaces import format_margin, surfaces
-from core.study.planner.tessellation import sagitta, sphere_edges, tessellations
-from core.study.planner.texture_ranges import magnified_range, minified_range, range_around, step_text
-from core.study.planner.touched import components, touch
-from core.study.planner.value_bounds import shading_error, share_of_range
+from core.study.planner.bounds.bytes import byte_error, byte_width
+from core.study.planner.bounds.color_ranges import color_ranges
+from core.study.planner.bounds.light_ranges import Reflectances, light_range
+from core.study.planner.bounds.shading_bounds import shading_error
+from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around, step_text
+from core.study.planner.bounds.value_bounds import share_of_range
+from core.study.planner.look.convexity import is_closed
+from core.study.planner.look.orders import overlap
+from core.study.planner.look.surfaces import format_margin, surfaces
+from core.study.planner.look.tessellation import sagitta, sphere_edges, tessellations
+from core.study.planner.look.touched import components, touch
 from core.study.workloads import checkerboard, overlapping_triangles, sphere_mesh, sphere_scene, textured_quad
 
 
@@ -50,7 +51,9 @@ def test_affine_is_off_by_the_closed_form_at_most_and_reaches_it(ratio: float) -
     touched = touch(scene, everything_on(scene))
     share = share_of_range(touched)
     root = np.sqrt(ratio)
-    assert share == pytest.approx((root - 1) / (root + 1))
+    # Snapping lets a triangle reach beyond its corners by a hair.
+    assert ((root - 1) / (root + 1) <= share).all()
+    assert share == pytest.approx((root - 1) / (root + 1), rel=0.06)
     v = [
         render(scene, replace(everything_on(scene), antialiasing="none", interpolation=name)).attributes[
             ..., 1
@@ -201,7 +204,7 @@ def test_a_choice_that_is_measured_to_be_wrong_is_put_back(monkeypatch: pytest.M
     wrong = measuring.measure_plan(scene, careless(), 1)
     assert not wrong.is_within
     texts = {each.decision.setting: each.text for each in wrong.outcomes}
-    assert texts["shading"].startswith("predicted 0.5/255, measured ")
+    assert texts["shading"].startswith("predicted 1/255 (0.5 before rounding), measured ")
     assert texts["shading"].endswith("the prediction was wrong")
 
 

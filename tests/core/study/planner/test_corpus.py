@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core.study import Plan, Tolerance, plan, plan_and_check
+from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.corpus import KINDS, corpus_scene
-from core.study.planner.costs import LectureOrder
 from core.study.planner.measuring import difference, shown
 
 SCENES = 210

@@ -8,7 +8,7 @@ import pytest
 import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
 from core.study import Tolerance, everything_on, measure_plan, plan
-from core.study.planner.costs import LectureOrder
+from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.measuring import difference, shown
 
 CHEAP = {

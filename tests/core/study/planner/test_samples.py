@@ -10,15 +10,15 @@ from core.methods import table
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study import Tolerance, everything_on, plan
-from core.study.planner.color_ranges import color_ranges, joined_ranges
+from core.study.planner.bounds.color_ranges import color_ranges, joined_ranges
+from core.study.planner.bounds.sample_errors import sample_error
+from core.study.planner.bounds.translucency import alphas, is_translucent
+from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.corpus import corpus_scene
-from core.study.planner.costs import LectureOrder
+from core.study.planner.look.patterns import PATTERNS
+from core.study.planner.look.surfaces import format_margin, surfaces
+from core.study.planner.look.touched import touch
 from core.study.planner.measuring import difference, shown
-from core.study.planner.patterns import PATTERNS
-from core.study.planner.sample_errors import sample_error
-from core.study.planner.surfaces import format_margin, surfaces
-from core.study.planner.touched import touch
-from core.study.planner.translucency import alphas, is_translucent
 
 ALL = (255, 10**9)
 """A tolerance by which every pixel is looked at, and none is too far off."""
@@ -85,7 +85,7 @@ def test_the_contrast_of_an_edge_decides_how_many_samples_it_takes() -> None:
 def test_a_method_that_would_do_but_takes_longer_is_told() -> None:
     chosen = plan(halves(0.47), Tolerance(6.0), costs=WithoutMultisampling())
     reason = next(each.reason for each in chosen.decisions if each.setting == "antialiasing")
-    assert "msaa-4 would do, but takes longer here." in reason
+    assert "Multisampling with 4 samples would do, but takes longer here." in reason
 
 
 def test_every_method_with_samples_has_a_pattern() -> None:

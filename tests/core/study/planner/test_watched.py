@@ -3,7 +3,9 @@
 import pytest
 
 from core.study import Tolerance, check_plan, measure_plan, plan
+from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.measuring import alone_settings
+from core.study.workloads import sphere_scene
 from lessons.scenes import built_in_scene
 
 
@@ -36,6 +38,27 @@ def test_a_watch_ends_planning(place: int) -> None:
     with pytest.raises(EndedError):
         plan(built_in_scene("shared-edge").make(), watch=watch)
     assert len(told) == place + 1
+
+
+@pytest.mark.parametrize("part", [2, 5, 8])
+def test_a_look_asks_between_its_parts_whether_to_go_on(part: int) -> None:
+    told: list[str] = []
+
+    def watch(done: float, doing: str) -> None:
+        told.append(doing)
+        if len(told) == part:
+            raise EndedError
+
+    with pytest.raises(EndedError):
+        plan(sphere_scene(12, 200), watch=watch)
+    assert told == ["Looking at the scene"] * part
+
+
+@pytest.mark.parametrize("step", ["Choosing how what is seen is found", "Choosing how it is coloured"])
+def test_a_choice_asks_between_its_parts_whether_to_go_on(step: str) -> None:
+    told: list[str] = []
+    plan(sphere_scene(12, 48), costs=LectureOrder(), watch=lambda done, doing: told.append(doing))
+    assert told.count(step) > 3
 
 
 def test_a_watch_ends_measuring() -> None:

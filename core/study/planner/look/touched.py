@@ -25,11 +25,12 @@ from core.methods import table
 from core.raster.snapping import snap
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.planner.pieces import Pieces, pieces_of
+from core.study.planner.look.pieces import Pieces, pieces_of
+from core.study.planner.watching import Pause, unpaused
 
 MARGIN = 1 / 64
 """Pixels by which squares are grown: more than twice snapping to 1/256 pixel moves anything."""
-CHUNK = 1 << 20
+CHUNK = 1 << 18
 """Pixels of bounding boxes that are looked at in one go."""
 THIN = 1 / 8
 """Triangles of no more height than this, in pixels, are looked at sample by sample."""
@@ -82,7 +83,7 @@ class Touched:
         return replace(self, **{name: getattr(self, name).take(index) for name in of_pairs})
 
 
-def touch(scene: AnyScene, settings: Settings) -> Touched:
+def touch(scene: AnyScene, settings: Settings, pause: Pause = unpaused) -> Touched:
     """Look which primitives touch which pixels.
 
     Parameters
@@ -90,6 +91,8 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     scene : Scene or ClipScene
     settings : Settings
         Those of everything on; clipping makes sure that every primitive is in front of the eye.
+    pause : callable, optional
+        Asked between the parts, see `Pause`.
 
     Raises
     ------
@@ -103,11 +106,14 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     x, y = window[..., 0].T, window[..., 1].T
     facing = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     edges = _edges(x, y, facing)
+    pause()
     vertex = _vertices(geometry)
     component = components(vertex)
     outlined = outline_edges(vertex, component, facing)
     found, total = [], 0
+    pause()
     for number, column, row in _boxes(x, y, scene.size, offset):
+        pause()
         at_x, at_y = column + np.float64(offset), row + np.float64(offset)
         kept, crossing = _touches(
             edges, outlined, number, at_x, at_y, _inside(column, row, scene.size, offset)
@@ -120,11 +126,13 @@ def touch(scene: AnyScene, settings: Settings) -> Touched:
     empty = np.empty(0, np.int64)
     primitive = np.concatenate([empty, *(part[0] for part in found)])
     pixel = np.concatenate([empty, *(part[1] for part in found)])
+    pause()
     order = np.argsort(pixel * np.int64(len(geometry.primitives)) + primitive, kind="stable")
     primitive, pixel = primitive[order], pixel[order]
     x_of_pixel = np.concatenate([np.empty(0), *(part[2] for part in found)])[order]
     y_of_pixel = np.concatenate([np.empty(0), *(part[3] for part in found)])[order]
     is_outlined = np.concatenate([np.empty(0, bool), *(part[4] for part in found)])[order]
+    pause()
     clip = geometry.primitives.clip
     plane = value_plane(geometry.planes, (clip[..., 2] + clip[..., 3]) / 2)
     near, far = _depths(geometry, plane, primitive, x_of_pixel, y_of_pixel)

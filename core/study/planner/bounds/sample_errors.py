@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.study.planner.bytes import byte_width
-from core.study.planner.closer import pairs_of, sample_pairs
-from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.patterns import EVERYTHING, Pattern
-from core.study.planner.surfaces import Surfaces
-from core.study.planner.touched import Touched
-from core.study.planner.translucency import Range, blended_mixture
+from core.study.planner.bounds.bytes import byte_width
+from core.study.planner.bounds.color_ranges import ColorRanges
+from core.study.planner.bounds.translucency import Range, blended_mixture
+from core.study.planner.look.closer import pairs_of, sample_pairs
+from core.study.planner.look.patterns import EVERYTHING, Pattern
+from core.study.planner.look.surfaces import Surfaces
+from core.study.planner.look.touched import Touched
 
 BATCH = 512
 """Pixels that are looked at first; each further batch is twice as large."""

@@ -15,20 +15,21 @@ from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import value_plane
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
-from core.study.planner.light_ranges import Cones, LightRange, Reflectances, cones, light_range
-from core.study.planner.texture_ranges import magnified_range, minified_range, range_around
-from core.study.planner.touched import MARGIN, Touched
+from core.study.planner.bounds.light_ranges import Cones, LightRange, Reflectances, cones, light_range
+from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around
+from core.study.planner.look.touched import MARGIN, Touched
+from core.study.planner.watching import Pause, unpaused
 from core.surface import viewpoint
 
 Levels = tuple[Floats, Floats]
 """The least and the largest level of detail (Q,)."""
 SAMPLES = 4
 """Samples on a side of a pixel of everything on."""
-CHUNK = 1 << 16
+CHUNK = 1 << 14
 """Pairs that are worked on together."""
 SNAPPED = 0.75 / 256
 """Pixels that snapping moves a corner at most: half a step each way."""
-MOST_WEIGHT = 0.5
+MOST_WEIGHT = 4.0
 """A triangle whose weights can be farther below 0 than this is bounded by the square alone."""
 
 
@@ -83,9 +84,16 @@ class Hull:
 
 
 def color_ranges(
-    touched: Touched, scene: AnyScene, settings: Settings, chosen: Flags, stays_inside: bool = True
+    touched: Touched,
+    scene: AnyScene,
+    settings: Settings,
+    chosen: Flags,
+    stays_inside: bool = True,
+    pause: Pause = unpaused,
 ) -> ColorRanges:
-    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time; of the others nothing is known.
+    """Bound the colours of the ``chosen`` (Q,) pairs, a part at a time and a ``pause`` between them.
+
+    Of the others nothing is known.
 
     Where colours are taken at the pixels' centres, they may be those of places beyond the triangle: it does not
     ``stay inside``, and its corners bound nothing.
@@ -98,6 +106,7 @@ def color_ranges(
         if not stays_inside:
             corners = replace(corners, is_sound=np.zeros_like(corners.is_sound))
         for part in _parts(len(index)):
+            pause()
             levels = _levels_of_detail(seen, scene, part, stays_inside)
             lod[part] = levels[1]
             for row, values in zip(rows, _ranges(seen, scene, settings, levels, corners, part), strict=True):
@@ -156,7 +165,7 @@ def _corner_hull(touched: Touched, scene: AnyScene) -> Hull:
     primitives = touched.geometry.primitives
     values = planar(primitives.varyings.swapaxes(0, 1))
     weight = weights_below_zero(touched)
-    below_zero = np.minimum(weight, 1.0)
+    below_zero = np.minimum(weight, MOST_WEIGHT)
     low, high = values.min(axis=0), values.max(axis=0)
     extra = (high - low) * (2 * below_zero)[:, None]
     light = _light(touched, scene, values, primitives.mesh, below_zero)
@@ -168,14 +177,18 @@ def planar(values: Floats) -> Floats:
     return np.moveaxis(np.ascontiguousarray(np.moveaxis(values, 2, 0)), 0, 2)
 
 
-def weights_below_zero(touched: Touched) -> Floats:
-    """Return (P,) float64: how far below 0 a weight can be, as snapping moves corners by `SNAPPED`."""
+def areas_below_zero(touched: Touched) -> Floats:
+    """Return (P,) float64: how far below 0 affine weights can be, as snapping moves corners by `SNAPPED`."""
     window = touched.geometry.corners.window
     edge = np.linalg.norm(window - np.roll(window, 1, axis=1), axis=2).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(
-            np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf) * w_ratio(touched)
-        )
+        return np.asarray(np.nan_to_num(SNAPPED * edge / np.abs(touched.facing), nan=np.inf))
+
+
+def weights_below_zero(touched: Touched) -> Floats:
+    """Return (P,) float64: how far below 0 a weight can be, affine or in perspective."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.nan_to_num(areas_below_zero(touched) * w_ratio(touched), nan=np.inf))
 
 
 def w_ratio(touched: Touched) -> Floats:
@@ -324,10 +337,11 @@ def _levels_of_detail(touched: Touched, scene: AnyScene, part: slice, stays_insi
 
 
 def inverse_w_floor(touched: Touched) -> Floats:
-    """Return (P,) float64, the least 1/w in each primitive, and a hair less for snapping."""
-    w = touched.geometry.primitives.clip[..., 3].max(axis=1)
-    weight = np.minimum(weights_below_zero(touched), 1.0)
-    return np.asarray(np.maximum(1 - 2 * weight, 1e-3) / w)
+    """Return (P,) float64, the least 1/w in each primitive; where snapping lets weights go below 0, less than it."""
+    ratio, farthest = w_ratio(touched), touched.geometry.primitives.clip[..., 3].max(axis=1)
+    with np.errstate(invalid="ignore"):
+        beyond = np.nan_to_num(2 * weights_below_zero(touched) * (ratio - 1), nan=np.inf)
+    return np.asarray(np.maximum(1 - beyond, 1e-3) / farthest)
 
 
 def _light(

@@ -34,3 +34,9 @@ def byte_width(low: Floats, high: Floats) -> Floats:
     low = np.clip(np.nan_to_num(low, nan=0.0), 0.0, 1.0)
     high = np.clip(np.nan_to_num(high, nan=np.inf, posinf=np.inf), 0.0, 1.0)
     return np.asarray(255 * (srgb(high) - srgb(low)))
+
+
+def times(first: Floats, second: Floats) -> Floats:
+    """Return the product of bounds, arrays of any shape; nothing times the unknown is nothing."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.where((first == 0) | (second == 0), 0.0, first * second))

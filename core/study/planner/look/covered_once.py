@@ -19,7 +19,7 @@ import numpy as np
 
 from core.arrays import Floats, Integers
 from core.raster.snapping import snap
-from core.study.planner.touched import Touched, is_cut
+from core.study.planner.look.touched import Touched, is_cut
 
 MOST_CROSSINGS = 2
 """Edges of the outline at one height: one up, one down."""

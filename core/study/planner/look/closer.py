@@ -10,8 +10,8 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.raster.snapping import snap
-from core.study.planner.patterns import Pattern
-from core.study.planner.touched import Touched
+from core.study.planner.look.patterns import Pattern
+from core.study.planner.look.touched import Touched
 
 
 def doubtful_backs(touched: Touched, pixels: Integers, margin: float, pattern: Pattern) -> Integers:

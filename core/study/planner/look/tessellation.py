@@ -12,7 +12,7 @@ import numpy as np
 from core.arrays import Floats
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import AnyScene, Scene
-from core.study.planner.light_ranges import angle
+from core.study.planner.bounds.light_ranges import angle
 from core.study.planner.records import Tessellation
 
 WANTED = 0.25

@@ -4,10 +4,10 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.scene import AnyScene, Scene, Texture
-from core.study.planner.closer import sample_pairs
-from core.study.planner.color_ranges import ColorRanges, weights_below_zero
-from core.study.planner.patterns import Pattern
-from core.study.planner.touched import Touched
+from core.study.planner.bounds.color_ranges import ColorRanges, weights_below_zero
+from core.study.planner.look.closer import sample_pairs
+from core.study.planner.look.patterns import Pattern
+from core.study.planner.look.touched import Touched
 
 Range = tuple[Floats, Floats]
 """The least and the largest of something."""

@@ -14,6 +14,7 @@ from core.arrays import Floats, Integers, Singles
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
 from core.scene import Texture
+from core.study.planner.words.phrases import figure
 
 _kept: WeakKeyDictionary[Texture, "TextureRanges"] = WeakKeyDictionary()
 LONGEST_LEVEL = 14.0
@@ -24,7 +25,7 @@ def step_text(level: float) -> str:
     """Return how long a step of 2^level texels is at most; bounds at grazing pixels are far longer than a texture."""
     if level > LONGEST_LEVEL:
         return f"not known to be shorter than {2**LONGEST_LEVEL:,.0f} texels"
-    return f"{2.0**level:.3g} texels at most"
+    return f"{figure(2.0**level)} texels at most"
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,17 +12,15 @@ import numpy as np
 from core.arrays import Flags, Floats
 from core.scene import AnyScene, Scene
 from core.settings import Settings, with_method
-from core.study.planner.bytes import byte_error
-from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.costs import Costs
-from core.study.planner.touched import Touched, is_cut
-from core.study.planner.value_bounds import (
-    filter_error,
-    interpolation_error,
-    shading_error,
-    share_of_range,
-    times,
-)
+from core.study.planner.bounds.bytes import byte_error, times
+from core.study.planner.bounds.color_ranges import ColorRanges
+from core.study.planner.bounds.shading_bounds import shading_error
+from core.study.planner.bounds.tried_light import tried_error
+from core.study.planner.bounds.value_bounds import filter_error, interpolation_error, share_of_range
+from core.study.planner.choices.costs import Costs
+from core.study.planner.look.patterns import Pattern
+from core.study.planner.look.touched import Touched, is_cut
+from core.study.planner.watching import Pause, unpaused
 
 FILTERS = ("nearest", "bilinear")
 SHADINGS = ("unlit", "flat", "gouraud")
@@ -42,6 +40,10 @@ class ValueChoice:
     """Cheaper methods and their bounds in 1/255, which are too large."""
     slower: tuple[str, ...] = ()
     """Methods that would do, but take longer."""
+    is_dearest: bool = False
+    """Whether nothing cheaper was chosen than everything on has."""
+    allowed: float = 0.0
+    """What was left of the tolerance before, in 1/255."""
 
 
 class Budget:
@@ -64,6 +66,7 @@ class Budget:
         self, options: dict[str, Floats], dearest: str, is_slower: Callable[[str], bool]
     ) -> ValueChoice:
         """Return the first of the ``options``, each with its error (Q, 3), that fits and is no slower, and spend it."""
+        allowed = self.left
         rejected: list[tuple[str, float]] = []
         slower: list[str] = []
         for name, error in options.items():
@@ -75,8 +78,8 @@ class Budget:
             else:
                 self.left -= cost
                 self._spent += error
-                return ValueChoice(name, cost, tuple(rejected), tuple(slower))
-        return ValueChoice(dearest, 0.0, tuple(rejected), tuple(slower))
+                return ValueChoice(name, cost, tuple(rejected), tuple(slower), allowed=allowed)
+        return ValueChoice(dearest, 0.0, tuple(rejected), tuple(slower), is_dearest=True, allowed=allowed)
 
 
 def choose_values(
@@ -86,8 +89,9 @@ def choose_values(
     settings: Settings,
     seen: Flags,
     left: float,
-    side: int,
+    pattern: Pattern,
     costs: Costs,
+    pause: Pause = unpaused,
 ) -> dict[str, ValueChoice]:
     """Choose by family.
 
@@ -102,9 +106,11 @@ def choose_values(
         The pairs of the look that may be seen.
     left : float
         What is left of the tolerance, in 1/255.
-    side : int
-        Samples on a side of a pixel.
+    pattern : Pattern
+        The samples that were chosen.
     costs : Costs
+    pause : callable, optional
+        Asked between the methods, see `Pause`.
     """
     index = np.flatnonzero(seen)
     touched, colors = touched.take(index), colors.take(index)
@@ -127,22 +133,29 @@ def choose_values(
     if isinstance(scene, Scene) and settings.shading != "unlit":
         errors = {}
         for name in SHADINGS:
+            pause()
             light = shading_error(touched, scene, name)
             primitive = touched.primitive
-            errors[name] = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+            error = times(colors.albedo, light.diffuse[primitive]) + light.specular[primitive]
+            is_lit = name != "unlit"
+            errors[name] = tried_error(error, touched, colors, scene, pattern, name) if is_lit else error
         shading = choose("shading", errors)
+    pause()
     has_texture = "uv" in touched.geometry.primitives.layout
-    filters = {name: filter_error(touched, colors, scene, name, side) for name in FILTERS}
+    filters = {name: filter_error(touched, colors, scene, name, pattern.side) for name in FILTERS}
     found = choose("texture_filter", filters) if has_texture else ValueChoice("nearest", 0.0, ())
 
-    def moved(share: Floats) -> Floats:
-        return interpolation_error(touched, colors, scene, share, shading.chosen, found.chosen, side)
+    def moved(name: str) -> Floats:
+        pause()
+        where = shares[name], shading.chosen, found.chosen, pattern
+        return interpolation_error(touched, colors, scene, *where, is_affine=name == "affine")
 
+    is_clipped = settings.clipping != "homogeneous"
     shares = {
         # One vertex's value is off by the whole range; of a cut triangle it is another vertex than the piece's.
         "flat": np.where(is_cut(touched), np.inf, 1.0),
-        "affine": share_of_range(touched),
-        "affine-n": share_of_range(touched, settings.correction_interval),
+        "affine": share_of_range(touched, is_clipped),
+        "affine-n": share_of_range(touched, is_clipped, settings.correction_interval),
     }
-    interpolation = choose("interpolation", {name: moved(shares[name]) for name in INTERPOLATIONS})
+    interpolation = choose("interpolation", {name: moved(name) for name in INTERPOLATIONS})
     return {"interpolation": interpolation, "texture_filter": found, "shading": shading}

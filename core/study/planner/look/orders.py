@@ -13,7 +13,7 @@ import numpy as np
 
 from core.arrays import Flags, Floats, Integers
 from core.raster.snapping import snap
-from core.study.planner.touched import MARGIN, Touched
+from core.study.planner.look.touched import MARGIN, Touched
 
 MOST_LAYERS = 64
 """A pixel touched by more triangles than this is not looked into."""

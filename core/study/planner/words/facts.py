@@ -7,12 +7,12 @@ import numpy as np
 from core.arrays import Floats, Integers
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.scene import AnyScene, Scene
-from core.study.planner.color_ranges import ColorRanges, normal_cones, w_ratio
-from core.study.planner.convexity import is_closed, is_convex
+from core.study.planner.bounds.color_ranges import ColorRanges, normal_cones, w_ratio
+from core.study.planner.bounds.texture_ranges import step_text
+from core.study.planner.look.convexity import is_closed, is_convex
+from core.study.planner.look.surfaces import format_margin, surfaces
+from core.study.planner.look.touched import Touched
 from core.study.planner.records import Fact
-from core.study.planner.surfaces import format_margin, surfaces
-from core.study.planner.texture_ranges import step_text
-from core.study.planner.touched import Touched
 
 
 def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fact, ...]:
@@ -41,7 +41,9 @@ def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fa
         Fact("convex", "Closed and convex meshes", _those(scene, is_convex)),
         Fact("layers", "Triangles that may be seen in a pixel, at most", f"{int(layers.max(initial=0)):,}"),
         Fact("depth-range", "Window depth", _depth_range(touched)),
-        Fact("contrast", "Pixels whose candidates differ by more than 2/255", _count(seen.width > 2)),
+        Fact(
+            "contrast", "Pixels in which what can be seen differs by more than 2/255", _count(seen.width > 2)
+        ),
         Fact(
             "largest-contrast", "Largest difference within a pixel", f"{seen.width.max(initial=0.0):.3g}/255"
         ),

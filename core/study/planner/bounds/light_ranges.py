@@ -124,11 +124,11 @@ def light_range(
             towards = Cones(np.broadcast_to(unit(-light.direction), (count, 3)), np.zeros(count))
         else:
             towards = cones(light.position - positions, below_zero)
-        least, most = _angles(normal, towards)
+        least, most = angles_between(normal, towards)
         color = np.maximum(light.color, 0)
         low += (material.diffuse * _cosine(most))[:, None] * color
         high += (material.diffuse * _cosine(least))[:, None] * color
-        weak, strong = _angles(normal, halfway(towards, eye))[::-1]
+        weak, strong = angles_between(normal, halfway(towards, eye))[::-1]
         power_low = np.where(most < np.pi / 2, np.float_power(_cosine(weak), material.shininess), 0.0)
         power_high = np.where(least < np.pi / 2, np.float_power(_cosine(strong), material.shininess), 0.0)
         shine_low += (material.specular * power_low)[:, None] * color
@@ -148,7 +148,7 @@ def halfway(towards: Cones, eye: Cones) -> Cones:
     return Cones(unit(total), radius)
 
 
-def _angles(first: Cones, second: Cones) -> tuple[Floats, Floats]:
+def angles_between(first: Cones, second: Cones) -> tuple[Floats, Floats]:
     """Return the least and the largest angle (Q,) between directions of two cones; a hair is for rounding."""
     middle, reach = angle(first.axis, second.axis), first.radius + second.radius + HAIR
     return np.maximum(middle - reach, 0.0), np.minimum(middle + reach, np.pi)

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.study.planner.bytes import byte_width
-from core.study.planner.color_ranges import ColorRanges
-from core.study.planner.orders import depth_between
-from core.study.planner.pieces import Pieces
-from core.study.planner.touched import Touched
+from core.study.planner.bounds.bytes import byte_width
+from core.study.planner.bounds.color_ranges import ColorRanges
+from core.study.planner.look.orders import depth_between
+from core.study.planner.look.pieces import Pieces
+from core.study.planner.look.touched import Touched
 
 ROUNDING = 1e-9
 """Widths below this, in 1/255, are rounding of equal colours."""
