@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import Slot
+from PySide6.QtWidgets import QWidget
 
 from app.asked_work import ListedWork, WorkWords
 from app.atlas_text import WORDS
+from app.paced_drawing import PacedDrawing
 from app.session import Session
 from app.severity_curves import has_curves, severity_chart
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
@@ -60,11 +62,11 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         readout: Readout,
-        parent: QObject | None = None,
+        page: QWidget,
     ) -> None:
         choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
-        super().__init__(desk.running, controls, WORK_WORDS, choices, parent)
-        self._session, self._desk = session, desk
+        super().__init__(desk.running, controls, WORK_WORDS, choices, page)
+        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
         self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
         self._curves, self._legend = curves
         self._running_info: ExperimentInfo | None = None
@@ -84,6 +86,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         for pane in curves:
             pane.series_left.connect(self._point_away)
         session.document_changed.connect(self._take_document)
+        self._pace.due.connect(self._show_cells)
         self.refresh()
 
     @Slot()
@@ -139,6 +142,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         self._show_maps()
 
     def _show_maps(self) -> None:
+        self._pace.settle()
         cells = self.cells
         if cells:
             self._maps.show_atlas(atlas_record(self.info, cells))
@@ -292,8 +296,13 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
             self._cells[place.key][place.row, place.column] = int(each.verdict.outcome)
             self._verdicts[place] = each.verdict
         if self.is_partial:
-            self._maps.show_atlas(atlas_record(self.info, self._cells))
-            self._show_curves()
+            self._pace.ask()
+
+    @Slot()
+    def _show_cells(self) -> None:
+        """Show the cells that have been run by now."""
+        self._maps.show_atlas(atlas_record(self.info, self.cells))
+        self._show_curves()
 
     @Slot(object)
     def _take_result(self, result: AtlasResult) -> None:

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import Slot
+from PySide6.QtWidgets import QWidget
 
 from app.asked_work import ListedWork, WorkWords
+from app.paced_drawing import PacedDrawing
 from app.plan_points import chosen_points, plan_candidates
 from app.session import Session
 from app.study_charts import MOST_NAMED, growth_of, numbers_of, scatter_of
@@ -31,6 +33,7 @@ NOTHING = "Error against cost, one mark for each method. Choose the work above, 
 NO_GROWTH = (
     "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
 )
+GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
 WORK_WORDS = WorkWords(
     "Measuring was cancelled", "It could not be measured", "what was measured before is as it was"
 )
@@ -49,10 +52,10 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         legend: ChartLegend,
         numbers: StudyTable,
         readout: Readout,
-        parent: QObject | None = None,
+        page: QWidget,
     ) -> None:
-        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), parent)
-        self._session, self._desk = session, desk
+        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), page)
+        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
         self._families, self._controls = families, controls
         self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
         self._partial: Study | None = None
@@ -62,6 +65,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self._chosen = ""
         self._connect()
         session.plan_changed.connect(self.refresh)
+        self._pace.due.connect(self._show_study)
         self.refresh()
 
     def _connect(self) -> None:
@@ -123,7 +127,9 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self._controls.show_choices(controls_of(self.choice))
         self._show_study()
 
+    @Slot()
     def _show_study(self) -> None:
+        self._pace.settle()
         study, choice = self.study, self.choice
         if not self.is_partial and study is not None:
             self._numbers = numbers_of(study.points)
@@ -135,9 +141,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             self._table.show_table(TableRecord((), (), ()))
         else:
             scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
-            growth = growth_of(study, choice.cost, self._numbers)
-            if self.is_partial:
-                growth = ChartEmpty("Measured after the points of the other chart.")
+            growth = GROWTH_COMES if self.is_partial else growth_of(study, choice.cost, self._numbers)
             self._table.show_table(table_of(study))
         for chart, picture in zip(self._charts, (scatter, growth), strict=True):
             if isinstance(picture, ChartEmpty):
@@ -294,7 +298,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
         self._partial = replace(self._blank, points=tuple(in_order))
         if self.is_partial:
-            self._show_study()
+            self._pace.ask()
 
     @Slot(object)
     def _take_result(self, result: StudyResult) -> None:

@@ -229,3 +229,18 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     assert place is not None
     QTest.mouseMove(page.scatter.viewport(), place.toPoint())
     assert page.legend.currentItem().text().startswith("Method ")
+
+
+def test_a_hidden_page_draws_no_points_until_it_is_seen(
+    window: MainWindow, page: ComparePage, qtbot: QtBot
+) -> None:
+    page.studies.choice.rounds = 90
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    window.pages.show_page("step")
+    measured_first: list[object] = []
+    page.desk.measuring.part_done.connect(measured_first.append)
+    qtbot.waitUntil(lambda: len(measured_first) > 20, timeout=60000)
+    assert page.scatter.places() == []
+    window.pages.show_page("compare")
+    assert len(page.scatter.places()) > 1, "what came meanwhile is there at once"
+    page.studies.cancel()
