@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, Q
 from app.file_page import FilePage, FileWords
 from app.pages import Handlers
 from app.session import Session
+from app.side_columns import SideColumns
 from app.study_charts import TIME
 from app.study_desk import StudyDesk
 from app.study_export import study_content
@@ -72,24 +73,11 @@ class ComparePage(FilePage):
     # Layout.
 
     def _lay_out(self) -> None:
-        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
-        self.columns.addWidget(self._left())
-        self.columns.addWidget(self._main())
-        self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([264, 1000])
+        self.columns = SideColumns(self.families, self.readout, self._main(), (300, 360), self)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
         page.setSpacing(8)
         page.addWidget(self.columns, 1)
-
-    def _left(self) -> QWidget:
-        self.left = QSplitter(Qt.Orientation.Vertical, self)
-        self.left.addWidget(self.families)
-        self.left.addWidget(self.readout)
-        self.left.setStretchFactor(1, 1)
-        self.left.setSizes([300, 360])
-        self.left.setMinimumWidth(160)
-        return self.left
 
     def _main(self) -> QWidget:
         self.charts = QSplitter(Qt.Orientation.Horizontal, self)
@@ -151,12 +139,12 @@ class ComparePage(FilePage):
         }
 
     def dismiss(self) -> bool:
-        """Stop measuring, or else close the pictures."""
+        """Stop measuring, or else choose no mark any more."""
         if self.desk.is_measuring:
             self.studies.cancel()
             return True
         is_open = bool(self.opened.chosen)
-        self.opened.close()
+        self.opened.clear()
         return is_open
 
     def main_view(self) -> QWidget:
@@ -171,7 +159,7 @@ class ComparePage(FilePage):
         """Return what divides the panes, by names that no other page uses."""
         return {
             "compare columns": self.columns,
-            "compare left": self.left,
+            "compare left": self.columns.left,
             "compare charts": self.charts,
             "compare rows": self.rows,
         }

@@ -11,6 +11,7 @@ from app.file_page import FilePage, FileWords
 from app.pages import Handlers
 from app.session import Session
 from app.shrunk_files import save_shrunk, shrunk_name
+from app.side_columns import SideColumns
 from app.stability_case_presenter import StabilityCasePresenter
 from app.stability_desk import StabilityDesk
 from app.stability_presenter import StabilityPresenter
@@ -64,17 +65,7 @@ class StabilityPage(FilePage):
     # Layout.
 
     def _lay_out(self) -> None:
-        self.left = QSplitter(Qt.Orientation.Vertical, self)
-        self.left.addWidget(self.experiments)
-        self.left.addWidget(self.readout)
-        self.left.setStretchFactor(1, 1)
-        self.left.setSizes([360, 300])
-        self.left.setMinimumWidth(160)
-        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
-        self.columns.addWidget(self.left)
-        self.columns.addWidget(self._main())
-        self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([264, 1000])
+        self.columns = SideColumns(self.experiments, self.readout, self._main(), (360, 300), self)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
         page.addWidget(self.columns, 1)
@@ -158,7 +149,7 @@ class StabilityPage(FilePage):
         """Return what divides the panes, by names that no other page uses."""
         return {
             "stability columns": self.columns,
-            "stability left": self.left,
+            "stability left": self.columns.left,
             "stability rows": self.rows,
             "stability maps": self.seen,
         }

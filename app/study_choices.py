@@ -28,6 +28,8 @@ class FamilyChoice:
     measure: str = ""
     cost: str = TIME
     rounds: int = ROUNDS
+    grow: bool = True
+    """Whether growth is measured too; a picture of the page may do without."""
     seed: int = 0
     result: StudyResult | None = None
 
@@ -71,7 +73,8 @@ class FamilyChoice:
 
 
 def choices_of_all() -> dict[str, FamilyChoice]:
-    """Return every family that can be studied, the whole pipeline last."""
+    """Return every family that can be studied, the whole pipeline on the open scene first."""
+    families = sorted(study_families(), key=lambda family: not family.takes_scene)
     return {
         family.name: FamilyChoice(
             family.name,
@@ -81,7 +84,7 @@ def choices_of_all() -> dict[str, FamilyChoice]:
             family.works[0].name,
             measure=family.measures[0].name,
         )
-        for family in study_families()
+        for family in families
     }
 
 
@@ -96,7 +99,8 @@ def entry_of(choice: FamilyChoice) -> FamilyEntry:
     if choice.result is not None:
         date = choice.result.study.machine.get("date", "")
         note += f"\nMeasured {date}".rstrip()
-    return FamilyEntry(choice.name, choice.title, note, choice.result is not None)
+    is_of_scene = choice.family is not None and choice.family.takes_scene
+    return FamilyEntry(choice.name, choice.title, note, choice.result is not None, ends_group=is_of_scene)
 
 
 def controls_of(choice: FamilyChoice) -> StudyChoices:

@@ -35,6 +35,8 @@ class StudyOrder:
     scene_title: str = ""
     extra: tuple[Candidate, ...] = ()
     """Settings that are measured along with the family's own."""
+    grow: bool = True
+    """Whether to measure how cost grows with the size of the work too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +99,7 @@ class StudyDesk(Desk):
                     scene_title=order.scene_title,
                     extra=order.extra,
                     rounds=order.rounds,
+                    grow=order.grow,
                     seed=order.seed,
                     machine=machine(__version__),
                     progress=progress,

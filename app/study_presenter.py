@@ -141,7 +141,11 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             self._table.show_table(TableRecord((), (), ()))
         else:
             scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
-            growth = GROWTH_COMES if self.is_partial else growth_of(study, choice.cost, self._numbers)
+            growth = (
+                GROWTH_COMES
+                if self.is_partial and choice.grow
+                else growth_of(study, choice.cost, self._numbers)
+            )
             self._table.show_table(table_of(study))
         for chart, picture in zip(self._charts, (scatter, growth), strict=True):
             if isinstance(picture, ChartEmpty):
@@ -259,7 +263,9 @@ class StudyPresenter(ListedWork[FamilyChoice]):
                 "This version has no such family: a saved study can be looked at, not measured again."
             )
             return
-        order = StudyOrder(choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed)
+        order = StudyOrder(
+            choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed, grow=choice.grow
+        )
         settings = choice.family.base
         if choice.family.takes_scene:
             document = self._session.document
