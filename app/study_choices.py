@@ -58,12 +58,12 @@ class FamilyChoice:
         return (study.work.name, dict(study.dials), study.seed) == (self.work, self.dial_values, self.seed)
 
     def take(self, result: StudyResult) -> None:
-        """Keep a result; one that was opened from a file sets the controls too."""
+        """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
         self.result = result
         study = result.study
         if study.work.name not in {work.name for work in self.works}:
             self.works = (*self.works, study.work)
-        if result.path:
+        if result.path or result.is_kept:
             self.work, self.seed = study.work.name, study.seed
             self.dials |= {(self.work, name): value for name, value in study.dials.items()}
         if self.measure not in {measure.name for measure in study.measures}:

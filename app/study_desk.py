@@ -48,6 +48,8 @@ class StudyResult:
     """What was measured on, where the family takes a scene."""
     path: str = ""
     """The file it was opened from; empty: it was measured here."""
+    is_kept: bool = False
+    """Whether it is of an earlier start of the window."""
 
     @property
     def can_run_again(self) -> bool:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import Slot
+from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.asked_work import ListedWork, WorkWords
@@ -35,12 +35,18 @@ NO_GROWTH = (
 )
 GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
 WORK_WORDS = WorkWords(
-    "Measuring was cancelled", "It could not be measured", "what was measured before is as it was"
+    "Measuring was cancelled",
+    "It could not be measured",
+    "what was measured before is as it was",
+    "is still being measured",
 )
 
 
 class StudyPresenter(ListedWork[FamilyChoice]):
     """Keeps the choices and results of all families and shows those of one."""
+
+    result_taken = Signal(object)
+    """A `StudyResult` that has just been measured."""
 
     def __init__(
         self,
@@ -181,6 +187,8 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         if self.is_partial:
             parts.append(f"{counted(len(study.points), 'method')} measured by now.")
             return " ".join(parts)
+        if self.result is not None and self.result.is_kept:
+            parts.append("Kept from an earlier start.")
         refused = sum(bool(point.refused) for point in study.points)
         if refused:
             parts.append(f"{counted(refused, 'method')} refused this work.")
@@ -263,6 +271,8 @@ class StudyPresenter(ListedWork[FamilyChoice]):
                 "This version has no such family: a saved study can be looked at, not measured again."
             )
             return
+        if not self._is_free():
+            return
         order = StudyOrder(
             choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed, grow=choice.grow
         )
@@ -277,7 +287,6 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             if plan is not None:
                 others = choice.family.candidates(settings)
                 order = replace(order, extra=plan_candidates(plan.plan, settings, others))
-        self._desk.measuring.cancel()
         self._running = choice.name
         self._partial = None
         self._numbers = {
@@ -286,7 +295,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         }
         self._blank = _unmeasured(choice, order)
         self._point_nowhere()
-        self._controls.show_progress(Progress("Preparing", 0, 0))
+        self._tell_progress(Progress("Preparing", 0, 0))
         self.shown_changed.emit()
         self._show_study()
         self._desk.measure(order)
@@ -312,6 +321,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         choice.take(result)
         self.refresh()
         self.message_sent.emit(f"Measured {choice.title.lower()}.")
+        self.result_taken.emit(result)
 
     def _put_back(self) -> None:
         """Show what was measured before."""
@@ -319,6 +329,14 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self.refresh()
 
     # Saved studies.
+
+    @Slot(object)
+    def take_kept(self, study: Study) -> None:
+        """Show a study of an earlier start as the result of its family, unless there is another by now."""
+        choice = self._choices.get(study.family)
+        if choice is not None and choice.result is None and self._running != study.family:
+            choice.take(StudyResult(study, is_kept=True))
+            self.refresh()
 
     def take_saved(self, study: Study, path: str) -> None:
         """Show a study that was opened from a file, as the result of its family."""
