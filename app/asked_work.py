@@ -163,7 +163,7 @@ class ListedWork(AskedWork, Generic[Choice]):
         """Return whether nothing is being done; else say what is: it is not dropped for something else."""
         if self._running:
             title = self._choices[self._running].title
-            self.refused.emit(
+            self.message_sent.emit(
                 f"{title} {self._words.running}: wait until it is done, or cancel it first (Shift+F5)."
             )
         return not self._running

@@ -25,7 +25,7 @@ class SideColumns(QSplitter):
         """Put ``upper`` over ``lower``, which begin with these ``heights`` in pixels, to the left of the ``rest``."""
         super().__init__(Qt.Orientation.Horizontal, parent)
         self.left = QSplitter(Qt.Orientation.Vertical, self)
-        for pane, stretch in ((upper, 2), (lower, 1)):
+        for pane, stretch in ((upper, 3), (lower, 1)):
             self.left.addWidget(pane)
             self.left.setStretchFactor(self.left.count() - 1, stretch)
         self.left.setSizes(list(heights))

@@ -19,7 +19,7 @@ from widgets.study_pictures import PicturesRecord, StudyPictures
 from widgets.study_table import StudyTable
 
 LETTERS = ("A", "B")
-HINT = "Click a mark to see here what it drew, the reference and the difference; Ctrl+click another one to compare."
+HINT = "Click a mark for its pictures; Ctrl+click another one to compare the two."
 
 
 class StudyPicturesPresenter(QObject):

@@ -19,7 +19,7 @@ def page(window: MainWindow) -> ComparePage:
 
 def test_a_point_opens_its_picture_the_reference_and_the_difference(page: ComparePage, qtbot: QtBot) -> None:
     study = measured(page, qtbot)
-    assert "Click a mark" in page.pictures.heading.text()
+    assert "Click a mark for its pictures" in page.pictures.heading.text()
     QApplication.processEvents()  # The controls of the measuring have made room.
     places = page.scatter.places()
     click(page, "visibility=painters")
@@ -31,7 +31,7 @@ def test_a_point_opens_its_picture_the_reference_and_the_difference(page: Compar
     assert np.count_nonzero(buffers[2].values) == wrong > 0
     assert f"{wrong:,} of" in page.pictures.heading.text()
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert "Click a mark" in page.pictures.heading.text()
+    assert "Click a mark for its pictures" in page.pictures.heading.text()
     assert page.scatter.places() == places
     QTest.mouseClick(page.pictures.close_button, Qt.MouseButton.LeftButton)
     assert not page.pictures.isVisible()

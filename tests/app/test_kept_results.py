@@ -163,7 +163,7 @@ def test_a_running_measurement_is_not_dropped_for_another(window: MainWindow, qt
     QTest.keyClick(window, Qt.Key.Key_F5)
     page.studies.show_family("line")
     QTest.keyClick(window, Qt.Key.Key_F5)
-    assert "Hidden surfaces is still being measured" in window.messages.text.text()
+    assert "Hidden surfaces is still being measured" in window.statusBar().currentMessage()
     assert page.desk.is_measuring
     qtbot.waitUntil(lambda: page.controls.doing.text().startswith("Hidden surfaces: "), timeout=20000)
     assert page.controls.cancel_button.isVisible()
