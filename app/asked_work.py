@@ -21,6 +21,8 @@ class WorkWords:
     """As ``It could not be measured``."""
     kept: str
     """As ``what was measured before is as it was``."""
+    running: str = ""
+    """Of work that there is a list of, after the name of what runs: ``is still being measured``."""
 
 
 class ShowsProgress(Protocol):
@@ -37,6 +39,8 @@ class AskedWork(QObject):
     refused = Signal(str)
     shown_changed = Signal()
     """Something else is shown: what was chosen in it is gone."""
+    progressed = Signal(object)
+    """How far the work has come, a ``Progress``; ``None``: nothing is being done any more."""
 
     def __init__(
         self, job: Job, controls: ShowsProgress, words: WorkWords, parent: QObject | None = None
@@ -60,7 +64,16 @@ class AskedWork(QObject):
     @Slot(object, str)
     def _show_progress(self, fraction: float | None, doing: str) -> None:
         done = 0 if fraction is None else round(fraction * PERCENT)
-        self._progress_shown.show_progress(Progress(doing, done, 0 if fraction is None else PERCENT))
+        self._tell_progress(Progress(self._doing(doing), done, 0 if fraction is None else PERCENT))
+
+    def _tell_progress(self, progress: Progress | None) -> None:
+        """Show how far it is, on the page and to those who listen."""
+        self._progress_shown.show_progress(progress)
+        self.progressed.emit(progress)
+
+    def _doing(self, doing: str) -> str:
+        """Return what is being done as it is shown."""
+        return doing
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
@@ -73,7 +86,7 @@ class AskedWork(QObject):
     @Slot()
     def _end(self) -> None:
         """Go back to what was there before; a result or a reason may follow."""
-        self._progress_shown.show_progress(None)
+        self._tell_progress(None)
         self._put_back()
 
     def _take_part(self, part: Any) -> None:
@@ -98,6 +111,10 @@ class WorkChoice(Protocol):
     @property
     def name(self) -> str:
         """Its name in the list."""
+
+    @property
+    def title(self) -> str:
+        """What it is called in the list."""
 
     @property
     def result(self) -> Any:
@@ -141,6 +158,21 @@ class ListedWork(AskedWork, Generic[Choice]):
     def names(self) -> list[str]:
         """Names of all that can be shown, in their order."""
         return list(self._choices)
+
+    def _is_free(self) -> bool:
+        """Return whether nothing is being done; else say what is: it is not dropped for something else."""
+        if self._running:
+            title = self._choices[self._running].title
+            self.message_sent.emit(
+                f"{title} {self._words.running}: wait until it is done, or cancel it first (Shift+F5)."
+            )
+        return not self._running
+
+    def _doing(self, doing: str) -> str:
+        """Name what is being done while something else is shown."""
+        if not self._running or self.is_partial:
+            return doing
+        return f"{self._choices[self._running].title}: {doing}"
 
     def show_neighbour(self, direction: int) -> None:
         """Show the next of the list, or the one before."""

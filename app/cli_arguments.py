@@ -15,6 +15,7 @@ from core.scene import SIZE_LIMIT
 from core.settings import settings_from_texts
 
 FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
+MOST_ROUNDS = 1000
 
 
 def size_from_text(text: str) -> tuple[int, int]:
@@ -97,3 +98,10 @@ def show_progress(fraction: float | None, doing: str) -> None:
     """Write how far the work is over the line before."""
     done = "" if fraction is None else f" {100 * fraction:.0f} %"
     print(f"\r\x1b[K{doing}{done}", end="", file=sys.stderr, flush=True)
+
+
+def rounds_from_text(text: str) -> int:
+    """Return a number of rounds."""
+    if not text.isdecimal() or not 1 <= int(text) <= MOST_ROUNDS:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MOST_ROUNDS}, got {text}")
+    return int(text)

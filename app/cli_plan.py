@@ -11,11 +11,12 @@ from app.cli_arguments import (
     FILE_HELP,
     chosen_settings,
     open_file,
+    rounds_from_text,
     setting_from_text,
     show_progress,
     size_from_text,
 )
-from app.cli_study import aligned, rounds_from_text
+from app.cli_study import aligned
 from core import Settings
 from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene

@@ -5,7 +5,7 @@ import os
 import sys
 
 from app.cli import UsageError
-from app.cli_arguments import add_file, add_settings, chosen_settings, size_from_text
+from app.cli_arguments import add_file, add_settings, chosen_settings, rounds_from_text, size_from_text
 from app.cli_window import load_qt
 from core import STAGES
 
@@ -20,8 +20,8 @@ EXAMPLES = """examples:
   rasterscope screenshot teapot.obj -o plan.png --page plan
   rasterscope screenshot study-line-any-ends.json -o study.png
 
-A page other than step measures or runs what it shows; it takes as long as in the window. A saved study or atlas is
-shown as it is.
+A page other than step measures or runs what it shows, in fewer rounds than the window. A saved study or atlas is shown
+as it is.
 """
 PAGES = ("step", "compare", "stability", "plan")
 ONLY_OF = {
@@ -30,6 +30,8 @@ ONLY_OF = {
     "view": ("step",),
     "show": ("compare", "stability"),
     "work": ("compare",),
+    "rounds": ("compare",),
+    "grow": ("compare",),
     "choose": ("compare", "stability"),
 }
 """Options that are of some pages only."""
@@ -80,6 +82,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
     parser.add_argument(
+        "--rounds",
+        metavar="N",
+        type=rounds_from_text,
+        help="timed runs of every method, fewer of slow ones (3)",
+    )
+    parser.add_argument(
+        "--grow",
+        action="store_true",
+        default=None,
+        help="measure of the whole pipeline too how cost grows with the picture (minutes)",
+    )
+    parser.add_argument(
         "--choose", metavar="METHOD", help="open the pictures of a method, or the first cell where it fails"
     )
     add_settings(parser)
@@ -113,7 +127,14 @@ def run(options: argparse.Namespace) -> int:
     if options.page not in (None, "step"):
         from app.page_filling import PageContent  # All pages come along: not for the Step page alone.
 
-        content = PageContent(options.page, options.show or "", options.work or "", options.choose or "")
+        content = PageContent(
+            options.page,
+            options.show or "",
+            options.work or "",
+            options.choose or "",
+            options.rounds,
+            bool(options.grow),
+        )
     grab_window(
         options.file,
         options.output,

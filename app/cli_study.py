@@ -6,7 +6,7 @@ from pathlib import Path
 
 from app import __version__
 from app.cli import UsageError
-from app.cli_arguments import FILE_HELP, chosen_settings, setting_from_text, show_progress
+from app.cli_arguments import FILE_HELP, chosen_settings, rounds_from_text, setting_from_text, show_progress
 from app.open_any import open_any
 from app.study_export import export_study
 from app.study_words import digits, machine_sentence, settings_sentence, time_text, work_sentence
@@ -27,7 +27,6 @@ examples:
 
 -o writes study-FAMILY-WORK .csv, .json, .svg and .png into a folder, with the machine, versions, date and settings.
 """
-MOST_ROUNDS = 1000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -78,13 +77,6 @@ def dial_from_text(text: str) -> tuple[str, float]:
     except ValueError:
         pass
     raise argparse.ArgumentTypeError(f"must be NAME=NUMBER such as size=64, got {text}")
-
-
-def rounds_from_text(text: str) -> int:
-    """Return a number of rounds."""
-    if not text.isdecimal() or not 1 <= int(text) <= MOST_ROUNDS:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MOST_ROUNDS}, got {text}")
-    return int(text)
 
 
 def seed_from_text(text: str) -> int:

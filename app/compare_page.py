@@ -1,17 +1,20 @@
 """The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from app.file_page import FilePage, FileWords
+from app.kept_results import KeptResults
 from app.pages import Handlers
 from app.session import Session
+from app.side_columns import SideColumns
 from app.study_charts import TIME
-from app.study_desk import StudyDesk
+from app.study_desk import StudyDesk, StudyResult
 from app.study_export import study_content
-from app.study_files import EXTENSION, load_study
+from app.study_files import EXTENSION, load_study, study_json
 from app.study_pictures_presenter import StudyPicturesPresenter
 from app.study_presenter import StudyPresenter
 from core.study.record import Study
@@ -61,6 +64,11 @@ class ComparePage(FilePage):
         self.opened = StudyPicturesPresenter(
             self.studies, self.desk, (*charts, self.legend), self.table, self.pictures, self
         )
+        self.kept = KeptResults("study", load_study, self)
+        self.kept.found.connect(self.studies.take_kept)
+        self.kept.failed.connect(self.edit_refused)
+        self.studies.result_taken.connect(self._keep)
+        self.studies.progressed.connect(self.work_progressed)
         self._lay_out()
         self.setFocusProxy(self.scatter)
         self.studies.shown_text_changed.connect(self.shown_text.setText)
@@ -72,24 +80,11 @@ class ComparePage(FilePage):
     # Layout.
 
     def _lay_out(self) -> None:
-        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
-        self.columns.addWidget(self._left())
-        self.columns.addWidget(self._main())
-        self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([264, 1000])
+        self.columns = SideColumns(self.families, self.readout, self._main(), (300, 360), self)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
         page.setSpacing(8)
         page.addWidget(self.columns, 1)
-
-    def _left(self) -> QWidget:
-        self.left = QSplitter(Qt.Orientation.Vertical, self)
-        self.left.addWidget(self.families)
-        self.left.addWidget(self.readout)
-        self.left.setStretchFactor(1, 1)
-        self.left.setSizes([300, 360])
-        self.left.setMinimumWidth(160)
-        return self.left
 
     def _main(self) -> QWidget:
         self.charts = QSplitter(Qt.Orientation.Horizontal, self)
@@ -151,12 +146,12 @@ class ComparePage(FilePage):
         }
 
     def dismiss(self) -> bool:
-        """Stop measuring, or else close the pictures."""
+        """Stop measuring, or else choose no mark any more."""
         if self.desk.is_measuring:
             self.studies.cancel()
             return True
         is_open = bool(self.opened.chosen)
-        self.opened.close()
+        self.opened.clear()
         return is_open
 
     def main_view(self) -> QWidget:
@@ -164,14 +159,23 @@ class ComparePage(FilePage):
         return self.charts
 
     def stop(self) -> None:
-        """End measuring and drawing."""
+        """End measuring and drawing, and let what is being written be written."""
         self.desk.shut_down()
+        self.kept.shut_down()
+
+    def keep_results(self) -> None:
+        """Show the studies of the last start, and keep those that are measured."""
+        self.kept.begin()
+
+    @Slot(object)
+    def _keep(self, result: StudyResult) -> None:
+        self.kept.keep(result.study.family, partial(study_json, result.study))
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes, by names that no other page uses."""
         return {
             "compare columns": self.columns,
-            "compare left": self.left,
+            "compare left": self.columns.left,
             "compare charts": self.charts,
             "compare rows": self.rows,
         }

@@ -46,6 +46,7 @@ class MainWindow(QMainWindow):
         assert isinstance(step_page, StepPage)
         self.page = step_page
         self._has_mouse_focus = False
+        self._keeps_results = False
         self._lay_out()
         self.menus = Menus(self)
         self.menus.show_recent(self.preferences.recent_files)
@@ -218,6 +219,8 @@ class MainWindow(QMainWindow):
         page.step_requested.connect(self.opening.open_request)
         page.action_requested.connect(self.run_action)
         page.restore_layout(self.preferences.layout)
+        if self._keeps_results:
+            page.keep_results()
 
     @Slot(str)
     def _show_page(self, name: str) -> None:
@@ -269,11 +272,13 @@ class MainWindow(QMainWindow):
     # Coming and going.
 
     def restore(self) -> None:
-        """Put window and panes where they were left."""
+        """Put window and panes where they were left, and keep results from this start to the next."""
+        self._keeps_results = True
         if geometry := self.preferences.geometry:
             self.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii")))
         for page in self.pages.made:
             page.restore_layout(self.preferences.layout)
+            page.keep_results()
         self.page.inspector.set_folded(self.preferences.folded_cards)
         self.page.timeline.show_speed(self.preferences.speed)
         self.session.set_level(Level(self.preferences.level))

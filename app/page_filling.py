@@ -12,6 +12,9 @@ from app.pages import Page
 from app.plan_page import PlanPage
 from app.stability_page import StabilityPage
 
+PICTURE_ROUNDS = 3
+"""Timed runs of every method for a picture of the page: fewer than in the window, where the figures are wanted."""
+
 
 @dataclass(frozen=True)
 class PageContent:
@@ -25,6 +28,10 @@ class PageContent:
     """Kind of work of the family; empty: the first."""
     method: str = ""
     """Method whose mark is opened, or whose first failing cell is; empty: none."""
+    rounds: int | None = None
+    """Timed runs of every method of the family; ``None``: as many as a picture needs."""
+    grow: bool = False
+    """Whether to measure, of the whole pipeline too, how cost grows: that takes minutes."""
 
 
 def fill_page(window: MainWindow, content: PageContent) -> None:
@@ -81,7 +88,10 @@ def _measure(page: ComparePage, content: PageContent) -> None:
     if content.work:
         works = [work.name for work in studies.choice.works]
         studies.choice.work = _known(f"work of {studies.choice.name}", content.work, works)
-        studies.refresh()
+    choice = studies.choice
+    choice.rounds = content.rounds or PICTURE_ROUNDS
+    choice.grow = content.grow or (choice.family is not None and not choice.family.takes_scene)
+    studies.refresh()
     studies.measure()
     _wait_until(lambda: not page.desk.is_measuring)
     if content.method and studies.study is not None:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSplitter, QStackedWidget, QTabBar, Q
 
 from app.session import Session
 from core.settings import Settings
+from widgets.message_bar import Progress
 
 if TYPE_CHECKING:
     from core.study.record import (
@@ -41,6 +42,9 @@ class Page(QWidget):
     step_requested = Signal(object)
     """A `StepRequest`: the user wants to step something that this page shows."""
 
+    work_progressed = Signal(object)
+    """A ``Progress``: how far the work of this page has come; ``None``: it does none any more."""
+
     action_requested = Signal(str)
     """Name of an action of ``app.keys.ACTIONS`` that is another page's, or shows another page."""
 
@@ -59,6 +63,9 @@ class Page(QWidget):
     def open_path(self, path: str) -> None:
         """Show a file that has one of the endings of this page."""
         self.edit_refused.emit(f"This page cannot show {path}.")
+
+    def keep_results(self) -> None:
+        """Show the results of the last start of the window, and keep those that come for the next one."""
 
     def leave(self) -> None:
         """Stop what nobody sees: another page is shown now."""
@@ -164,6 +171,7 @@ class Pages(QWidget):
             kind = next(kind for kind in self._kinds if kind.name == name)
             page = kind.make(self._session, self)
             self._made[name] = page
+            page.work_progressed.connect(self._show_work)
             self._stack.addWidget(page)
             self.page_made.emit(page)
         return self._made[name]
@@ -176,6 +184,17 @@ class Pages(QWidget):
     def show_next(self, direction: int) -> None:
         """Show the page to the right (1) or to the left (-1), round and round."""
         self.bar.setCurrentIndex((self.bar.currentIndex() + direction) % self.bar.count())
+
+    @Slot(object)
+    def _show_work(self, progress: Progress | None) -> None:
+        """Write beside the name of a page how far its work is, for those who look at another page."""
+        name = next(name for name, page in self._made.items() if page is self.sender())
+        index = self.names.index(name)
+        title = self._kinds[index].title
+        if progress is not None:
+            done = f"{100 * progress.done // progress.total} %" if progress.total else "…"
+            title = f"{title} {done}"
+        self.bar.setTabText(index, title)
 
     @Slot(int)
     def _show_index(self, index: int) -> None:

@@ -35,6 +35,7 @@ class PlanPage(Page):
             presenter.message_sent.connect(self.message_sent)
             presenter.refused.connect(self.edit_refused)
         self.opened.step_requested.connect(self.step_requested)
+        self.plans.progressed.connect(self.work_progressed)
 
     def _lay_out(self) -> None:
         above = QWidget(self)

@@ -21,6 +21,7 @@ from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import StressCancelledError
 from core.study.stability.coverage.dial_pixel import PixelInFormats
+from core.study.stability.open_scene import NAME as OPEN_SCENE
 from widgets.atlas_records import CellPlace
 from widgets.atlas_view import AtlasView
 from widgets.case_view import CaseView
@@ -91,7 +92,7 @@ class StabilityCasePresenter(QObject):
         heading = f"{place.key} at {place_sentence(info, values)}"
         self._view.show()
         if experiment is None:
-            self._view.show_waiting(heading, "This version has no such experiment: the case cannot be run.")
+            self._view.show_waiting(heading, _no_experiment(info.name))
         elif place.key not in experiment.info.methods:
             self._view.show_waiting(heading, "This version has no such method: the case cannot be run.")
         else:
@@ -235,3 +236,10 @@ class StabilityCasePresenter(QObject):
         if self._found is not None:
             self._view.show_case(case_record(self._found))
         self.refused.emit(f"It could not be made smaller: {error}")
+
+
+def _no_experiment(name: str) -> str:
+    """Return why a cell of a saved atlas cannot be run."""
+    if name == OPEN_SCENE:
+        return "An atlas is saved without its scene: open that scene and run it to see its cases."
+    return "This version has no such experiment: the case cannot be run."

@@ -18,6 +18,8 @@ class AtlasResult:
     atlas: Atlas
     path: str = ""
     """The file it was opened from; empty: it was run here."""
+    is_kept: bool = False
+    """Whether it is of an earlier start of the window."""
 
 
 @dataclass(eq=False)
@@ -36,6 +38,11 @@ class ExperimentChoice:
     def name(self) -> str:
         """Name of the experiment."""
         return self.info.name
+
+    @property
+    def title(self) -> str:
+        """What it is called in the list."""
+        return self.info.title
 
     @property
     def resolutions(self) -> list[tuple[str, str]]:

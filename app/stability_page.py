@@ -1,17 +1,21 @@
 """The page of the atlas: experiments, one map for each method, and the case behind a cell."""
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QHBoxLayout, QSplitter, QVBoxLayout, QWidget
 
-from app.atlas_export import atlas_content
+from app.atlas_export import atlas_content, atlas_json
 from app.atlas_files import EXTENSION, load_atlas
 from app.file_page import FilePage, FileWords
+from app.kept_results import KeptResults
 from app.pages import Handlers
 from app.session import Session
 from app.shrunk_files import save_shrunk, shrunk_name
+from app.side_columns import SideColumns
 from app.stability_case_presenter import StabilityCasePresenter
+from app.stability_choices import AtlasResult
 from app.stability_desk import StabilityDesk
 from app.stability_presenter import StabilityPresenter
 from app.state_files import EXTENSION as STATE_EXTENSION
@@ -52,6 +56,11 @@ class StabilityPage(FilePage):
             session, self.desk, self.experiments, self.controls, self.maps, self.curves, self.readout, self
         )
         self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.curves, self.case, self)
+        self.kept = KeptResults("atlas", load_atlas, self)
+        self.kept.found.connect(self.runs.take_kept)
+        self.kept.failed.connect(self.edit_refused)
+        self.runs.result_taken.connect(self._keep)
+        self.runs.progressed.connect(self.work_progressed)
         self._lay_out()
         self.setFocusProxy(self.maps)
         self.runs.shown_text_changed.connect(self.shown_text.setText)
@@ -64,17 +73,7 @@ class StabilityPage(FilePage):
     # Layout.
 
     def _lay_out(self) -> None:
-        self.left = QSplitter(Qt.Orientation.Vertical, self)
-        self.left.addWidget(self.experiments)
-        self.left.addWidget(self.readout)
-        self.left.setStretchFactor(1, 1)
-        self.left.setSizes([360, 300])
-        self.left.setMinimumWidth(160)
-        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
-        self.columns.addWidget(self.left)
-        self.columns.addWidget(self._main())
-        self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([264, 1000])
+        self.columns = SideColumns(self.experiments, self.readout, self._main(), (360, 300), self)
         page = QVBoxLayout(self)
         page.setContentsMargins(8, 4, 8, 8)
         page.addWidget(self.columns, 1)
@@ -151,14 +150,23 @@ class StabilityPage(FilePage):
         return self.seen
 
     def stop(self) -> None:
-        """End all runs."""
+        """End all runs, and let what is being written be written."""
         self.desk.shut_down()
+        self.kept.shut_down()
+
+    def keep_results(self) -> None:
+        """Show the atlases of the last start, and keep those that are run."""
+        self.kept.begin()
+
+    @Slot(object)
+    def _keep(self, result: AtlasResult) -> None:
+        self.kept.keep(result.atlas.experiment.name, partial(atlas_json, result.atlas))
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes, by names that no other page uses."""
         return {
             "stability columns": self.columns,
-            "stability left": self.left,
+            "stability left": self.columns.left,
             "stability rows": self.rows,
             "stability maps": self.seen,
         }

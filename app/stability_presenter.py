@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import Signal, Slot
+from PySide6.QtWidgets import QWidget
 
 from app.asked_work import ListedWork, WorkWords
 from app.atlas_text import WORDS
+from app.paced_drawing import PacedDrawing
 from app.session import Session
 from app.severity_curves import has_curves, severity_chart
 from app.stability_choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
@@ -45,11 +47,19 @@ NOTHING = (
     "One map for each method, one cell for each place: what came of a real run there. Press Run (F5); "
     "cells appear as they are run."
 )
-WORK_WORDS = WorkWords("Running was cancelled", "It could not be run", "the maps of before are as they were")
+WORK_WORDS = WorkWords(
+    "Running was cancelled",
+    "It could not be run",
+    "the maps of before are as they were",
+    "is still being run",
+)
 
 
 class StabilityPresenter(ListedWork[ExperimentChoice]):
     """Keeps the choices and atlases of all experiments and shows those of one."""
+
+    result_taken = Signal(object)
+    """An `AtlasResult` that has just been run."""
 
     def __init__(
         self,
@@ -60,11 +70,11 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         readout: Readout,
-        parent: QObject | None = None,
+        page: QWidget,
     ) -> None:
         choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
-        super().__init__(desk.running, controls, WORK_WORDS, choices, parent)
-        self._session, self._desk = session, desk
+        super().__init__(desk.running, controls, WORK_WORDS, choices, page)
+        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
         self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
         self._curves, self._legend = curves
         self._running_info: ExperimentInfo | None = None
@@ -84,6 +94,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         for pane in curves:
             pane.series_left.connect(self._point_away)
         session.document_changed.connect(self._take_document)
+        self._pace.due.connect(self._show_cells)
         self.refresh()
 
     @Slot()
@@ -133,12 +144,12 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         choice = self.choice
         self._list.show_families([entry_of(each) for each in self._choices.values()], self._current)
         self._controls.show_sentences(choice.info.question, f"Claim: {choice.info.claim}")
-        self._controls.show_choices(
-            choice.resolutions, choice.resolution, choice.seed, choice.experiment is not None
-        )
+        can_run = choice.experiment is not None or choice.name == OPEN_SCENE
+        self._controls.show_choices(choice.resolutions, choice.resolution, choice.seed, can_run)
         self._show_maps()
 
     def _show_maps(self) -> None:
+        self._pace.settle()
         cells = self.cells
         if cells:
             self._maps.show_atlas(atlas_record(self.info, cells))
@@ -179,6 +190,8 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         if result is None:
             return ""
         parts = [counts_sentence(result), f"Seed {result.atlas.seed}."]
+        if result.is_kept:
+            parts.append("Kept from an earlier start.")
         if self.choice.experiment is not None and not self.choice.is_set_as(result.atlas):
             parts.append("The controls are set otherwise by now: run to see that.")
         if result.atlas.machine:
@@ -258,22 +271,22 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
     def run(self) -> None:
         """Run the experiment that is shown on the chosen grid."""
         choice = self.choice
-        if choice.experiment is None:
+        if choice.name == OPEN_SCENE and self._running != OPEN_SCENE:
+            made = open_scene_choice(self._session)
+            choice.info, choice.experiment = made.info, made.experiment
+        experiment = choice.experiment
+        if experiment is None:
             self.refused.emit(
                 "This version has no such experiment: a saved atlas can be looked at, not run again."
             )
             return
-        self._desk.running.cancel()
-        if choice.name == OPEN_SCENE:
-            made = open_scene_choice(self._session)
-            choice.info, choice.experiment = made.info, made.experiment
-        experiment = choice.experiment
-        assert experiment is not None
+        if not self._is_free():
+            return
         axes = axes_at(choice.info.axes, choice.resolution)
         self._running, self._running_info = choice.name, replace(choice.info, axes=axes)
         self._cells, self._verdicts = blank_cells(self._running_info), {}
         choice.chosen = self._hover = None
-        self._controls.show_progress(Progress("Preparing", 0, 0))
+        self._tell_progress(Progress("Preparing", 0, 0))
         self._show_maps()
         self.shown_changed.emit()
         self._desk.run(StressOrder(experiment, axes, choice.seed))
@@ -292,8 +305,13 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
             self._cells[place.key][place.row, place.column] = int(each.verdict.outcome)
             self._verdicts[place] = each.verdict
         if self.is_partial:
-            self._maps.show_atlas(atlas_record(self.info, self._cells))
-            self._show_curves()
+            self._pace.ask()
+
+    @Slot()
+    def _show_cells(self) -> None:
+        """Show the cells that have been run by now."""
+        self._maps.show_atlas(atlas_record(self.info, self.cells))
+        self._show_curves()
 
     @Slot(object)
     def _take_result(self, result: AtlasResult) -> None:
@@ -302,6 +320,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         self.refresh()
         self.shown_changed.emit()
         self.message_sent.emit(f"Ran {choice.info.title.lower()}: {counts_sentence(result)}")
+        self.result_taken.emit(result)
 
     def _put_back(self) -> None:
         """Show the maps of before."""
@@ -313,10 +332,23 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
 
     def take_saved(self, atlas: Atlas, path: str) -> None:
         """Show an atlas that was opened from a file, as the result of its experiment."""
-        info = atlas.experiment
+        self._take(AtlasResult(atlas, path=path))
+        self._turn_to(atlas.experiment.name)
+
+    @Slot(object)
+    def take_kept(self, atlas: Atlas) -> None:
+        """Show an atlas of an earlier start as the result of its experiment, unless there is another by now."""
+        name = atlas.experiment.name
+        if name in self._choices and self._choices[name].result is None and self._running != name:
+            self._take(AtlasResult(atlas, is_kept=True))
+            self.refresh()
+
+    def _take(self, result: AtlasResult) -> None:
+        info = result.atlas.experiment
         choice = self._choices.setdefault(info.name, ExperimentChoice(info, None))
-        choice.result, choice.seed, choice.chosen = AtlasResult(atlas, path=path), atlas.seed, None
-        self._turn_to(info.name)
+        choice.result, choice.seed, choice.chosen = result, result.atlas.seed, None
+        if info.name == OPEN_SCENE:  # A file does not hold its scene, and another one may be open now.
+            choice.info, choice.experiment = info, None
 
 
 def open_scene_choice(session: Session) -> ExperimentChoice:

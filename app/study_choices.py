@@ -28,6 +28,8 @@ class FamilyChoice:
     measure: str = ""
     cost: str = TIME
     rounds: int = ROUNDS
+    grow: bool = True
+    """Whether growth is measured too; a picture of the page may do without."""
     seed: int = 0
     result: StudyResult | None = None
 
@@ -56,12 +58,12 @@ class FamilyChoice:
         return (study.work.name, dict(study.dials), study.seed) == (self.work, self.dial_values, self.seed)
 
     def take(self, result: StudyResult) -> None:
-        """Keep a result; one that was opened from a file sets the controls too."""
+        """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
         self.result = result
         study = result.study
         if study.work.name not in {work.name for work in self.works}:
             self.works = (*self.works, study.work)
-        if result.path:
+        if result.path or result.is_kept:
             self.work, self.seed = study.work.name, study.seed
             self.dials |= {(self.work, name): value for name, value in study.dials.items()}
         if self.measure not in {measure.name for measure in study.measures}:
@@ -71,7 +73,8 @@ class FamilyChoice:
 
 
 def choices_of_all() -> dict[str, FamilyChoice]:
-    """Return every family that can be studied, the whole pipeline last."""
+    """Return every family that can be studied, the whole pipeline on the open scene first."""
+    families = sorted(study_families(), key=lambda family: not family.takes_scene)
     return {
         family.name: FamilyChoice(
             family.name,
@@ -81,7 +84,7 @@ def choices_of_all() -> dict[str, FamilyChoice]:
             family.works[0].name,
             measure=family.measures[0].name,
         )
-        for family in study_families()
+        for family in families
     }
 
 
@@ -96,7 +99,8 @@ def entry_of(choice: FamilyChoice) -> FamilyEntry:
     if choice.result is not None:
         date = choice.result.study.machine.get("date", "")
         note += f"\nMeasured {date}".rstrip()
-    return FamilyEntry(choice.name, choice.title, note, choice.result is not None)
+    is_of_scene = choice.family is not None and choice.family.takes_scene
+    return FamilyEntry(choice.name, choice.title, note, choice.result is not None, ends_group=is_of_scene)
 
 
 def controls_of(choice: FamilyChoice) -> StudyChoices:

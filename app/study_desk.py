@@ -35,6 +35,8 @@ class StudyOrder:
     scene_title: str = ""
     extra: tuple[Candidate, ...] = ()
     """Settings that are measured along with the family's own."""
+    grow: bool = True
+    """Whether to measure how cost grows with the size of the work too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +48,8 @@ class StudyResult:
     """What was measured on, where the family takes a scene."""
     path: str = ""
     """The file it was opened from; empty: it was measured here."""
+    is_kept: bool = False
+    """Whether it is of an earlier start of the window."""
 
     @property
     def can_run_again(self) -> bool:
@@ -97,6 +101,7 @@ class StudyDesk(Desk):
                     scene_title=order.scene_title,
                     extra=order.extra,
                     rounds=order.rounds,
+                    grow=order.grow,
                     seed=order.seed,
                     machine=machine(__version__),
                     progress=progress,

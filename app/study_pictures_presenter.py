@@ -19,6 +19,7 @@ from widgets.study_pictures import PicturesRecord, StudyPictures
 from widgets.study_table import StudyTable
 
 LETTERS = ("A", "B")
+HINT = "Click a mark for its pictures; Ctrl+click another one to compare the two."
 
 
 class StudyPicturesPresenter(QObject):
@@ -45,7 +46,7 @@ class StudyPicturesPresenter(QObject):
         for chart in charts:
             chart.series_chosen.connect(self.choose)
         numbers.row_chosen.connect(self._choose_row)
-        studies.shown_changed.connect(self.close)
+        studies.shown_changed.connect(self.clear)
         desk.drawing.succeeded.connect(self._show_pictures)
         desk.drawing.failed.connect(self._show_failure)
         desk.searching.succeeded.connect(self._take_divergence)
@@ -54,7 +55,7 @@ class StudyPicturesPresenter(QObject):
         view.divergence_requested.connect(self.step_to_divergence)
         view.copy_requested.connect(self.copy)
         view.closing_requested.connect(self.close)
-        view.hide()
+        self.clear()
 
     @property
     def chosen(self) -> tuple[str, ...]:
@@ -100,13 +101,19 @@ class StudyPicturesPresenter(QObject):
         return title_of(point, [each.method for each in study.points])
 
     @Slot()
-    def close(self) -> None:
-        """Close the pictures and choose no point."""
+    def clear(self) -> None:
+        """Choose no point; the pane keeps its place, so that no mark moves when one is chosen."""
         self._desk.stop_drawing()
         self._chosen, self._shown = (), None
         for chart in self._charts:
             chart.show_marks({})
         self._studies.choose("")
+        self._view.show_waiting(HINT)
+
+    @Slot()
+    def close(self) -> None:
+        """Choose no point and leave the room to the charts, until a point is chosen again."""
+        self.clear()
         self._view.hide()
 
     @Slot(object)

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import Signal, Slot
+from PySide6.QtWidgets import QWidget
 
 from app.asked_work import ListedWork, WorkWords
+from app.paced_drawing import PacedDrawing
 from app.plan_points import chosen_points, plan_candidates
 from app.session import Session
 from app.study_charts import MOST_NAMED, growth_of, numbers_of, scatter_of
@@ -31,13 +33,20 @@ NOTHING = "Error against cost, one mark for each method. Choose the work above, 
 NO_GROWTH = (
     "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
 )
+GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
 WORK_WORDS = WorkWords(
-    "Measuring was cancelled", "It could not be measured", "what was measured before is as it was"
+    "Measuring was cancelled",
+    "It could not be measured",
+    "what was measured before is as it was",
+    "is still being measured",
 )
 
 
 class StudyPresenter(ListedWork[FamilyChoice]):
     """Keeps the choices and results of all families and shows those of one."""
+
+    result_taken = Signal(object)
+    """A `StudyResult` that has just been measured."""
 
     def __init__(
         self,
@@ -49,10 +58,10 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         legend: ChartLegend,
         numbers: StudyTable,
         readout: Readout,
-        parent: QObject | None = None,
+        page: QWidget,
     ) -> None:
-        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), parent)
-        self._session, self._desk = session, desk
+        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), page)
+        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
         self._families, self._controls = families, controls
         self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
         self._partial: Study | None = None
@@ -62,6 +71,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self._chosen = ""
         self._connect()
         session.plan_changed.connect(self.refresh)
+        self._pace.due.connect(self._show_study)
         self.refresh()
 
     def _connect(self) -> None:
@@ -123,7 +133,9 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self._controls.show_choices(controls_of(self.choice))
         self._show_study()
 
+    @Slot()
     def _show_study(self) -> None:
+        self._pace.settle()
         study, choice = self.study, self.choice
         if not self.is_partial and study is not None:
             self._numbers = numbers_of(study.points)
@@ -135,9 +147,11 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             self._table.show_table(TableRecord((), (), ()))
         else:
             scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
-            growth = growth_of(study, choice.cost, self._numbers)
-            if self.is_partial:
-                growth = ChartEmpty("Measured after the points of the other chart.")
+            growth = (
+                GROWTH_COMES
+                if self.is_partial and choice.grow
+                else growth_of(study, choice.cost, self._numbers)
+            )
             self._table.show_table(table_of(study))
         for chart, picture in zip(self._charts, (scatter, growth), strict=True):
             if isinstance(picture, ChartEmpty):
@@ -173,6 +187,8 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         if self.is_partial:
             parts.append(f"{counted(len(study.points), 'method')} measured by now.")
             return " ".join(parts)
+        if self.result is not None and self.result.is_kept:
+            parts.append("Kept from an earlier start.")
         refused = sum(bool(point.refused) for point in study.points)
         if refused:
             parts.append(f"{counted(refused, 'method')} refused this work.")
@@ -255,7 +271,11 @@ class StudyPresenter(ListedWork[FamilyChoice]):
                 "This version has no such family: a saved study can be looked at, not measured again."
             )
             return
-        order = StudyOrder(choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed)
+        if not self._is_free():
+            return
+        order = StudyOrder(
+            choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed, grow=choice.grow
+        )
         settings = choice.family.base
         if choice.family.takes_scene:
             document = self._session.document
@@ -267,7 +287,6 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             if plan is not None:
                 others = choice.family.candidates(settings)
                 order = replace(order, extra=plan_candidates(plan.plan, settings, others))
-        self._desk.measuring.cancel()
         self._running = choice.name
         self._partial = None
         self._numbers = {
@@ -276,7 +295,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         }
         self._blank = _unmeasured(choice, order)
         self._point_nowhere()
-        self._controls.show_progress(Progress("Preparing", 0, 0))
+        self._tell_progress(Progress("Preparing", 0, 0))
         self.shown_changed.emit()
         self._show_study()
         self._desk.measure(order)
@@ -294,7 +313,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
         self._partial = replace(self._blank, points=tuple(in_order))
         if self.is_partial:
-            self._show_study()
+            self._pace.ask()
 
     @Slot(object)
     def _take_result(self, result: StudyResult) -> None:
@@ -302,6 +321,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         choice.take(result)
         self.refresh()
         self.message_sent.emit(f"Measured {choice.title.lower()}.")
+        self.result_taken.emit(result)
 
     def _put_back(self) -> None:
         """Show what was measured before."""
@@ -309,6 +329,14 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         self.refresh()
 
     # Saved studies.
+
+    @Slot(object)
+    def take_kept(self, study: Study) -> None:
+        """Show a study of an earlier start as the result of its family, unless there is another by now."""
+        choice = self._choices.get(study.family)
+        if choice is not None and choice.result is None and self._running != study.family:
+            choice.take(StudyResult(study, is_kept=True))
+            self.refresh()
 
     def take_saved(self, study: Study, path: str) -> None:
         """Show a study that was opened from a file, as the result of its family."""

@@ -1,6 +1,7 @@
 """The ground of a chart: two logarithmic axes, series of marks and lines, all in the colours of the theme."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from math import lcm
 
 import numpy as np
 import pyqtgraph as pg
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 from core.arrays import Floats
 from widgets.chart_records import ChartPicture, ChartSeries
 from widgets.chart_scale import ChartScale, scale_of
-from widgets.series_marks import series_color, series_growth, series_shape
+from widgets.series_marks import LIGHT_COLORS, series_color, series_growth, series_shape
 from widgets.theme import current_theme, text_font, theme_notifier
 
 pg.setConfigOptions(imageAxisOrder="row-major", antialias=True)
@@ -19,6 +20,8 @@ pg.setConfigOptions(imageAxisOrder="row-major", antialias=True)
 MARK_SIZE = 0.95
 """Width of a mark, in heights of the text."""
 _DASHES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine, Qt.PenStyle.DashDotLine)
+LOOKS = lcm(len(LIGHT_COLORS), len(_DASHES))
+"""Numbers of series that colour and dashes tell apart; those of later ones come again."""
 
 
 class ChartCanvas(pg.GraphicsView):
@@ -92,27 +95,11 @@ class ChartCanvas(pg.GraphicsView):
 
     def bars(self) -> list[QRectF]:
         """Return the rectangles in the widget that bars take."""
-        if self._picture is None or self._scales is None:
-            return []
         found = []
-        for series in self._picture.series:
-            x, y = self._scales[0].positions(series.x), self._scales[1].positions(series.y)
-            for index in range(len(x)):
-                for spread, scale, is_across in (
-                    (series.x_spread, self._scales[0], True),
-                    (series.y_spread, self._scales[1], False),
-                ):
-                    if spread is None:
-                        continue
-                    low, high = scale.positions(spread[index])
-                    ends = (
-                        [(low, y[index]), (high, y[index])]
-                        if is_across
-                        else [(x[index], low), (x[index], high)]
-                    )
-                    if np.isfinite(ends).all():
-                        start, stop = (QPointF(self.view.mapViewToScene(QPointF(*end))) for end in ends)
-                        found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
+        for series in () if self._picture is None else self._picture.series:
+            for ends in self._bar_ends(series).tolist():
+                start, stop = (QPointF(self.view.mapViewToScene(QPointF(*end))) for end in ends)
+                found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
         return found
 
     def plot_area(self) -> QRectF:
@@ -143,8 +130,12 @@ class ChartCanvas(pg.GraphicsView):
         self._scales = _scales(picture.series)
         self._add_separators()
         self._add_front(picture)
+        across, up = self._scales
         for series in picture.series:
-            self._add_series(series)
+            self._places[series.key] = np.column_stack([across.positions(series.x), up.positions(series.y)])
+        self._add_lines(picture.series)
+        self._add_bars(picture.series)
+        self._add_marks(picture.series)
         self._show_ticks()
         self.viewport().update()
 
@@ -169,44 +160,51 @@ class ChartCanvas(pg.GraphicsView):
         pen = QPen(QColor(current_theme().muted_text), 1.5, Qt.PenStyle.DashLine)
         self._add(pg.PlotCurveItem(steps_x, steps_y, pen=_cosmetic(pen)))
 
-    def _add_series(self, series: ChartSeries) -> None:
-        assert self._scales is not None
-        across, up = self._scales
-        x, y = across.positions(series.x), up.positions(series.y)
-        self._places[series.key] = np.column_stack([x, y])
-        color = QColor(series_color(series.number))
-        if len(x) > 1:
-            style = _DASHES[series.number % len(_DASHES)]
-            pen = _cosmetic(QPen(color, 1.5, style))
-            self._add(pg.PlotCurveItem(x, y, pen=pen, connect="finite"))
-        self._add_bars(series, x, y, color)
-        seen = np.isfinite(x) & np.isfinite(y)
-        # Without its cache every mark is drawn as a path: sharp in every size, and in files.
-        marks = pg.ScatterPlotItem(useCache=False)
-        marks.setData(
-            x[seen],
-            y[seen],
-            symbol=series_shape(series.number),
-            size=self.mark_size() * series_growth(series.number) * (1.0 if len(x) == 1 else 0.7),
-            brush=color,
-            pen=QPen(Qt.PenStyle.NoPen),
-        )
-        self._add(marks)
+    def _add_lines(self, series: Sequence[ChartSeries]) -> None:
+        """Draw the lines of series of several points, those that look alike as one item: items are what takes time."""
+        for number, alike in _by_look(one for one in series if len(one.x) > 1).items():
+            pen = QPen(QColor(series_color(number)), 1.5, _DASHES[number % len(_DASHES)])
+            gap = np.full((1, 2), np.nan)
+            joined = np.concatenate([part for one in alike for part in (self._places[one.key], gap)])
+            self._add(pg.PlotCurveItem(joined[:, 0], joined[:, 1], pen=_cosmetic(pen), connect="finite"))
 
-    def _add_bars(self, series: ChartSeries, x: Floats, y: Floats, color: QColor) -> None:
+    def _add_bars(self, series: Sequence[ChartSeries]) -> None:
+        """Draw the bars from quartile to quartile, all of one colour as one item."""
+        for number, alike in _by_look(series).items():
+            ends = [found for one in alike if len(found := self._bar_ends(one))]
+            if ends:
+                joined = np.concatenate(ends).reshape(-1, 2)
+                pen = _cosmetic(QPen(QColor(series_color(number)), 1.5))
+                self._add(pg.PlotCurveItem(joined[:, 0], joined[:, 1], pen=pen, connect="pairs"))
+
+    def _bar_ends(self, series: ChartSeries) -> Floats:
+        """Return the (B, 2, 2) positions of both ends of every bar that can be seen."""
         assert self._scales is not None
-        pen = _cosmetic(QPen(color, 1.5))
-        for spread, scale, is_across in (
-            (series.x_spread, self._scales[0], True),
-            (series.y_spread, self._scales[1], False),
-        ):
+        found = [np.empty((0, 2, 2))]
+        for axis, spread in enumerate((series.x_spread, series.y_spread)):
             if spread is None:
                 continue
-            low, high = scale.positions(spread[:, 0]), scale.positions(spread[:, 1])
-            at = x if is_across else y
-            low, high = np.nan_to_num(at - low), np.nan_to_num(high - at)
-            ends = {"left": low, "right": high} if is_across else {"bottom": low, "top": high}
-            self._add(pg.ErrorBarItem(x=x, y=y, pen=pen, **ends))
+            ends = np.repeat(self._places[series.key][:, None], 2, axis=1)
+            for end in (0, 1):
+                ends[:, end, axis] = self._scales[axis].positions(spread[:, end])
+            found.append(ends[np.isfinite(ends).all(axis=(1, 2))])
+        return np.concatenate(found)
+
+    def _add_marks(self, series: Sequence[ChartSeries]) -> None:
+        """Draw the marks of all series as one item."""
+        spots = [
+            {"pos": place, "symbol": series_shape(one.number), "size": self._size_of(one), "brush": brush}
+            for one in series
+            for brush in [pg.mkBrush(series_color(one.number))]
+            for place in self._places[one.key]
+            if np.isfinite(place).all()
+        ]
+        # Without its cache every mark is drawn as a path: sharp in every size, and in files.
+        self._add(pg.ScatterPlotItem(spots, pen=pg.mkPen(None), useCache=False))
+
+    def _size_of(self, series: ChartSeries) -> float:
+        """Return the width in pixels of the marks of a series; those along a line are smaller."""
+        return self.mark_size() * series_growth(series.number) * (1.0 if len(series.x) == 1 else 0.7)
 
     def _add(self, item: pg.GraphicsObject) -> None:
         self._items.append(item)
@@ -244,6 +242,14 @@ class ChartCanvas(pg.GraphicsView):
         self.axes[0].setHeight(metrics.height() + 8)
         self.axes[1].setWidth(metrics.horizontalAdvance("1,000,000") + 8)
         self._rebuild()
+
+
+def _by_look(series: Iterable[ChartSeries]) -> dict[int, list[ChartSeries]]:
+    """Return series by the number of the first that has their colour and dashes."""
+    found: dict[int, list[ChartSeries]] = {}
+    for one in series:
+        found.setdefault(one.number % LOOKS, []).append(one)
+    return found
 
 
 def _scales(series: Sequence[ChartSeries]) -> tuple[ChartScale, ChartScale]:

@@ -3,11 +3,23 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QPainter
+from PySide6.QtWidgets import (
+    QListWidget,
+    QListWidgetItem,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QWidget,
+)
 
 from widgets.marks import Mark, mark_pixmap
 from widgets.theme import current_theme, theme_notifier
+
+Index = QModelIndex | QPersistentModelIndex
+_ENDS_GROUP = int(Qt.ItemDataRole.UserRole)
+_GROUP_GAP = 9
+"""Pixels below a group, with a line in their middle."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +31,30 @@ class FamilyEntry:
     note: str = ""
     """Tooltip: what is compared, and what has been measured."""
     is_measured: bool = False
+    ends_group: bool = False
+    """Whether a line below it sets it off from what follows."""
+
+
+class _GroupLines(QStyledItemDelegate):
+    """Draws a line below every row that ends a group."""
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+        """Leave room for the line."""
+        size = super().sizeHint(option, index)
+        return size + QSize(0, _GROUP_GAP) if index.data(_ENDS_GROUP) else size
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        """Draw the row above the line."""
+        if not index.data(_ENDS_GROUP):
+            super().paint(painter, option, index)
+            return
+        row, middle = QStyleOptionViewItem(option), option.rect.bottom() - _GROUP_GAP // 2
+        row.rect = option.rect.adjusted(0, 0, 0, -_GROUP_GAP)
+        super().paint(painter, row, index)
+        painter.save()
+        painter.setPen(QColor(current_theme().outline))
+        painter.drawLine(row.rect.left() + 4, middle, row.rect.right() - 4, middle)
+        painter.restore()
 
 
 class FamilyList(QListWidget):
@@ -33,6 +69,7 @@ class FamilyList(QListWidget):
         self.setAccessibleName("Families of methods")
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.setItemDelegate(_GroupLines(self))
         self.currentRowChanged.connect(self._choose)
         theme_notifier().theme_changed.connect(self._refresh)
 
@@ -59,6 +96,9 @@ class FamilyList(QListWidget):
             if not entry.is_measured:
                 mark.fill("transparent")
             item.setIcon(mark)
+            item.setData(_ENDS_GROUP, entry.ends_group)
+        rows = sum(self.sizeHintForRow(row) for row in range(self.count()))
+        self.setMaximumHeight(max(rows + 2 * self.frameWidth(), self.minimumSizeHint().height()))
 
     @Slot(int)
     def _choose(self, row: int) -> None:

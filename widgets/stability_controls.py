@@ -37,7 +37,8 @@ class StabilityControls(QWidget):
         self.seed_box.setKeyboardTracking(False)
         self.running = RunControls(
             "Run",
-            "Run every method at every place of the grid (F5)",
+            "Run every method at every place of the grid (F5). It goes on while other experiments and pages are looked "
+            "at; the last maps of every experiment are there again at the next start.",
             "Stop running; the maps of before stay (Escape)",
             self,
         )

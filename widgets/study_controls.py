@@ -69,7 +69,8 @@ class StudyControls(QWidget):
         self.seed_box = self._number("Seed", "The random numbers that the work is made from", 0, 9999)
         self.running = RunControls(
             "Measure",
-            "Measure all methods on this work (F5)",
+            "Measure all methods on this work (F5). It goes on while other families and pages are looked at; the last "
+            "result of every family is there again at the next start.",
             "Stop measuring; what was measured before stays (Escape)",
             self,
         )

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,12 +80,12 @@ class Point:
         """(R,) float64."""
         return self.seconds / max(self.unit_count, 1)
 
-    @property
+    @cached_property
     def median(self) -> float:
         """Median of the seconds per unit."""
         return float(np.median(self.seconds_per_unit))
 
-    @property
+    @cached_property
     def spread(self) -> tuple[float, float]:
         """Lower and upper quartile of the seconds per unit."""
         low, high = np.quantile(self.seconds_per_unit, [0.25, 0.75])

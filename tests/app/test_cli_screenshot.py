@@ -54,7 +54,11 @@ def test_methods_are_those_that_were_asked_for(tmp_path):
 
 def test_pages_are_filled(tmp_path):
     step = shot(tmp_path, "shared-edge")
-    lines = shot(tmp_path, "shared-edge", *["--page", "compare", "--show", "visibility", "--work", "cycle"])
+    lines = shot(
+        tmp_path,
+        "shared-edge",
+        *["--page", "compare", "--show", "visibility", "--work", "cycle", "--rounds", "1"],
+    )
     maps = shot(tmp_path, "shared-edge", *["--page", "stability", "--show", "painters-cycle"])
     plan = shot(tmp_path, "shared-edge", "--page", "plan")
     pictures = [step, lines, maps, plan]
@@ -91,6 +95,9 @@ def test_a_saved_atlas_is_shown_as_it_is(tmp_path):
             ["cube", "--page", "stability", "--work", "any"],
             "--work: it is for page compare, got page stability",
         ),
+        (["cube", "--page", "plan", "--rounds", "2"], "--rounds: it is for page compare, got page plan"),
+        (["cube", "--grow"], "--grow: it is for page compare, got page step"),
+        (["cube", "--page", "compare", "--rounds", "0"], "must be a whole number from 1 to 1000, got 0"),
         (["study.json", "--step", "3"], "--step: it is for page step, got a saved study or atlas"),
         (["study.json", "--page", "step"], "a saved study or atlas has its own, got study.json"),
         (["cube", "--page", "lesson"], "invalid choice: 'lesson'"),

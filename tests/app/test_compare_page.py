@@ -15,6 +15,7 @@ from app.study_charts import TIME
 from app.study_desk import StudyOrder
 from core.study.families import study_families
 from tests.app.compare_pages import WRONG, compare_page, hand_made, measured
+from widgets.theme import LIGHT, PRESENTER
 
 
 @pytest.fixture
@@ -25,7 +26,7 @@ def page(window: MainWindow) -> ComparePage:
 def test_every_family_of_the_core_is_offered(page: ComparePage) -> None:
     titles = [page.families.item(row).text() for row in range(page.families.count())]
     assert len(titles) == len(study_families())
-    assert titles[-1] == "Whole pipeline on the open scene"
+    assert titles[0] == "Whole pipeline on the open scene"
 
 
 def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
@@ -229,3 +230,37 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     assert place is not None
     QTest.mouseMove(page.scatter.viewport(), place.toPoint())
     assert page.legend.currentItem().text().startswith("Method ")
+
+
+def test_a_hidden_page_draws_no_points_until_it_is_seen(
+    window: MainWindow, page: ComparePage, qtbot: QtBot
+) -> None:
+    page.studies.choice.rounds = 90
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    window.pages.show_page("step")
+    measured_first: list[object] = []
+    page.desk.measuring.part_done.connect(measured_first.append)
+    qtbot.waitUntil(lambda: len(measured_first) > 20, timeout=60000)
+    assert page.scatter.places() == []
+    window.pages.show_page("compare")
+    assert len(page.scatter.places()) > 1, "what came meanwhile is there at once"
+    page.studies.cancel()
+
+
+def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, page: ComparePage) -> None:
+    window.resize(1800, 1000)
+    QApplication.processEvents()
+    before = page.columns.sizes()[0]
+    window.look.set_theme("presenter")
+    large = page.columns.sizes()[0]
+    assert large == pytest.approx(before * PRESENTER.text_px / LIGHT.text_px, abs=2)
+    state = page.layout_state()
+    assert page.columns.sizes()[0] == large, "saving moves nothing"
+    window.look.set_theme("light")
+    assert page.columns.sizes()[0] == pytest.approx(before, abs=2)
+    page.columns.setSizes([500, 1200])
+    page.restore_layout(state)
+    assert page.columns.sizes()[0] == pytest.approx(before, abs=2), "widths are saved for the usual type"
+    window.look.set_theme("presenter")
+    page.restore_layout(state)
+    assert page.columns.sizes()[0] == pytest.approx(large, abs=2)

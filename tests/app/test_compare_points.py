@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.compare_page import ComparePage
@@ -18,17 +19,24 @@ def page(window: MainWindow) -> ComparePage:
 
 def test_a_point_opens_its_picture_the_reference_and_the_difference(page: ComparePage, qtbot: QtBot) -> None:
     study = measured(page, qtbot)
-    assert not page.pictures.isVisible()
+    assert "Click a mark for its pictures" in page.pictures.heading.text()
+    QApplication.processEvents()  # The controls of the measuring have made room.
+    places = page.scatter.places()
     click(page, "visibility=painters")
     wait_for_pictures(page, qtbot)
-    assert page.pictures.isVisible()
+    assert page.scatter.places() == places, "no mark moves away from the next click"
     point = next(point for point in study.points if point.method == "visibility=painters")
     buffers = [grid.buffer() for grid in page.pictures.linked.grids]
     wrong = round(point.errors[WRONG] * buffers[2].values.size / 1e6)
     assert np.count_nonzero(buffers[2].values) == wrong > 0
     assert f"{wrong:,} of" in page.pictures.heading.text()
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
+    assert "Click a mark for its pictures" in page.pictures.heading.text()
+    assert page.scatter.places() == places
+    QTest.mouseClick(page.pictures.close_button, Qt.MouseButton.LeftButton)
     assert not page.pictures.isVisible()
+    click(page, "visibility=painters")
+    assert page.pictures.isVisible()
 
 
 def test_a_run_opens_on_the_step_page_and_undo_leads_back(

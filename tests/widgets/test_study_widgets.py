@@ -219,6 +219,22 @@ def test_a_row_is_chosen_by_its_method(table: StudyTable, qtbot: QtBot) -> None:
     assert chosen.args == ["bres"]
 
 
+def test_a_line_sets_a_group_off_and_the_list_is_no_longer_than_its_rows(qtbot: QtBot) -> None:
+    families = FamilyList()
+    qtbot.addWidget(families)
+    rows = [
+        FamilyEntry("all", "All", ends_group=True),
+        FamilyEntry("some", "Some"),
+        FamilyEntry("few", "Few"),
+    ]
+    families.show_families(rows, "all")
+    families.resize(200, 2000)
+    families.show()
+    heights = [families.visualItemRect(families.item(row)).height() for row in range(3)]
+    assert heights[0] > heights[1] == heights[2]
+    assert sum(heights) <= families.height() <= max(sum(heights) + 4, families.minimumSizeHint().height())
+
+
 def test_families_are_chosen_and_ticked(qtbot: QtBot) -> None:
     families = FamilyList()
     qtbot.addWidget(families)

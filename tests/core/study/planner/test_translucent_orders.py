@@ -5,7 +5,7 @@ import pytest
 
 from core.scene import ClipScene
 from core.study import Tolerance, plan
-from core.study.planner.costs import LectureOrder
+from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.measuring import difference, shown
 
 
