@@ -135,7 +135,7 @@ def test_every_cell_is_in_the_table(atlas) -> None:
     lost = found["coverage=snapped", 2.0**-12]
     assert lost["outcome"] == "hole"
     assert float(lost["severity"]) >= 1
-    assert lost["remark"] == "8 of 4096 pixels missing, 0 drawn too often"
+    assert lost["remark"] == "8 of 4,096 pixels missing, 0 drawn too often"
     assert lost["processor"] == "abacus"
     assert found["coverage=exact", 2.0**-12]["outcome"] == "right"
 

@@ -126,9 +126,11 @@ def bent_light_error(patches: LitPatches, scene: Scene) -> LightError:
         for light in _highlights(patches, scene, normal, eye):
             of_light, of_eye = light.towards.rate, eye.rate
             bend = BENT * (normal.rate**2 + of_light**2) + 2 * normal.rate * of_light
-            bright = np.maximum(light.cosines.max(axis=0), 0.0)
-            arc = (1 + 4 * below) * bright * normal.sagitta + 2 * light.towards.cone.radius
-            diffuse = np.where(light.is_down, 0.0, np.fmin(sixth * bend, arc) + _kink(light))
+            # Where the light sets, weights below 0 may lift it above the horizon again.
+            beyond = np.where(light.is_up, 0.0, 2 * below * np.abs(light.cosines).max(axis=0))
+            bright = np.maximum(light.cosines.max(axis=0), 0.0) + beyond
+            arc = (1 + 4 * below) * _product(bright, normal.sagitta) + 2 * light.towards.cone.radius
+            diffuse = np.where(light.is_down, 0.0, np.fmin(sixth * bend, arc) + _kink(light) + beyond)
             error.diffuse[:] += _product(material.diffuse, diffuse)[:, None] * light.color
             rate = (of_light + of_eye) / light.half
             bend_of_half = BENT * (of_light**2 + of_eye**2) / light.half + 3 * rate**2
