@@ -88,7 +88,7 @@ class ComparePage(FilePage):
 
     def _main(self) -> QWidget:
         self.charts = QSplitter(Qt.Orientation.Horizontal, self)
-        for pane, stretch in ((self.scatter, 3), (self.legend, 0), (self.growth, 2)):
+        for pane, stretch in ((self.scatter, 3), (self.legend, 1), (self.growth, 2)):
             self.charts.addWidget(pane)
             self.charts.setStretchFactor(self.charts.count() - 1, stretch)
         self.charts.setSizes([560, 170, 340])
