@@ -1,9 +1,13 @@
-"""Runs of the program as a user starts it: a process of its own."""
+"""Runs of the program as a user starts it: a process of its own, or its command line within this one."""
 
+import contextlib
+import io
 import os
 import subprocess
 import sys
 from pathlib import Path
+
+from app.cli import run_command_line
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -18,12 +22,26 @@ def run_program(*arguments, cwd=None, stdin=None, **variables):
     )
 
 
-def refused(code, *arguments, **how):
-    """Run the program where it must fail with ``code``; return its one line without the line's end."""
-    run = run_program(*arguments, **how)
-    assert run.returncode == code, run.stderr
-    assert run.stdout == ""
-    lines = run.stderr.splitlines()
-    assert len(lines) == 1, run.stderr
+def refused(code, *arguments, cwd=None, **how):
+    """Run the program where it must fail with ``code``; return its one line without the line's end.
+
+    It runs in this process, which takes a hundredth of the time, unless ``how`` asks for one of its own.
+    """
+    if how:
+        run = run_program(*arguments, cwd=cwd, **how)
+        found, output, errors = run.returncode, run.stdout, run.stderr
+    else:
+        written, told = io.StringIO(), io.StringIO()
+        with (
+            contextlib.redirect_stdout(written),
+            contextlib.redirect_stderr(told),
+            contextlib.chdir(cwd or Path.cwd()),
+        ):
+            found = run_command_line([str(argument) for argument in arguments])
+        output, errors = written.getvalue(), told.getvalue()
+    assert found == code, errors
+    assert output == ""
+    lines = errors.splitlines()
+    assert len(lines) == 1, errors
     assert lines[0].startswith("rasterscope")
     return lines[0]
