@@ -42,8 +42,14 @@ def add_file(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
 
 
-def add_settings(parser: argparse.ArgumentParser) -> None:
-    """Let the command take ``--set``."""
+SETTINGS_HELP = (
+    "choose methods (rasterscope methods lists them), block_size=N, correction_interval=N or samples_across=N; "
+    "the others are those of the state file, or the defaults"
+)
+
+
+def add_settings(parser: argparse.ArgumentParser, what: str = SETTINGS_HELP) -> None:
+    """Let the command take ``--set``; ``what`` says what is set."""
     parser.add_argument(
         *("--set", "-s"),
         metavar="family=method",
@@ -51,8 +57,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        help="choose methods (rasterscope methods lists them), block_size=N, correction_interval=N or "
-        "samples_across=N; the others are those of the state file, or the defaults",
+        help=what,
     )
 
 

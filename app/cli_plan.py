@@ -9,10 +9,10 @@ import numpy as np
 from app.cli import UsageError
 from app.cli_arguments import (
     FILE_HELP,
+    add_settings,
     chosen_settings,
     open_file,
     rounds_from_text,
-    setting_from_text,
     show_progress,
     size_from_text,
 )
@@ -59,14 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rounds", metavar="N", type=rounds_from_text, default=ROUNDS, help=f"timed drawings ({ROUNDS})"
     )
-    parser.add_argument(
-        *("--set", "-s"),
-        metavar="family=method",
-        type=setting_from_text,
-        nargs="+",
-        action="extend",
-        default=[],
-        help="what is to be drawn, not how well: wrap, polygon_mode, pixel_center, shading=unlit ...",
+    add_settings(
+        parser, "what is to be drawn, not how well: wrap, polygon_mode, pixel_center, shading=unlit ..."
     )
     parser.add_argument(
         "--corpus",

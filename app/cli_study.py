@@ -6,7 +6,7 @@ from pathlib import Path
 
 from app import __version__
 from app.cli import UsageError
-from app.cli_arguments import FILE_HELP, chosen_settings, rounds_from_text, setting_from_text, show_progress
+from app.cli_arguments import FILE_HELP, add_settings, chosen_settings, rounds_from_text, show_progress
 from app.open_any import open_any
 from app.study_export import export_study
 from app.study_words import digits, machine_sentence, settings_sentence, time_text, work_sentence
@@ -54,15 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error", metavar="NAME", help="the error of the chart; default: the first of the family"
     )
     parser.add_argument("--scene", metavar="FILE", help=f"for pipeline: {FILE_HELP}")
-    parser.add_argument(
-        *("--set", "-s"),
-        metavar="family=method",
-        type=setting_from_text,
-        nargs="+",
-        action="extend",
-        default=[],
-        help="for pipeline: the settings of which one is changed at a time",
-    )
+    add_settings(parser, "for pipeline: the settings of which one is changed at a time")
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="folder for table, study and charts; default: none"
     )

@@ -42,7 +42,7 @@ class ComparePage(FilePage):
     """All panes of the Compare page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(FILE_WORDS, parent)
+        super().__init__(FILE_WORDS, KeptResults("study", load_study), parent)
         self.desk = StudyDesk(self)
         self.families, self.readout = FamilyList(self), Readout("Figures", self)
         self.controls = StudyControls(self)
@@ -64,9 +64,7 @@ class ComparePage(FilePage):
         self.opened = StudyPicturesPresenter(
             self.studies, self.desk, (*charts, self.legend), self.table, self.pictures, self
         )
-        self.kept = KeptResults("study", load_study, self)
         self.kept.found.connect(self.studies.take_kept)
-        self.kept.failed.connect(self.edit_refused)
         self.studies.result_taken.connect(self._keep)
         self.studies.progressed.connect(self.work_progressed)
         self._lay_out()
@@ -161,11 +159,7 @@ class ComparePage(FilePage):
     def stop(self) -> None:
         """End measuring and drawing, and let what is being written be written."""
         self.desk.shut_down()
-        self.kept.shut_down()
-
-    def keep_results(self) -> None:
-        """Show the studies of the last start, and keep those that are measured."""
-        self.kept.begin()
+        super().stop()
 
     @Slot(object)
     def _keep(self, result: StudyResult) -> None:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QPushButton, QWidget
 
 from app.export import copy_widget, export_widget
 from app.file_writing import whole_file
+from app.kept_results import KeptResults
 from app.pages import Page
 
 
@@ -31,9 +32,11 @@ class FileWords:
 class FilePage(Page):
     """Writes what is finished; a page says what that is, and what the content of a file with an ending is."""
 
-    def __init__(self, words: FileWords, parent: QWidget | None = None) -> None:
+    def __init__(self, words: FileWords, kept: KeptResults, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._words = words
+        self._words, self.kept = words, kept
+        kept.setParent(self)
+        kept.failed.connect(self.edit_refused)
         self.export_button = self._button("Export…", words.export_tip, self.ask_export)
         self.copy_button = self._button("Copy", words.copy_tip, self.copy)
 
@@ -58,6 +61,14 @@ class FilePage(Page):
         raise NotImplementedError
 
     # What all of them do.
+
+    def keep_results(self) -> None:
+        """Show the results of the last start, and keep those that come from now on."""
+        self.kept.begin()
+
+    def stop(self) -> None:
+        """Let what is being written be written."""
+        self.kept.shut_down()
 
     def open_path(self, path: str) -> None:
         """Open a saved result and show it as what it is."""

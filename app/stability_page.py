@@ -45,7 +45,7 @@ class StabilityPage(FilePage):
     """All panes of the Stability page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(FILE_WORDS, parent)
+        super().__init__(FILE_WORDS, KeptResults("atlas", load_atlas), parent)
         self.desk = StabilityDesk(self)
         self.experiments, self.readout = FamilyList(self), Readout("Figures", self)
         self.experiments.setAccessibleName("Experiments")
@@ -56,9 +56,7 @@ class StabilityPage(FilePage):
             session, self.desk, self.experiments, self.controls, self.maps, self.curves, self.readout, self
         )
         self.opened = StabilityCasePresenter(self.runs, self.desk, self.maps, self.curves, self.case, self)
-        self.kept = KeptResults("atlas", load_atlas, self)
         self.kept.found.connect(self.runs.take_kept)
-        self.kept.failed.connect(self.edit_refused)
         self.runs.result_taken.connect(self._keep)
         self.runs.progressed.connect(self.work_progressed)
         self._lay_out()
@@ -152,11 +150,7 @@ class StabilityPage(FilePage):
     def stop(self) -> None:
         """End all runs, and let what is being written be written."""
         self.desk.shut_down()
-        self.kept.shut_down()
-
-    def keep_results(self) -> None:
-        """Show the atlases of the last start, and keep those that are run."""
-        self.kept.begin()
+        super().stop()
 
     @Slot(object)
     def _keep(self, result: AtlasResult) -> None:

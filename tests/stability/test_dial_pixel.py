@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from core import ClipScene
+from core import ClipScene, Settings
 from core.methods import table
 from core.study.stability import Outcome, StressCancelledError, experiments
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, as_given
 from core.study.stability.coverage.dial_pixel import (
     FormatAtPixel,
     PixelInFormats,
+    covering_triangles,
     pixel_in_formats,
     settings_in,
 )
@@ -123,3 +124,12 @@ def test_bad_pixels_empty_scenes_and_cancelling_are_told() -> None:
         pixel_in_formats(flat_scene(np.empty((0, 3, 4)), (4, 4)), settings, (0, 0), as_given)
     with pytest.raises(StressCancelledError):
         pixel_in_formats(scene, settings, (1, 1), as_given, lambda: True)
+
+
+@pytest.mark.parametrize(("pixel_center", "count"), [("half", 0), ("integer", 1)])
+def test_a_pixel_is_covered_where_its_centre_is(pixel_center: str, count: int) -> None:
+    """A triangle around the corner (4, 4) of pixel (4, 4) holds its centre only where centres are whole numbers."""
+    corners = (np.array([(3.7, 3.7), (4.3, 3.7), (4.0, 4.4)]) / 4 - 1).tolist()
+    clip = np.array([[[*corner, 0.0, 1.0] for corner in corners]])
+    scene = ClipScene(clip, np.eye(3)[None], (8, 8))
+    assert len(covering_triangles(scene, Settings(pixel_center=pixel_center), (4, 4))) == count

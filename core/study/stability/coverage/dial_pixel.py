@@ -16,7 +16,7 @@ from core.frame import STAGES, StageCount
 from core.geometry_stages import process_geometry
 from core.pipeline import covered
 from core.raster.edge_functions import edge_value, set_up_edges
-from core.raster.schedule import Raster
+from core.raster.schedule import make_raster
 from core.raster.snapping import place_corners
 from core.scene import ClipScene
 from core.settings import Settings
@@ -148,7 +148,7 @@ def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> In
     """
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts)
-    raster = Raster(*scene.size, region=(*pixel, 1, 1))
+    raster = make_raster(scene.size, settings.pixel_center, (*pixel, 1, 1))
     parts = [fragments.primitive for fragments in covered(geometry, settings, raster, counts)]
     primitive = np.concatenate([np.empty(0, np.int64), *parts])
     return geometry.primitives.triangle.take(primitive)
