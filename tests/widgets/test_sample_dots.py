@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QImage
 
+from tests.widgets.pixel_grids import picture, shown_grid
 from widgets.colormaps import id_table
 from widgets.grid_buffer import GridBuffer
 from widgets.grid_view import GridView
@@ -14,17 +14,7 @@ from widgets.theme import current_theme
 
 @pytest.fixture
 def grid(qtbot) -> PixelGrid:
-    widget = PixelGrid()
-    qtbot.addWidget(widget)
-    widget.resize(800, 560)
-    widget.show_buffer(GridBuffer("z", np.linspace(0, 1, 24 * 16).reshape(16, 24).astype(np.float32)))
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
-
-
-def picture(grid: PixelGrid) -> QImage:
-    return grid.grab().toImage()
+    return shown_grid(qtbot)
 
 
 PLACES = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
