@@ -69,25 +69,28 @@ class ByteColors:
         ]
         return integer_planes(self.x, self.y, self.center, fields)
 
-    def block(self, job: Job, triangle: int, band: Strip) -> Words:
+    def block(self, job: Job, triangle: int, strip: Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a strip.
 
         Notes
         -----
-        The share of the row and that of the column are rounded by themselves, so the error does not grow with the
-        distance from the corner.
+        What a row starts with and what is added along it are rounded by themselves, so the error does not grow with
+        the distance from the corner.
         """
-        x = job.raster.along(band.column) - self.x[triangle]
-        y = job.raster.along(band.row) - self.y[triangle]
-        ramp, of_row = np.zeros(len(x), np.int64), np.zeros(len(y), np.int64)
+        rows, steps = strip.inside, strip.steps
+        x = job.raster.along(rows.origin) - self.x[triangle]
+        y = job.raster.along(rows.row) - self.y[triangle]
+        step = steps.number
+        ramp, of_row = np.zeros(len(step), np.int64), np.zeros(len(rows), np.int64)
         for channel, (shift, bits) in enumerate(FIELDS):
             unit = 2.0**bits
-            ramp += np.rint(x * (self.across[channel, triangle] * unit)).astype(np.int64) << shift
-            start = (self.corner[channel, triangle] + 0.5) * unit
-            of_row += np.rint(y * (self.up[channel, triangle] * unit) + start).astype(np.int64) << shift
-        shape = (len(y), band.width)
+            across = self.across[channel, triangle] * unit
+            ramp += np.rint(step * across).astype(np.int64) << shift
+            start = y * (self.up[channel, triangle] * unit) + (self.corner[channel, triangle] + 0.5) * unit
+            of_row += np.rint(x * across + start).astype(np.int64) << shift
+        shape = (len(rows), steps.width)
         word = np.add(
-            band.spread(ramp), of_row[:, None], out=job.arena("color_block", *shape, dtype=np.int64)
+            steps.spread(ramp), of_row[:, None], out=job.arena("color_block", *shape, dtype=np.int64)
         )
         return unpack(word.reshape(-1), job.arena).reshape(word.shape)
 

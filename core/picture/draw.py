@@ -24,6 +24,7 @@ from core.pipeline import draw
 from core.raster.number_format import number_format
 from core.raster.schedule import Raster, make_raster
 from core.raster.spans.arena import Arena
+from core.row_buffers import short_buffers
 from core.scene import AnyScene
 from core.settings import Settings
 from core.timing import timed
@@ -33,6 +34,7 @@ ENCODINGS = ("srgb", "linear")
 _memory = local()
 
 
+@short_buffers()
 def draw_picture(
     scene: AnyScene,
     settings: Settings | None = None,

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Singles
+from core.arrays import Flags, Floats, Integers, Singles
 from core.frame import StageCount
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import encode_linear, write_pixels
@@ -16,6 +16,7 @@ from core.geometry_record import Geometry
 from core.methods import table
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
+from core.raster.spans.bands import TriangleRows, rows_of_triangles
 from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes, tie_owners
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
@@ -90,6 +91,18 @@ class Job:
             area = np.multiply(area, chosen[at], out=self.arena("chosen_area", end - first))
         x, y = self.geometry.window_x[:, at], self.geometry.window_y[:, at]
         return set_up_lanes(x, y, area, self.raster, self.owners, self.arena)
+
+    def rows_of_each(self, chosen: Integers) -> Iterator[tuple[int, TriangleRows]]:
+        """Yield every ``chosen`` (C,) primitive, a large one, with its rows."""
+        if not len(chosen):
+            return
+        x, y, area = (
+            of.take(chosen, axis=-1)
+            for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
+        )
+        yield from zip(
+            chosen.tolist(), rows_of_triangles(x, y, area, self.raster, self.owners, self.arena), strict=True
+        )
 
 
 def encode(color: Floats | Singles, encoding: str) -> Words:

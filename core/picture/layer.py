@@ -15,7 +15,7 @@ from core.picture.palette import PaletteColors
 from core.picture.textured import TextureColors
 from core.picture.visible import chunks
 from core.raster.schedule import Raster
-from core.raster.spans.bands import BIG_AREA, spans_by_row, strips
+from core.raster.spans.bands import BIG_AREA, TriangleRows, strips
 from core.raster.spans.packed import each_pass, word_spans
 
 LayerColors = PaletteColors | ByteColors | TextureColors
@@ -36,8 +36,7 @@ def draw_layer(job: Job, colors: LayerColors) -> int | None:
     else:
         is_big = np.abs(geometry.doubled_area) > 2 * BIG_AREA
         fragments = _write_small(job, colors, ~is_big)
-    for triangle in np.flatnonzero(is_big).tolist():
-        fragments += _write_big(job, colors, triangle)
+    fragments += _write_big(job, colors, np.flatnonzero(is_big))
     if is_checked:
         with job.timed("resolve"):
             if int(np.count_nonzero(pixels)) != fragments:
@@ -65,57 +64,49 @@ def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) ->
     return fragments
 
 
-def _write_big(job: Job, colors: LayerColors, triangle: int) -> int:
-    """Write the pixels of one triangle; return how many it has."""
+def _write_big(job: Job, colors: LayerColors, chosen: Integers) -> int:
+    """Write the pixels of the ``chosen`` (C,) triangles; return how many they have."""
     image = job.pixels.reshape(job.raster.shape)
-    with job.timed("bin"):
-        lanes = job.lanes(triangle, triangle + 1)
-    if isinstance(colors, PaletteColors):
-        with job.timed("shade"):
-            rows = spans_by_row(lanes, job.raster, job.owners, job.arena)
-            return fill_rows(image, *rows, colors.words[triangle], job.raster)
     fragments = 0
-    with job.timed("shade"):
-        for strip in strips(lanes, job.raster, job.owners, job.arena):
-            block = colors.block(job, triangle, strip)
-            fragments += copy_rows(image, block, int(strip.row[0]), strip.start, strip.stop, job.raster)
+    for triangle, rows in job.rows_of_each(chosen):
+        fragments += rows.pixel_count
+        with job.timed("shade"):
+            if isinstance(colors, PaletteColors):
+                fill_rows(image, rows, colors.words[triangle], job.raster)
+            else:
+                for strip in strips(rows):
+                    copy_rows(image, colors.block(job, triangle, strip), strip.inside, job.raster)
     return fragments
 
 
-def fill_rows(
-    image: Words, first_row: int, start: Integers, stop: Integers, color: np.uint32, raster: Raster
-) -> int:
-    """Fill rows from ``first_row`` on with one colour, from start to stop (R,); return how many pixels they have."""
-    row = np.full(image.shape[1], color, np.uint32).data.cast("B")
+def fill_rows(image: Words, rows: TriangleRows, color: np.uint32, raster: Raster) -> None:
+    """Fill the rows of a triangle with one colour."""
+    source = np.full(image.shape[1], color, np.uint32).data.cast("B")
     target = image.reshape(-1).data.cast("B")
-    begins, ends = _bytes_of_rows(image, first_row, start, stop, raster)
-    for begin, end in zip(begins, ends, strict=True):
-        target[begin:end] = row[: end - begin]
-    return int((stop - start).sum())
+    begins, ends, lengths = _bytes_of_rows(image, rows, raster)
+    for begin, end, length in zip(begins, ends, lengths, strict=True):
+        target[begin:end] = source[:length]
 
 
-def copy_rows(
-    image: Words, block: Words, first_row: int, start: Integers, stop: Integers, raster: Raster
-) -> int:
-    """Copy the rows of a block (R, C) to the image, from start to stop (R,); return how many pixels they have."""
+def copy_rows(image: Words, block: Words, rows: TriangleRows, raster: Raster) -> None:
+    """Copy the rows of a block (R, C) to those of a triangle, from its start on."""
     source, target = block.reshape(-1).data.cast("B"), image.reshape(-1).data.cast("B")
-    begins, ends = _bytes_of_rows(image, first_row, start, stop, raster)
-    row_bytes = block.strides[0]
-    for row, (begin, end) in enumerate(zip(begins, ends, strict=True)):
-        at = row * row_bytes
-        target[begin:end] = source[at : at + end - begin]
-    return int((stop - start).sum())
+    begins, ends, lengths = _bytes_of_rows(image, rows, raster)
+    starts = range(0, source.nbytes, block.strides[0])
+    for begin, end, start, length in zip(begins, ends, starts, lengths, strict=True):
+        target[begin:end] = source[start : start + length]
 
 
 def _bytes_of_rows(
-    image: Words, first_row: int, start: Integers, stop: Integers, raster: Raster
-) -> tuple[list[int], list[int]]:
-    """Return at which bytes of the image rows begin and end that go from start to stop (R,).
+    image: Words, rows: TriangleRows, raster: Raster
+) -> tuple[list[int], list[int], list[int]]:
+    """Return at which bytes of the image rows begin and end, and how many these are.
 
     Notes
     -----
     A slice of a memoryview is the quickest way that Python has to copy a row: 0.25 us, a NumPy slice takes twice that.
     """
     first_column, bottom, _, _ = raster.bounds
-    begin = (np.arange(len(start)) + (first_row - bottom)) * image.strides[0]
-    return (begin + (start - first_column) * 4).tolist(), (begin + (stop - first_column) * 4).tolist()
+    begin = (rows.row - bottom) * image.strides[0] + (rows.start - first_column) * 4
+    length = (rows.stop - rows.start) * 4
+    return begin.tolist(), (begin + length).tolist(), length.tolist()

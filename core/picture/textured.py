@@ -69,12 +69,14 @@ class TextureColors:
 
     def block(self, job: Job, triangle: int, band: Band | Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
-        x, y = job.raster.along(band.column), job.raster.along(band.row)
-        shape = (len(y), band.width)
+        rows, steps = band.inside, band.steps
+        x, y, step = job.raster.along(rows.origin), job.raster.along(rows.row), steps.number
+        shape = (len(rows), steps.width)
         inverse_w, u, v = (job.arena(f"texture_{name}", *shape, dtype=np.float32) for name in ("w", "u", "v"))
         for values, (a, b, c) in zip((inverse_w, u, v), self._planes, strict=True):
-            ramp, of_row = a[triangle] * x, b[triangle] * y + c[triangle]
-            np.add(band.spread(ramp.astype(np.float32)), of_row.astype(np.float32)[:, None], out=values)
+            ramp = (a[triangle] * step).astype(np.float32)
+            of_row = (a[triangle] * x + (b[triangle] * y + c[triangle])).astype(np.float32)
+            np.add(steps.spread(ramp), of_row[:, None], out=values)
         with np.errstate(divide="ignore", invalid="ignore"):
             is_near = _is_positive(inverse_w)
             np.divide(np.float32(1), inverse_w, out=inverse_w)
@@ -94,8 +96,8 @@ class TextureColors:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         number = nearest.number_in(slice(None), np.empty(len(job.pixels), np.int64)).reshape(job.raster.shape)
         image = job.pixels.reshape(job.raster.shape)
-        for triangle in range(len(job.geometry.primitives)):
-            for band in bands(job.lanes(triangle, triangle + 1), job.raster, job.owners, job.arena):
+        for triangle, rows in job.rows_of_each(np.arange(len(job.geometry.primitives))):
+            for band in bands(rows, job.raster):
                 is_seen = number[band.rows, band.columns] == triangle + 1
                 if is_seen.any():
                     np.copyto(image[band.rows, band.columns], self.block(job, triangle, band), where=is_seen)

@@ -40,8 +40,7 @@ def find_visible(job: Job) -> tuple[NearestFragments, Split]:
     fragments = 0
     if planes is not None:
         fragments += _walk(job, nearest.keys, planes, is_walked & ~is_big)
-        for triangle in np.flatnonzero(is_big).tolist():
-            fragments += _draw_big(job, nearest.keys, planes, triangle)
+        fragments += _draw_big(job, nearest.keys, planes, np.flatnonzero(is_big))
     rest = np.flatnonzero(~is_walked)
     if len(rest):
         fragments += _one_by_one(job, nearest, rest)
@@ -95,17 +94,18 @@ def _walk(job: Job, words: Integers, planes: Planes, chosen: Flags) -> int:
     return fragments
 
 
-def _draw_big(job: Job, words: Integers, planes: Planes, triangle: int) -> int:
-    """Draw one triangle in bands; return how many fragments it had."""
+def _draw_big(job: Job, words: Integers, planes: Planes, chosen: Integers) -> int:
+    """Draw the ``chosen`` (C,) triangles in bands; return how many fragments they had."""
     image = words.reshape(job.raster.shape)
     fragments = 0
     with job.timed("raster"):
-        for band in bands(job.lanes(triangle, triangle + 1), job.raster, job.owners, job.arena):
-            if isinstance(planes, IntegerPlanes):
-                block = word_block(planes, triangle, band, job.arena)
-            else:
-                block = planes.block(triangle, band, job.raster, job.arena)
-            fragments += draw_band_words(image, band, block)
+        for triangle, rows in job.rows_of_each(chosen):
+            for band in bands(rows, job.raster):
+                if isinstance(planes, IntegerPlanes):
+                    block = word_block(planes, triangle, band, job.arena)
+                else:
+                    block = planes.block(triangle, band, job.raster, job.arena)
+                fragments += draw_band_words(image, band, block)
     return fragments
 
 

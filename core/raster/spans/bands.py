@@ -9,17 +9,18 @@ beside it is computed, and none needs a mask.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Integers
+from core.arrays import Floats, Integers
 from core.raster.schedule import Raster
 from core.raster.spans.arena import Arena
-from core.raster.spans.lanes import Lanes, TieOwners
-from core.raster.spans.rows import bounds_of_rows
+from core.raster.spans.lane_rows import rows_in_order
+from core.raster.spans.lanes import TieOwners, set_up_lanes
 
 BIG_AREA = 1 << 15
 """Pixels; triangles of more are drawn in bands."""
@@ -28,123 +29,161 @@ BAND_PIXELS = 1 << 16
 
 
 @dataclass(frozen=True, eq=False)
+class TriangleRows:
+    """The rows of one triangle in the raster, from its lowest one that has pixels to its highest one."""
+
+    row: Integers
+    """(R,) int64, numbers of the rows in the window."""
+    origin: Integers
+    """(R,) int64, first inside column of the window, in a region of it or not."""
+    start: Integers
+    """(R,) int64, first inside column."""
+    stop: Integers
+    """(R,) int64, column after the last; the start of a row without columns."""
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    @property
+    def pixel_count(self) -> int:
+        """Pixels of all rows."""
+        return int((self.stop - self.start).sum())
+
+    def part(self, first: int, end: int) -> "TriangleRows":
+        """Return rows ``first`` to ``end``."""
+        at = slice(first, end)
+        return TriangleRows(self.row[at], self.origin[at], self.start[at], self.stop[at])
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Columns of a block, counted in each row from the row's origin: so a value has the same share in every block."""
+
+    first: Integers
+    """(R,) int64, of the first column of every row."""
+    width: int
+    """Columns of the block."""
+
+    @property
+    def number(self) -> Integers:
+        """(N,) int64, all numbers that occur."""
+        return np.arange(int(self.first.min()), int(self.first.max()) + self.width)
+
+    def spread(self, ramp: NDArray[Any]) -> NDArray[Any]:
+        """Return for values of `number`, (N,) and contiguous, those of every row of the block: (R or 1, width)."""
+        if len(ramp) == self.width:
+            return ramp[None]
+        size = ramp.itemsize
+        windows = np.ndarray((len(ramp) - self.width + 1, self.width), ramp.dtype, ramp, strides=(size, size))
+        slanted: NDArray[Any] = windows[self.first - self.first.min()]
+        return slanted
+
+
+@dataclass(frozen=True, eq=False)
 class Band:
     """Neighbouring rows of one triangle, and the columns between the least start and the greatest stop."""
 
+    inside: TriangleRows
     rows: slice
     """Rows in the buffer."""
     columns: slice
     """Columns in the buffer."""
-    row: Integers
-    """(R,) int64, numbers of the rows in the window."""
     column: Integers
     """(C,) int64, numbers of the columns in the window."""
-    start: Integers
-    """(R,) int64, first inside column of every row."""
-    stop: Integers
-    """(R,) int64, column after the last."""
 
     @property
-    def width(self) -> int:
-        """Columns of the block."""
-        return len(self.column)
-
-    def spread(self, ramp: NDArray[Any]) -> NDArray[Any]:
-        """Return values of the columns, (C,), so that they meet every row of the block: (1, C)."""
-        return ramp[None]
+    def steps(self) -> Steps:
+        """The columns of the block."""
+        return Steps(self.column[0] - self.inside.origin, len(self.column))
 
     def outside(self) -> Iterator[tuple[slice, np.ndarray]]:
         """Yield column ranges of the block and, as (R, c) bool, which of their pixels the triangle does not have."""
-        left = self.column[0]
+        start, stop = self.inside.start[:, None], self.inside.stop[:, None]
         width = len(self.column)
-        inner = int(self.start.max() - left)
-        outer = int(self.stop.min() - left)
+        inner = int(start.max() - self.column[0])
+        outer = int(stop.min() - self.column[0])
         if inner < outer:
             if inner:
-                yield slice(0, inner), self.column[:inner] < self.start[:, None]
+                yield slice(0, inner), self.column[:inner] < start
             if outer < width:
-                yield slice(outer, width), self.column[outer:] >= self.stop[:, None]
+                yield slice(outer, width), self.column[outer:] >= stop
         else:
-            yield (
-                slice(0, width),
-                (self.column < self.start[:, None]) | (self.column >= self.stop[:, None]),
-            )
+            yield slice(0, width), (self.column < start) | (self.column >= stop)
 
 
 @dataclass(frozen=True, eq=False)
 class Strip:
     """Neighbouring rows of one triangle, each from its first inside column on: a slanted block."""
 
-    row: Integers
-    """(R,) int64, numbers of the rows in the window."""
-    column: Integers
-    """(C,) int64, numbers of all columns of the block in the window."""
-    start: Integers
-    """(R,) int64, first inside column of every row, where the block's row begins."""
-    stop: Integers
-    """(R,) int64, column after the last."""
+    inside: TriangleRows
     width: int
     """Columns of the block."""
 
-    def spread(self, ramp: NDArray[Any]) -> NDArray[Any]:
-        """Return for values of the columns, (C,) and contiguous, those of every row of the block: (R, width)."""
-        size = ramp.itemsize
-        windows = np.ndarray((len(ramp) - self.width + 1, self.width), ramp.dtype, ramp, strides=(size, size))
-        slanted: NDArray[Any] = windows[self.start - self.column[0]]
-        return slanted
+    @property
+    def steps(self) -> Steps:
+        """The columns of the block."""
+        return Steps(self.inside.start - self.inside.origin, self.width)
 
 
-def spans_by_row(
-    lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
-) -> tuple[int, Integers, Integers]:
-    """Return the first row of one triangle, the only one of ``lanes``, and start and stop (R,) of its rows from there.
+def rows_of_triangles(
+    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, arena: Arena
+) -> list[TriangleRows]:
+    """Return the rows of triangles, of all of them at once.
 
-    A triangle is convex, but rows between pixel centres may be empty: they have no columns.
+    Parameters
+    ----------
+    x, y : (3, P) float64
+        Snapped window coordinates of the corners.
+    doubled_area : (P,) float64
+    raster : Raster
+    owners : TieOwners
+    arena : Arena
     """
-    _, start, length = bounds_of_rows(lanes, raster, owners, (), arena)
-    inside = np.flatnonzero(length > 0)
-    if not len(inside):
-        return 0, inside, inside
-    used = slice(int(inside[0]), int(inside[-1]) + 1)
-    begin = start[used].astype(np.int64)
-    return int(lanes.first_row[0]) + used.start, begin, begin + np.maximum(length[used], 0)
+    first_column, first_row, end_column, end_row = raster.bounds
+    all_columns = replace(raster, region=(0, first_row, raster.width, end_row - first_row))
+    lanes = set_up_lanes(x, y, doubled_area, all_columns, owners, arena)
+    count = len(doubled_area)
+    rows = rows_in_order(lanes, count, all_columns, owners, arena)
+    start, stop = rows.start, rows.stop
+    if (first_column, end_column) != (0, raster.width):
+        start, stop = (np.clip(of, first_column, end_column) for of in (start, stop))
+    whole = TriangleRows(rows.row, rows.start, start, stop)
+    inside = np.flatnonzero(stop > start)
+    firsts = np.searchsorted(rows.triangle[inside], np.arange(count + 1)).tolist()
+    return [
+        whole.part(int(inside[first]), int(inside[end - 1]) + 1) if first < end else whole.part(0, 0)
+        for first, end in pairwise(firsts)
+    ]
 
 
-def bands(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -> Iterator[Band]:
-    """Yield the bands of one triangle, the only one of ``lanes``, from the lowest up."""
-    bottom, begin, end = spans_by_row(lanes, raster, owners, arena)
-    if not len(begin):
+def bands(rows: TriangleRows, raster: Raster) -> Iterator[Band]:
+    """Yield the bands of one triangle, from the lowest up."""
+    if not len(rows):
         return
     first_column, first_row, _, _ = raster.bounds
-    for part, row in _parts(bottom, len(begin), int(end.max() - begin.min())):
-        left, right = int(begin[part].min()), int(end[part].max())
+    for part in _parts(rows, int(rows.stop.max() - rows.start.min())):
+        left, right = int(part.start.min()), int(part.stop.max())
         yield Band(
-            rows=slice(int(row[0]) - first_row, int(row[-1]) + 1 - first_row),
+            inside=part,
+            rows=slice(int(part.row[0]) - first_row, int(part.row[-1]) + 1 - first_row),
             columns=slice(left - first_column, right - first_column),
-            row=row,
             column=np.arange(left, right),
-            start=begin[part],
-            stop=end[part],
         )
 
 
-def strips(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -> Iterator[Strip]:
-    """Yield the strips of one triangle, the only one of ``lanes``, from the lowest up."""
-    bottom, begin, end = spans_by_row(lanes, raster, owners, arena)
-    if not len(begin):
+def strips(rows: TriangleRows) -> Iterator[Strip]:
+    """Yield the strips of one triangle, from the lowest up."""
+    if not len(rows):
         return
-    for part, row in _parts(bottom, len(begin), int((end - begin).max())):
-        start, stop = begin[part], end[part]
-        width = int((stop - start).max())
-        yield Strip(row, np.arange(int(start.min()), int(start.max()) + width), start, stop, width)
+    for part in _parts(rows, int((rows.stop - rows.start).max())):
+        yield Strip(part, int((part.stop - part.start).max()))
 
 
-def _parts(bottom: int, count: int, width: int) -> Iterator[tuple[slice, Integers]]:
-    """Yield which of ``count`` rows from ``bottom`` on are drawn together, and their numbers (R,)."""
+def _parts(rows: TriangleRows, width: int) -> Iterator[TriangleRows]:
+    """Yield the rows that are drawn together."""
     height = max(BAND_PIXELS // width, 1)
-    for first in range(0, count, height):
-        end = min(first + height, count)
-        yield slice(first, end), np.arange(bottom + first, bottom + end)
+    for first in range(0, len(rows), height):
+        yield rows.part(first, first + height)
 
 
 FARTHEST = np.iinfo(np.int64).max
@@ -165,4 +204,4 @@ def draw_band_words(words: Integers, band: Band, block: Integers) -> int:
         np.copyto(block[:, columns], FARTHEST, where=outside)
     there = words[band.rows, band.columns]
     np.minimum(there, block, out=there)
-    return int((band.stop - band.start).sum())
+    return band.inside.pixel_count

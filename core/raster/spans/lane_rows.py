@@ -57,26 +57,36 @@ def height_of_lanes(lanes: Lanes) -> Integers:
 
 
 def lane_rows(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> LaneRows:
-    """Walk the rows of all lanes and put them in drawing order."""
+    """Walk the rows of all triangles that have a lane."""
     arena = Arena()
-    lanes = lanes_of_edges(edges, raster, owners, arena)
+    return rows_in_order(lanes_of_edges(edges, raster, owners, arena), len(edges), raster, owners, arena)
+
+
+def rows_in_order(
+    lanes: Lanes, triangle_count: int, raster: Raster, owners: TieOwners, arena: Arena
+) -> LaneRows:
+    """Walk the rows of lanes of ``triangle_count`` triangles and put them in drawing order; the lanes are used up."""
+    if len(lanes.triangle) == 1:
+        _, start, length = bounds_of_rows(lanes, raster, owners, (), arena)
+        row = int(lanes.first_row[0]) + np.arange(len(start))
+        return _as_rows(np.repeat(lanes.triangle, len(start)), row, start, length)
     height, first_row = height_of_lanes(lanes), lanes.first_row.astype(np.int64)
     carried = (Carried(np.arange(len(first_row)), 0), Carried(first_row.copy(), 1))
     (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
 
     # A triangle's rows stand behind those of all triangles drawn before it.
-    count = np.zeros(len(edges), np.int64)
+    count = np.zeros(triangle_count, np.int64)
     count[lanes.triangle] = height
     before = (np.cumsum(count) - count).take(lanes.triangle)
     level = row - first_row.take(lane)
     is_own = level < height.take(lane)  # levels walked together run over the end of some lanes
     walked = np.empty(int(count.sum()), np.int64)
     walked[(before.take(lane) + level)[is_own]] = np.flatnonzero(is_own)
+    triangle = np.repeat(np.arange(triangle_count), count)
+    return _as_rows(triangle, row.take(walked), start.take(walked), length.take(walked))
 
-    begin = start.take(walked).astype(np.int64)
-    return LaneRows(
-        triangle=np.repeat(np.arange(len(edges)), count),
-        row=row.take(walked),
-        start=begin,
-        stop=begin + np.maximum(length.take(walked), 0),
-    )
+
+def _as_rows(triangle: Integers, row: Integers, start: Integers, length: Integers) -> LaneRows:
+    """Return rows (R,) that have pixels where the length is positive."""
+    begin = start.astype(np.int64)
+    return LaneRows(triangle, row, begin, begin + np.maximum(length, 0))

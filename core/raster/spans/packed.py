@@ -121,7 +121,7 @@ def write_out(longer: list[int]) -> tuple[Integers, Integers]:
 def word_block(planes: IntegerPlanes, triangle: int, band: Band, arena: Arena) -> Integers:
     """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
     ramp = band.column * planes.across[triangle]
-    of_row = planes.origin[triangle] + band.row * planes.up[triangle]
+    of_row = planes.origin[triangle] + band.inside.row * planes.up[triangle]
     block = arena("word_block", len(of_row), len(ramp), dtype=np.int64)
     np.add(ramp, of_row[:, None], out=block)
     return block

@@ -53,9 +53,9 @@ class DepthPlanes:
 
     def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Integers:
         """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
-        shape = (len(band.row), len(band.column))
+        shape = (len(band.inside), len(band.column))
         depth = arena("depth_block", *shape)
-        of_row = self.b[triangle] * raster.along(band.row) + self.c[triangle]
+        of_row = self.b[triangle] * raster.along(band.inside.row) + self.c[triangle]
         np.add(self.a[triangle] * raster.along(band.column), of_row[:, None], out=depth)
         return self.words(depth.reshape(-1), self.payload[triangle], arena).reshape(shape)
 
