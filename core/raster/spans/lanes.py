@@ -17,6 +17,7 @@ exact arithmetic do: for every corner that can be snapped, every slope and every
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -54,6 +55,7 @@ class TieOwners:
         return GUARD if self.right else -GUARD
 
 
+@cache
 def tie_owners(fill_rule: str) -> TieOwners:
     """Ask a method of the family ``fill_rule`` about a left, a right, a bottom and a top edge."""
     a, b = np.array([1.0, -1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0, -1.0])
