@@ -40,6 +40,8 @@ class FrameFigures:
     """Of every name of ``core.STAGES``; seconds are those of this process."""
     route: Route
     sharing: Sharing
+    are_backs_hidden: bool
+    """Back faces were left out: none can be seen."""
 
 
 def figures_text(figures: FrameFigures, per_second: float | None) -> str:
@@ -54,7 +56,9 @@ def figures_text(figures: FrameFigures, per_second: float | None) -> str:
 
 def drawing_text(figures: FrameFigures) -> str:
     """Return by how many processes and in what way a frame was drawn: a few lines."""
-    return "\n".join([*_sharing_lines(figures.sharing), *_route_lines(figures.route)])
+    backs = ["Back faces are left out: the meshes are solids, seen from outside."]
+    lines = [*_sharing_lines(figures.sharing), *_route_lines(figures.route)]
+    return "\n".join(lines + backs if figures.are_backs_hidden else lines)
 
 
 def _sharing_lines(sharing: Sharing) -> list[str]:

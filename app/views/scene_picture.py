@@ -1,11 +1,12 @@
 """The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 
 import numpy as np
 
+from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import FrameFigures
 from app.views.scene_lines import SpaceLine, draw_space_lines
 from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
@@ -38,7 +39,10 @@ class SceneShot:
     orbit: Orbit
     size: tuple[int, int]
     """Width and height of the picture in pixels."""
-    lines: tuple[SpaceLine, ...]
+    focus: int | None
+    """The triangle of the document whose edges are drawn."""
+    thickness: float
+    """Pixels of a line of width 1."""
     theme: Theme
 
 
@@ -52,9 +56,10 @@ class DrawnScene:
     figures: FrameFigures
 
 
-def view_settings(scene: AnyScene, settings: Settings) -> Settings:
-    """Return the settings of the view: the document's look, every face, and what draws fastest."""
+def view_settings(scene: AnyScene, settings: Settings, are_backs_hidden: bool = False) -> Settings:
+    """Return the settings of the view: the document's look, every face that may be seen, and what draws fastest."""
     return Settings(
+        cull="back" if are_backs_hidden else "none",
         fill="spans",
         shading=settings.shading if isinstance(scene, Scene) else "unlit",
         texture_filter=settings.texture_filter,
@@ -63,21 +68,29 @@ def view_settings(scene: AnyScene, settings: Settings) -> Settings:
     )
 
 
-def draw_scene(shot: SceneShot, workers: BandWorkers) -> DrawnScene:
+def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> DrawnScene:
     """Draw a picture with its lines; the workers draw parts of it where that is faster."""
     begin = perf_counter()
     viewed, _ = _viewed(shot)
+    are_backs_hidden = backs.are_hidden(viewed)
+    settings = view_settings(shot.scene, shot.settings, are_backs_hidden)
     width, height = shot.size
     pixels = np.empty((height, width, 4), np.uint8)
-    picture = workers.draw(viewed, view_settings(shot.scene, shot.settings), with_depth=True, out=pixels)
+    picture = workers.draw(viewed, settings, with_depth=True, out=pixels)
     sharing = workers.sharing
     assert picture.depth is not None
-    colors = [ink_color(line.ink, shot.theme) for line in shot.lines]
+    lines = tuple(
+        replace(line, width=max(round(line.width * shot.thickness), 1))
+        for line in space_lines(shot.space, shot.focus)
+    )
+    colors = [ink_color(line.ink, shot.theme) for line in lines]
     camera = viewing_camera(shot.space, shot.orbit)
     inverse_w = partial(_inverse_w, camera)
-    draw_space_lines(pixels, picture.depth, inverse_w, shot.lines, viewing_matrix(camera, shot.size), colors)
+    draw_space_lines(pixels, picture.depth, inverse_w, lines, viewing_matrix(camera, shot.size), colors)
     count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
-    figures = FrameFigures(shot.size, count, seconds, picture.statistics, picture.route, sharing)
+    figures = FrameFigures(
+        shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden
+    )
     return DrawnScene(pixels, shot, figures)
 
 

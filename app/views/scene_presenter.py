@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from app.document import Document
 from app.session import Session
+from app.views.hidden_backs import HiddenBacks
 from app.views.pixel_ray import pixel_marks
 from app.views.pointed_pixel import pointed_pixels
 from app.views.scene_figures import drawing_text, figures_text
@@ -17,7 +18,6 @@ from app.views.scene_picture import (
     draw_scene,
     fractions,
     moved_parallel,
-    space_lines,
     space_words,
     triangle_seen,
 )
@@ -69,7 +69,7 @@ class ScenePresenter(QObject):
         self._is_shown = False
         self._has_new_figures = False
         self._drags = 0
-        self._band_workers = BandWorkers(1)
+        self._band_workers, self._backs = BandWorkers(1), HiddenBacks()
         self._worker, self._picker = SceneWorker(self), SceneWorker(self)
         self._worker.done.connect(self._take_drawn)
         self._worker.failed.connect(self.refused)
@@ -194,10 +194,6 @@ class ScenePresenter(QObject):
             self._drawable = thinned(scene, MOST_TRIANGLES) if is_too_large else (scene, None)
         scene, numbers = self._drawable
         thickness = self._view.pixels_per_point() * current_theme().text_px / 13
-        lines = (
-            replace(line, width=max(round(line.width * thickness), 1))
-            for line in space_lines(self._space, self.focus)
-        )
         shot = SceneShot(
             self._space,
             scene,
@@ -205,10 +201,11 @@ class ScenePresenter(QObject):
             self._session.document.settings,
             self._view.orbit(),
             self._view.picture_size(),
-            tuple(lines),
+            self.focus,
+            thickness,
             current_theme(),
         )
-        self._worker.start(partial(draw_scene, shot, self._band_workers))
+        self._worker.start(partial(draw_scene, shot, self._band_workers, self._backs))
 
     @Slot(object)
     def _take_drawn(self, drawn: DrawnScene) -> None:

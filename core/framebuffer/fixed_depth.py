@@ -93,8 +93,10 @@ class FixedDepth(DepthFormat):
 
     def stored_of_key(self, key: Integers) -> Stored:
         """Return the stored values (F,) float64 of keys."""
-        stored = (key - SLACK).astype(np.float64)
-        stored[key == UNDEFINED] = np.nan
+        stored = np.subtract(key, SLACK, dtype=np.float64)
+        undefined = key == UNDEFINED
+        if undefined.any():
+            stored[undefined] = np.nan
         return stored
 
 

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.document import open_document
+from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
 from app.views.scene_lines import SpaceLine, draw_space_lines, visible_part
-from app.views.scene_picture import SceneShot, draw_scene, space_lines, triangle_seen
+from app.views.scene_picture import SceneShot, draw_scene, triangle_seen
 from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
@@ -135,12 +136,11 @@ def shot_of(scene_name: str, size: tuple[int, int]) -> SceneShot:
     document = open_document(make_scene(scene_name), scene_name)
     space = make_space(document.traced_scene, transform_vertices(document.traced_scene))
     orbit = fitted(space.home, space.center, space.radius, size[0] / size[1])
-    lines = space_lines(space, None)
-    return SceneShot(space, space.scene, None, document.settings, orbit, size, lines, LIGHT)
+    return SceneShot(space, space.scene, None, document.settings, orbit, size, None, 1.0, LIGHT)
 
 
 def test_the_stages_of_a_frame_add_up_to_less_than_its_time():
-    drawn = draw_scene(shot_of("torus", (320, 200)), BandWorkers(1))
+    drawn = draw_scene(shot_of("torus", (320, 200)), BandWorkers(1), HiddenBacks())
     assert drawn.pixels.shape == (200, 320, 4)
     assert drawn.figures.size == (320, 200)
     assert tuple(drawn.figures.stages) == STAGES
@@ -151,10 +151,10 @@ def test_the_stages_of_a_frame_add_up_to_less_than_its_time():
 
 def test_two_processes_draw_the_frame_of_one_with_its_lines():
     shot = shot_of("torus", (200, 150))
-    alone = draw_scene(shot, BandWorkers(1))
+    alone = draw_scene(shot, BandWorkers(1), HiddenBacks())
     with BandWorkers(2, always=True) as workers:
         assert workers.start(), workers.failure
-        together = draw_scene(shot, workers)
+        together = draw_scene(shot, workers, HiddenBacks())
     assert np.array_equal(together.pixels, alone.pixels)
     assert together.figures.sharing.process_count == 2
     assert together.figures.route.color == alone.figures.route.color
@@ -192,8 +192,9 @@ def figures_of(
     seconds: float = 0.001,
     route: Route = BY_BUFFERS,
     sharing: Sharing = IN_ONE_PROCESS,
+    are_backs_hidden: bool = False,
 ) -> FrameFigures:
-    return FrameFigures(size, triangle_count, seconds, {}, route, sharing)
+    return FrameFigures(size, triangle_count, seconds, {}, route, sharing, are_backs_hidden)
 
 
 @pytest.mark.parametrize(
@@ -225,11 +226,13 @@ def test_how_a_frame_was_drawn_as_text():
         "Seen: through all buffers.",
         "Colours: attributes and light once per visible pixel.",
     ]
+    without_backs = drawing_text(figures_of(sharing=failed, are_backs_hidden=True)).splitlines()
+    assert without_backs[-1] == "Back faces are left out: the meshes are solids, seen from outside."
 
 
 @pytest.mark.parametrize("name", ["single-triangle", "torus", "textured-floor", "intersecting", "cube"])
 def test_every_way_of_drawing_has_words(name):
-    figures = draw_scene(shot_of(name, (64, 48)), BandWorkers(1)).figures
+    figures = draw_scene(shot_of(name, (64, 48)), BandWorkers(1), HiddenBacks()).figures
     assert drawing_text(figures).startswith("Drawn by one process: one process is all there is to be.")
 
 

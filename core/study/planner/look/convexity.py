@@ -1,4 +1,4 @@
-"""Whether a mesh is closed, and whether it is convex: a proof, not a look at some of its points.
+"""Whether a mesh is convex: a proof, not a look at some of its points.
 
 A closed mesh whose faces all have one point on their inner side, whose edges all bend inwards, and of whose faces a ray
 from that point goes through one only, is the surface of a convex solid: seen from the point it covers every direction
@@ -15,34 +15,10 @@ verification of geometric structures*, 1996.
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.solids import edge_key, welded
 
 HAIR = 1e-6
 """Part of a mesh's size that a vertex may stand out: rounded coordinates are never quite convex."""
-
-
-def welded(positions: Floats, triangles: Integers) -> Integers:
-    """Return the triangles (T, 3) with vertices at one place taken for one: seams of texture coordinates double them.
-
-    Parameters
-    ----------
-    positions : (N, 3) float64
-    triangles : (T, 3) int64
-    """
-    return np.asarray(np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[triangles])
-
-
-def is_closed(positions: Floats, triangles: Integers) -> bool:
-    """Tell whether every edge of a mesh is gone along as often one way as the other.
-
-    Parameters
-    ----------
-    positions : (N, 3) float64
-    triangles : (T, 3) int64
-    """
-    vertex = welded(positions, triangles)
-    start, end = vertex.reshape(-1), np.roll(vertex, -1, axis=1).reshape(-1)
-    edge = np.unique(_edge_key(start, end), return_inverse=True)[1].reshape(-1)
-    return not bool(np.bincount(edge, np.sign(end - start)).any())
 
 
 def is_convex(positions: Floats, triangles: Integers) -> bool:
@@ -80,21 +56,16 @@ def is_convex(positions: Floats, triangles: Integers) -> bool:
     return bool((rise <= HAIR * size).all()) and _faces_on_ray(corner) == 1
 
 
-def _edge_key(start: Integers, end: Integers) -> Integers:
-    count = np.int64(max(start.max(initial=0), end.max(initial=0))) + 1
-    return np.asarray(np.minimum(start, end) * count + np.maximum(start, end))
-
-
 def _neighbours(vertex: Integers) -> tuple[Integers, Integers] | None:
     """Return the two faces (E,) of every edge; ``None``: an edge has not just two, one each way."""
     start, end = vertex.reshape(-1), np.roll(vertex, -1, axis=1).reshape(-1)
-    order = np.lexsort((start < end, _edge_key(start, end)))
+    order = np.lexsort((start < end, edge_key(start, end)))
     if len(order) % 2:
         return None
     one, other = order[::2], order[1::2]
     if (start[one] != end[other]).any() or (end[one] != start[other]).any() or (start == end).any():
         return None
-    if (np.diff(_edge_key(start, end)[one]) == 0).any():
+    if (np.diff(edge_key(start, end)[one]) == 0).any():
         return None
     return one // 3, other // 3
 

@@ -61,7 +61,9 @@ def test_rows_of_triangles_have_the_pixels_that_walking_their_lanes_finds(names,
 @pytest.mark.parametrize("region", list(REGIONS))
 @pytest.mark.parametrize("name", ["slanted both ways", "level below", "beyond the raster"])
 def test_blocks_have_the_columns_of_the_window_counted_from_where_rows_begin_in_it(name, region):
-    origins = dict(zip(rows_of([name])[1][0].row.tolist(), rows_of([name])[1][0].origin.tolist(), strict=True))
+    origins = dict(
+        zip(rows_of([name])[1][0].row.tolist(), rows_of([name])[1][0].origin.tolist(), strict=True)
+    )
     raster, (rows,) = rows_of([name], REGIONS[region])
     assert [origins[row] for row in rows.row.tolist()] == rows.origin.tolist()
     for block in (*strips(rows), *bands(rows, raster)):

@@ -11,6 +11,7 @@ from core.framebuffer.display import srgb
 from core.geometry.vertex_stage import unit
 from core.pipeline import render
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
+from core.solids import is_closed
 from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_check
 from core.study.planner import measuring
 from core.study.planner.bounds.bytes import byte_error, byte_width
@@ -19,7 +20,6 @@ from core.study.planner.bounds.light_ranges import Reflectances, light_range
 from core.study.planner.bounds.shading_bounds import shading_error
 from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around, step_text
 from core.study.planner.bounds.value_bounds import share_of_range
-from core.study.planner.look.convexity import is_closed
 from core.study.planner.look.orders import overlap
 from core.study.planner.look.surfaces import format_margin, surfaces
 from core.study.planner.look.tessellation import sagitta, sphere_edges, tessellations

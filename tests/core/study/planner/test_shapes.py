@@ -9,10 +9,11 @@ import pytest
 from core.arrays import Floats, Integers
 from core.pipeline import render
 from core.scene import Camera, Mesh, Scene
+from core.solids import is_closed
 from core.study import everything_on, look_at, plan
 from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.corpus import corpus_scene
-from core.study.planner.look.convexity import is_closed, is_convex
+from core.study.planner.look.convexity import is_convex
 from core.study.planner.look.covered_once import is_covered_once, outline
 from core.study.planner.look.touched import touch
 from core.study.workloads import sphere_mesh, sphere_scene

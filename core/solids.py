@@ -1,0 +1,140 @@
+"""Closed meshes and solids: of a solid no back face is seen from outside, so half of its triangles need not be drawn.
+
+A closed mesh winds around every point of space a whole number of times (its winding number). A ray that comes from
+outside begins at 0, a face seen from its front adds 1, one seen from its back takes 1 off. Where no number is negative,
+the first face on every ray is a front: whatever lies outside sees no back. Faces that are wound the other way round,
+a mesh turned inside out, or one that passes through itself and turns over, give a negative number somewhere.
+
+References
+----------
+A. Jacobson, L. Kavan, O. Sorkine-Hornung, *Robust inside-outside segmentation using generalized winding numbers*, 2013.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers
+from core.fragments.interpolation import plane_value
+from core.frame import STAGES, StageCount
+from core.geometry.vertex_stage import transform_vertices
+from core.geometry_record import Geometry
+from core.geometry_stages import process_geometry
+from core.pipeline import covered
+from core.raster.schedule import Raster, make_raster
+from core.scene import Camera, Scene
+from core.settings import Settings
+
+ASIDE = np.array([0.48, 0.36, 0.8])
+"""Direction from which rays are cast: along no face or edge that models often have."""
+RAYS = 128
+"""Rays across the scene, in both directions."""
+THINNEST = 2.0**-8
+"""Part of the scene's size. Where less of a ray lies within a negative number, rounding may have put two faces that
+meet at an edge in the wrong order."""
+
+
+def welded(positions: Floats, triangles: Integers) -> Integers:
+    """Return the triangles (T, 3) with vertices at one place taken for one: seams of texture coordinates double them.
+
+    Parameters
+    ----------
+    positions : (N, 3) float64
+    triangles : (T, 3) int64
+    """
+    return np.asarray(np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[triangles])
+
+
+def edge_key(start: Integers, end: Integers) -> Integers:
+    """Return a number (E,) int64 for every edge between two vertices, whichever way it goes."""
+    count = np.int64(max(start.max(initial=0), end.max(initial=0))) + 1
+    return np.asarray(np.minimum(start, end) * count + np.maximum(start, end))
+
+
+def is_closed(positions: Floats, triangles: Integers) -> bool:
+    """Tell whether every edge of a mesh is gone along as often one way as the other.
+
+    Parameters
+    ----------
+    positions : (N, 3) float64
+    triangles : (T, 3) int64
+    """
+    vertex = welded(positions, triangles)
+    start, end = vertex.reshape(-1), np.roll(vertex, -1, axis=1).reshape(-1)
+    edge = np.unique(edge_key(start, end), return_inverse=True)[1].reshape(-1)
+    return not bool(np.bincount(edge, np.sign(end - start)).any())
+
+
+def is_solid(scene: Scene) -> bool:
+    """Tell whether the meshes of a scene are closed and wind around no point a negative number of times.
+
+    Notes
+    -----
+    That they are closed is certain; the numbers are found along `RAYS` times `RAYS` parallel rays, so a part of the
+    surface thinner than a ray's distance from the next may be missed.
+    """
+    if not all(is_closed(mesh.positions, mesh.triangles) for mesh in scene.meshes):
+        return False
+    raster = make_raster((RAYS, RAYS), "half", (0, 0, RAYS, RAYS))
+    aside = replace(scene, camera=_camera_aside(scene), size=(RAYS, RAYS))
+    settings = Settings(fill="spans")
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(aside, settings, counts, raster=raster)
+    faces = [
+        _faces_on_rays(geometry, *raster.centers(found.column, found.row), found.primitive, raster)
+        for found in covered(geometry, settings, raster, counts)
+    ]
+    if not faces:
+        return False
+    ray, depth, facing = (np.concatenate(of) for of in zip(*faces, strict=True))
+    order = np.lexsort((depth, ray))
+    return bool(is_never_negative(ray[order], depth[order], facing[order]).all())
+
+
+def is_never_negative(ray: Integers, depth: Floats, facing: Integers) -> Flags:
+    """Return behind which faces (F,) on rays the winding number is 0 or more; behind the last one it has to be 0.
+
+    Parameters
+    ----------
+    ray : (F,) int64
+        The ray of every face, not decreasing.
+    depth : (F,) float64
+        Where on its ray a face is, from 0 to 1, not decreasing along a ray.
+    facing : (F,) int64
+        1: seen from the front; -1: from the back.
+    """
+    is_last = np.append(ray[1:] != ray[:-1], True)
+    number = np.cumsum(facing)
+    before = np.append(0, number[is_last][:-1])
+    number -= np.repeat(before, np.diff(np.append(-1, np.flatnonzero(is_last))))
+    length = np.append(depth[1:] - depth[:-1], 0.0)
+    return np.where(is_last, number == 0, (number >= 0) | (length < THINNEST))
+
+
+def _camera_aside(scene: Scene) -> Camera:
+    """Return a camera that sees all meshes along parallel rays from `ASIDE`, at depths from 0 to 1."""
+    world = transform_vertices(scene).world
+    assert world is not None
+    position = world[:, :3]
+    center = (position.min(axis=0) + position.max(axis=0)) / 2
+    radius = float(np.sqrt(((position - center) ** 2).sum(axis=1).max())) or 1.0
+    return Camera(
+        center + 2 * radius * ASIDE,
+        center,
+        projection="orthographic",
+        view_height=2.1 * radius,
+        near=0.9 * radius,
+        far=3.1 * radius,
+    )
+
+
+def _faces_on_rays(
+    geometry: Geometry, x: Floats, y: Floats, primitive: Integers, raster: Raster
+) -> tuple[Integers, Floats, Integers]:
+    """Return ray, depth and facing (F,) of primitives (F,) at window positions, see `is_never_negative`."""
+    corners = geometry.depth.take(primitive, axis=1)
+    depth = np.clip(
+        plane_value(geometry.depth_plane, primitive, x, y), corners.min(axis=0), corners.max(axis=0)
+    )
+    ray = raster.index(x.astype(np.int64), y.astype(np.int64))
+    return ray, depth, np.sign(geometry.doubled_area).astype(np.int64).take(primitive)
