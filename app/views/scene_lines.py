@@ -1,11 +1,11 @@
 """Lines in space drawn into a picture by the core's own line method, hidden parts faint."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Flags, Floats, Integers
 from core.framebuffer.display import Bytes
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import transform
@@ -54,68 +54,95 @@ def visible_part(clip: Floats) -> tuple[Floats, Integers]:
     return cut[keep], np.flatnonzero(keep).astype(np.int64)
 
 
-def draw_space_lines(
-    pixels: Bytes,
-    depth: Floats,
-    inverse_w: Callable[[Floats], Floats],
-    lines: tuple[SpaceLine, ...],
-    matrix: Floats,
-    colors: list[str],
-) -> None:
-    """Draw lines over a picture.
+@dataclass(frozen=True, eq=False)
+class LinePixels:
+    """N pixels of lines in a picture, a pixel of each line one after the other along it."""
+
+    column: Integers
+    """(N,) int64."""
+    row: Integers
+    """(N,) int64."""
+    inverse_w: Floats
+    """(N,) float64, 1/w of the line there."""
+    line: Integers
+    """(N,) int64, which line it is."""
+    is_steep: Flags
+    """(N,) bool, whether the line goes up more than it goes across: then it is thick across."""
+    size: tuple[int, int]
+    """Width and height of the picture."""
+
+    @property
+    def depth_at(self) -> Integers:
+        """(5 N,) int64, the places of the pixels, then of those left, right, below and above, within the picture."""
+        width, height = self.size
+        place = self.row * width + self.column
+        return np.concatenate(
+            [
+                place,
+                place - (self.column > 0),
+                place + (self.column < width - 1),
+                place - width * (self.row > 0),
+                place + width * (self.row < height - 1),
+            ]
+        )
+
+
+def find_line_pixels(lines: Sequence[SpaceLine], matrix: Floats, size: tuple[int, int]) -> LinePixels:
+    """Return the pixels of lines in a picture.
 
     Parameters
     ----------
-    pixels : (H, W, 4) uint8
-        The picture, written to.
-    depth : (H, W) float64
-        Depth of what is seen.
-    inverse_w : callable
-        1/w of depths (F,).
-    lines : tuple of SpaceLine
-        From the first drawn to the last.
+    lines : sequence of SpaceLine
     matrix : (4, 4) float64
         Space to clip space of the viewing camera.
-    colors : list of str
-        ``#rrggbb`` of every line.
+    size : (width, height)
     """
-    ends, owner = [], []
-    for index, line in enumerate(lines):
-        ends.append(np.stack([line.points[:-1], line.points[1:]], axis=1))
-        owner.append(np.full(len(line.points) - 1, index))
-    if not ends:
-        return
-    height, width = pixels.shape[:2]
-    segments = np.concatenate(ends)
+    ends = [np.stack([line.points[:-1], line.points[1:]], axis=1) for line in lines]
+    segments = np.concatenate([np.zeros((0, 2, 3)), *ends])
+    owner = np.repeat(np.arange(len(lines)), [len(of_line) for of_line in ends])
     homogeneous = np.concatenate([segments, np.ones((*segments.shape[:2], 1))], axis=2)
     with np.errstate(invalid="ignore", over="ignore"):
         clip, source = visible_part(transform(matrix, homogeneous))
-    window = (clip[..., :2] / clip[..., 3:] + 1) * np.array([width / 2, height / 2])
-    drawn = draw_lines(window, width, height, last_pixel=True)
-    line_of = np.concatenate(owner)[source][drawn.owner]
-
+    window = (clip[..., :2] / clip[..., 3:] + 1) * np.array([size[0] / 2, size[1] / 2])
+    drawn = draw_lines(window, *size, last_pixel=True)
     # 1/w is linear in the window, as depth is.
     near = interpolate_line(drawn.owner, drawn.steps.t, (1 / clip[..., 3])[..., None])[:, 0]
+    across, up = np.abs(window[:, 1] - window[:, 0]).T
     column, row = drawn.pixels.T
-    farthest = depth[row, column]
+    return LinePixels(column, row, near, owner[source][drawn.owner], (up > across)[drawn.owner], size)
+
+
+def paint_lines(
+    pixels: Bytes, found: LinePixels, seen: Floats, lines: Sequence[SpaceLine], colors: Sequence[str]
+) -> None:
+    """Paint lines over a picture.
+
+    Parameters
+    ----------
+    pixels : (H, W, 4) uint8, contiguous
+        The picture, written to.
+    found : LinePixels
+    seen : (5 N,) float64
+        1/w of what is seen at ``found.depth_at``.
+    lines : sequence of SpaceLine
+        From the first drawn to the last.
+    colors : sequence of str
+        ``#rrggbb`` of every line.
+    """
     # A line on a slanted surface or along its border counts as seen if it would be in a pixel beside.
-    for up, right in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-        beside = depth[np.clip(row + up, 0, height - 1), np.clip(column + right, 0, width - 1)]
-        farthest = np.maximum(farthest, beside)
-    seen = inverse_w(farthest)
-    opacity = np.where(
-        near >= seen * (1 - DEPTH_BIAS), 1.0, np.array([line.hidden for line in lines])[line_of]
-    )
-    inks = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors])[line_of]
-    along = np.abs(window[:, 1] - window[:, 0])
-    other_axis = np.where((along[:, 0] >= along[:, 1])[:, None], [0, 1], [1, 0])[drawn.owner]
-    widths = np.array([line.width for line in lines])[line_of]
-    for offset in range(int(widths.max(initial=1))):
-        chosen = np.flatnonzero(widths > offset)
-        place = drawn.pixels[chosen] + other_axis[chosen] * offset
-        inside = (place < [width, height]).all(axis=1)
-        chosen, place = chosen[inside], place[inside]
-        under = pixels[place[:, 1], place[:, 0], :3]
-        share = opacity[chosen, None]
-        pixels[place[:, 1], place[:, 0], :3] = np.rint(under * (1 - share) + inks[chosen] * share)
-        pixels[place[:, 1], place[:, 0], 3] = 255
+    farthest = seen.reshape(5, -1).min(axis=0)
+    hidden = np.array([line.hidden for line in lines])[found.line]
+    opacity = np.where(found.inverse_w >= farthest * (1 - DEPTH_BIAS), 1.0, hidden)[:, None]
+    inks = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors]).reshape(-1, 3)
+    ink = inks[found.line] * opacity
+    width, height = found.size
+    thickness = np.array([line.width for line in lines])[found.line]
+    flat = pixels.reshape(-1, 4)
+    for offset in range(int(thickness.max(initial=1))):
+        column = found.column + offset * found.is_steep
+        row = found.row + offset * ~found.is_steep
+        chosen = np.flatnonzero((thickness > offset) & (column < width) & (row < height))
+        place = (row * width + column).take(chosen)
+        mixed = flat[place, :3] * (1 - opacity[chosen]) + ink[chosen]
+        flat[place, :3] = np.rint(mixed)
+        flat[place, 3] = 255

@@ -1,14 +1,13 @@
 """The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 from time import perf_counter
 
 import numpy as np
 
 from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import FrameFigures
-from app.views.scene_lines import SpaceLine, draw_space_lines
+from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines
 from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
 from core import Camera, Settings
 from core.arrays import Floats, Integers
@@ -76,17 +75,17 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     settings = view_settings(shot.scene, shot.settings, are_backs_hidden)
     width, height = shot.size
     pixels = np.empty((height, width, 4), np.uint8)
-    picture = workers.draw(viewed, settings, with_depth=True, out=pixels)
-    sharing = workers.sharing
-    assert picture.depth is not None
     lines = tuple(
         replace(line, width=max(round(line.width * shot.thickness), 1))
         for line in space_lines(shot.space, shot.focus)
     )
-    colors = [ink_color(line.ink, shot.theme) for line in lines]
     camera = viewing_camera(shot.space, shot.orbit)
-    inverse_w = partial(_inverse_w, camera)
-    draw_space_lines(pixels, picture.depth, inverse_w, lines, viewing_matrix(camera, shot.size), colors)
+    found = find_line_pixels(lines, viewing_matrix(camera, shot.size), shot.size)
+    picture = workers.draw(viewed, settings, depth_at=found.depth_at, out=pixels)
+    sharing = workers.sharing
+    assert picture.depth is not None
+    colors = [ink_color(line.ink, shot.theme) for line in lines]
+    paint_lines(pixels, found, _inverse_w(camera, picture.depth), lines, colors)
     count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
     figures = FrameFigures(
         shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden

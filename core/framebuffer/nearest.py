@@ -91,12 +91,17 @@ class NearestFragments:
         depth = np.empty(len(self.keys), self._format.stored_type)
         for first in range(0, len(depth), BLOCK):
             part = slice(first, first + BLOCK)
-            if self._uses_depth_test:
-                nearness = self.keys[part] >> self.primitive_bits
-            else:
-                nearness = self.keys[part] & ((1 << self._format.nearness_bits) - 1)
-            depth[part] = self._format.stored_of_key(nearness)
+            depth[part] = self._stored(self.keys[part])
         return depth
+
+    def depth_at(self, place: Integers) -> Stored:
+        """Return the depth at places in the buffer (N,)."""
+        return self._stored(self.keys.take(place))
+
+    def _stored(self, keys: Integers) -> Stored:
+        if self._uses_depth_test:
+            return self._format.stored_of_key(keys >> self.primitive_bits)
+        return self._format.stored_of_key(keys & ((1 << self._format.nearness_bits) - 1))
 
 
 @cache

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from core.antialiased.sample_counts import sample_count, side_of
 from core.antialiased.supersampling import finer_settings
-from core.arrays import read_only
+from core.arrays import Integers, read_only
 from core.frame import STAGES, StageCount
 from core.geometry_stages import process_geometry
 from core.methods import table
@@ -41,6 +41,7 @@ def draw_picture(
     *,
     encoding: str = "srgb",
     with_depth: bool = False,
+    depth_at: Integers | None = None,
     region: tuple[int, int, int, int] | None = None,
     out: NDArray[np.uint8] | None = None,
     arena: Arena | None = None,
@@ -56,6 +57,8 @@ def draw_picture(
         ``"srgb"`` as `to_display`, or ``"linear"``: bytes of the linear colours.
     with_depth : bool
         Keep the depth buffer.
+    depth_at : (N,) int64, optional
+        Keep the depth of these pixels only: of row times columns plus column, counted in what is drawn.
     region : (column, row, columns, rows), optional
         Pixels of the image that are drawn; the whole image by default.
     out : (H, W, 4) uint8, C-contiguous, optional
@@ -73,7 +76,7 @@ def draw_picture(
     Raises
     ------
     ValueError
-        As `core.render`, and for an unknown encoding.
+        As `core.render`, for an unknown encoding, and where `out` or `depth_at` do not fit what is drawn.
 
     Notes
     -----
@@ -92,24 +95,30 @@ def draw_picture(
     shape = (*raster.shape, 4)
     if out is not None and (out.shape != shape or out.dtype != np.uint8 or not out.flags.c_contiguous):
         raise ValueError(f"out must be {shape} uint8 and contiguous, got {out.shape} {out.dtype}")
+    count = raster.shape[0] * raster.shape[1]
+    if depth_at is not None and not (depth_at.min(initial=0) >= 0 and depth_at.max(initial=-1) < count):
+        raise ValueError(
+            f"depth_at must be places of pixels, 0 to {count - 1}, got {depth_at.min()} to {depth_at.max()}"
+        )
     arena = arena or _memory.__dict__.setdefault("arena", Arena())
     counts = {stage: StageCount() for stage in STAGES}
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
-    if not with_depth and _is_supersampled(settings):
+    keeps_depth = with_depth or depth_at is not None
+    if not keeps_depth and _is_supersampled(settings):
         draw_part = partial(draw_picture, plain_colors=plain_colors)
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
     depth = None
-    if not with_depth and _is_multisampled(settings):
+    if not keeps_depth and _is_multisampled(settings):
         route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
-    elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and with_depth):
-        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth)
+    elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and keeps_depth):
+        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
     else:
         geometry = process_geometry(scene, settings, counts, raster=raster)
         job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
         if settings.blend == "opaque":
-            route, depth = draw_opaque(job, with_depth, plain_colors)
+            route, depth = draw_opaque(job, with_depth, depth_at, plain_colors)
             passing = Passing(route.visible, route.visible)
         else:
             route, passing = _draw_stacks(job)
@@ -130,7 +139,13 @@ def _is_multisampled(settings: Settings) -> bool:
 
 
 def _draw_frame(
-    scene: AnyScene, settings: Settings, raster: Raster, encoding: str, pixels: Words, with_depth: bool
+    scene: AnyScene,
+    settings: Settings,
+    raster: Raster,
+    encoding: str,
+    pixels: Words,
+    with_depth: bool,
+    depth_at: Integers | None,
 ) -> Picture:
     """Draw all buffers, and encode the colours."""
     frame = draw(scene, settings, raster)
@@ -138,6 +153,8 @@ def _draw_frame(
         pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
     route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
     depth = frame.depth if with_depth else None
+    if depth_at is not None:
+        depth = read_only(frame.depth.reshape(-1).take(depth_at))
     return Picture(_bytes(pixels, raster), depth, frame.statistics, route)
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
-from core.arrays import Singles, read_only
+from core.arrays import Integers, Singles, read_only
 from core.framebuffer.nearest import NearestFragments
 from core.picture.byte_colors import byte_colors
 from core.picture.cleared import all_pass_depth_test
@@ -27,26 +27,32 @@ _overlaps: WeakKeyDictionary[Mesh | ClipScene, bool] = WeakKeyDictionary()
 """Scenes, by their first mesh, that turned out to have more than one layer: depth is not left out again."""
 
 
-def draw_opaque(job: Job, with_depth: bool, plain_colors: bool) -> tuple[Route, Singles | None]:
+def draw_opaque(
+    job: Job, with_depth: bool, depth_at: Integers | None, plain_colors: bool
+) -> tuple[Route, Singles | None]:
     """Draw what is nearest at every pixel.
 
     Parameters
     ----------
     job : Job
-    with_depth, plain_colors : bool
+    with_depth, depth_at, plain_colors
         As `draw_picture`.
 
     Returns
     -------
     route : Route
-    depth : (H, W) array, or None without ``with_depth``
+    depth : (H, W) or (N,) array, or None where none is asked for
     """
     allowed = _choose_colors(job)
     colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
-    depth, route = None, None if with_depth else _draw_layer(job, colors)
+    keeps_depth = with_depth or depth_at is not None
+    depth, route = None, None if keeps_depth else _draw_layer(job, colors)
     if route is None:
         nearest, route = _draw_visible(job, colors)
-        depth = read_only(nearest.depth().reshape(job.raster.shape)) if with_depth else None
+        if depth_at is not None:
+            depth = read_only(nearest.depth_at(depth_at))
+        elif with_depth:
+            depth = read_only(nearest.depth().reshape(job.raster.shape))
     # A part without triangles forbids nothing, as one colour a triangle does not.
     name = allowed.name if allowed else "deferred"
     return replace(route, allowed=name if len(job.geometry.primitives) else PaletteColors.name), depth

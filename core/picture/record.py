@@ -68,7 +68,7 @@ class Picture:
     pixels: NDArray[np.uint8]
     """(H, W, 4) uint8: red, green, blue, alpha; row 0 is the bottom row."""
     depth: NDArray[Any] | None
-    """(H, W) as the depth method stores it, where it was asked for."""
+    """(H, W) as the depth method stores it, or (N,) at the pixels it was asked for at; ``None``: it was not."""
     statistics: dict[str, StageCount]
     """Counts and seconds per stage."""
     route: Route

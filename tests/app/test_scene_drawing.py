@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 from app.document import open_document
 from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
-from app.views.scene_lines import SpaceLine, draw_space_lines, visible_part
+from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines, visible_part
 from app.views.scene_picture import SceneShot, draw_scene, triangle_seen
 from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
@@ -44,12 +44,19 @@ def test_cut_segments_are_inside_and_on_their_segments(clip):
         assert not (plane_distances(clip[k, 0] + along * (clip[k, 1] - clip[k, 0])) > 1e-6).all(axis=1).any()
 
 
+def paint(pixels, depth, lines, colors, inverse_w=np.reciprocal):
+    """Paint lines over pixels whose depth buffer is known, along the axes of the space."""
+    height, width = depth.shape
+    found = find_line_pixels(lines, np.eye(4), (width, height))
+    paint_lines(pixels, found, inverse_w(depth.reshape(-1)[found.depth_at]), lines, colors)
+
+
 def test_hidden_parts_are_faint():
     pixels = np.zeros((5, 9, 4), np.uint8)
     depth = np.full((5, 9), 10.0)
     depth[:, 4:] = 0.5  # something at w = 0.5, nearer than the line at w = 1
     line = SpaceLine(np.array([[-1.0, 0, 0], [1, 0, 0]]), "text", hidden=0.25)
-    draw_space_lines(pixels, depth, np.reciprocal, (line,), np.eye(4), ["#ffffff"])
+    paint(pixels, depth, (line,), ["#ffffff"])
     assert pixels[2, 0:4, 0].tolist() == [255] * 4
     assert set(pixels[2, 5:, 0].tolist()) == {64}
     assert pixels[[0, 1, 3, 4]].max() == 0
@@ -59,9 +66,34 @@ def test_thick_lines_and_points_that_are_not_finite():
     pixels = np.zeros((6, 6, 4), np.uint8)
     points = np.array([[-0.9, -0.5, 0], [0.9, -0.5, 0], [np.nan, 0, 0], [1e300, 0, 0]])
     far = np.full((6, 6), 100.0)
-    draw_space_lines(pixels, far, np.reciprocal, (SpaceLine(points, "text", 2),), np.eye(4), ["#0000ff"])
+    paint(pixels, far, (SpaceLine(points, "text", 2),), ["#0000ff"])
     assert (pixels[..., 2] > 0).any(axis=1).tolist() == [False, True, True, False, False, False]
-    draw_space_lines(pixels, far, np.reciprocal, (), np.eye(4), [])
+    before = pixels.copy()
+    paint(pixels, far, (), [])
+    assert np.array_equal(pixels, before)
+
+
+def test_a_later_line_lies_over_an_earlier_one_and_each_has_its_thickness_across():
+    pixels, far = np.zeros((8, 8, 4), np.uint8), np.full((8, 8), 100.0)
+    level = SpaceLine(np.array([[-1.0, 0, 0], [1, 0, 0]]), "text", 2)
+    upright = SpaceLine(np.array([[0.0, -1, 0], [0, 1, 0]]), "text", 3)
+    paint(pixels, far, (level, upright), ["#ff0000", "#00ff00"])
+    assert (pixels[:, 0, 0] == 255).sum() == 2
+    assert (pixels[0, :, 1] == 255).sum() == 3
+    green = np.flatnonzero(pixels[0, :, 1])
+    assert set(pixels[:, green, 1].ravel().tolist()) == {255}
+    assert pixels[:, green, 0].max() == 0
+
+
+def test_the_depth_of_a_line_is_asked_for_at_its_pixels_and_those_beside():
+    line = SpaceLine(np.array([[-1.0, -1, 0], [1, 1, 0]]), "text")
+    found = find_line_pixels((line,), np.eye(4), (7, 5))
+    around = found.depth_at.reshape(5, -1)
+    assert np.array_equal(around[0], found.row * 7 + found.column)
+    for places, right, up in zip(around, (0, -1, 1, 0, 0), (0, 0, 0, -1, 1), strict=True):
+        row, column = np.divmod(places, 7)
+        assert np.array_equal(column, np.clip(found.column + right, 0, 6))
+        assert np.array_equal(row, np.clip(found.row + up, 0, 4))
 
 
 def test_only_the_last_waiting_picture_is_drawn(qtbot):

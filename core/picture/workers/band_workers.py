@@ -2,7 +2,6 @@
 
 import os
 from contextlib import suppress
-from dataclasses import dataclass
 from multiprocessing import current_process
 from threading import Lock
 from time import perf_counter
@@ -11,11 +10,11 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import read_only
+from core.arrays import Integers, read_only
 from core.frame import StageCount
-from core.picture.draw import draw_picture
 from core.picture.record import Picture
 from core.picture.workers.balance import even_cuts, moved_cuts, rows_of
+from core.picture.workers.order import Order
 from core.picture.workers.pace import Pace
 from core.picture.workers.sharing import BandTime, Sharing, have_colors_of_whole, joined_counts, joined_route
 from core.picture.workers.worker import Worker, WorkerFailedError
@@ -33,40 +32,6 @@ SECONDS_TO_ANSWER = 10.0
 """More than the band of this process took; then the worker is given up."""
 STAGES_OF_ALL = ("transform", "cull", "clip")
 """Stages whose time does not depend on the rows of a band."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Order:
-    """What is to be drawn, by however many processes."""
-
-    scene: AnyScene
-    settings: Settings
-    encoding: str
-    with_depth: bool
-    out: NDArray[np.uint8] | None
-
-    def draw(
-        self,
-        out: NDArray[np.uint8] | None,
-        region: tuple[int, int, int, int] | None = None,
-        plain_colors: bool = False,
-    ) -> Picture:
-        """Draw a region, or all, in this process; pixels go to ``out`` (H, W, 4)."""
-        return draw_picture(
-            self.scene,
-            self.settings,
-            encoding=self.encoding,
-            with_depth=self.with_depth,
-            region=region,
-            out=out,
-            plain_colors=plain_colors,
-        )
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Of the pixels: rows, columns, 4."""
-        width, height = self.scene.size
-        return height, width, 4
 
 
 class BandWorkers:
@@ -134,7 +99,7 @@ class BandWorkers:
         settings: Settings | None = None,
         encoding: str = "srgb",
         *,
-        with_depth: bool = False,
+        depth_at: Integers | None = None,
         out: NDArray[np.uint8] | None = None,
     ) -> Picture:
         """Draw a scene as `draw_picture` does, to the byte.
@@ -145,8 +110,8 @@ class BandWorkers:
         settings : Settings, optional
         encoding : str
             ``"srgb"`` or ``"linear"``.
-        with_depth : bool
-            Keep the depth buffer.
+        depth_at : (N,) int64, optional
+            Pixels whose depth is kept.
         out : (H, W, 4) uint8, C-contiguous, optional
             Memory for the pixels; it need not be shared.
 
@@ -155,7 +120,7 @@ class BandWorkers:
         ValueError
             As `draw_picture`. A worker that fails raises nothing: this process draws the picture, see `failure`.
         """
-        order = _Order(scene, settings or Settings(), encoding, with_depth, out)
+        order = Order(scene, settings or Settings(), encoding, depth_at, out)
         if not self._lock.acquire(blocking=False):
             return order.draw(out)
         try:
@@ -182,7 +147,7 @@ class BandWorkers:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _draw(self, order: _Order) -> Picture:
+    def _draw(self, order: Order) -> Picture:
         gain = self._load.gain(self.processes) if self._load else 0.0
         reason = self._why_alone() or _why_not_divided(order) or self._why_not_worth(order.shape[0])
         if not reason and not self._has_workers(0.0):
@@ -254,7 +219,7 @@ class BandWorkers:
         self._failure = str(problem)
         _close_all(self._workers)
 
-    def _draw_in_one_way(self, order: _Order) -> tuple[Picture, tuple[BandTime, ...]]:
+    def _draw_in_one_way(self, order: Order) -> tuple[Picture, tuple[BandTime, ...]]:
         """Draw with all workers, all bands with the colours of the whole picture; no bands: that cannot be told.
 
         What all of them must draw alike is learned from the bands, and stays so for the pictures to come: an orbit
@@ -266,19 +231,23 @@ class BandWorkers:
             picture, bands = self._draw_bands(order)
         return picture, bands
 
-    def _draw_bands(self, order: _Order) -> tuple[Picture, tuple[BandTime, ...]]:
+    def _draw_bands(self, order: Order) -> tuple[Picture, tuple[BandTime, ...]]:
         """Draw with all workers; no bands: their colours are not those of the whole picture."""
         start = perf_counter()
-        scene, (height, width, _) = order.scene, order.shape
-        rows = rows_of(self._cuts, height)
-        for worker, (first, end) in zip(self._workers, rows[1:], strict=True):
-            region = (0, first, width, end - first)
-            worker.ask(scene, order.settings, order.encoding, order.with_depth, self._plain_colors, region)
+        rows = rows_of(self._cuts, order.shape[0])
+        for worker, band in zip(self._workers, rows[1:], strict=True):
+            worker.ask(
+                order.scene,
+                order.settings,
+                order.encoding,
+                order.depth_in(*band),
+                self._plain_colors,
+                order.region(*band),
+            )
         asking = perf_counter() - start
         pixels = np.empty(order.shape, np.uint8) if order.out is None else order.out
-        end = rows[0][1]
         try:
-            own = order.draw(pixels[:end], (0, 0, width, end), self._plain_colors)
+            own = order.draw(pixels[: rows[0][1]], rows[0], self._plain_colors)
         except Exception:
             # The scene is to blame: they say the same, and stay.
             for worker in self._workers:
@@ -292,15 +261,14 @@ class BandWorkers:
             return own, ()
         statistics = joined_counts([own.statistics, *(band.statistics for band in done)])
         with timed(statistics["resolve"]):
-            depth = _room_for_depth(own.depth, height) if order.with_depth else None
             for worker, (first, end) in zip(self._workers, rows[1:], strict=True):
-                worker.copy_band(pixels[first:end], None if depth is None else depth[first:end])
+                worker.copy_band(pixels[first:end])
+            depth = order.joined_depth(rows, [own.depth, *(band.depth for band in done)])
         times = [seconds, *(band.seconds for band in done)]
         if all(worker.picture_count > 1 for worker in self._workers):
             self._move_cuts(times, asking, [own.statistics, *(band.statistics for band in done)])
         route = joined_route(routes)
-        kept_depth = None if depth is None else read_only(depth)
-        picture = Picture(read_only(pixels), kept_depth, statistics, route)
+        picture = Picture(read_only(pixels), depth, statistics, route)
         return picture, tuple(BandTime(*band, time) for band, time in zip(rows, times, strict=True))
 
     def _move_cuts(self, times: list[float], asking: float, statistics: list[dict[str, StageCount]]) -> None:
@@ -309,21 +277,12 @@ class BandWorkers:
         self._cuts = moved_cuts(self._cuts, np.array(times), np.array(fixed))
 
 
-def _why_not_divided(order: _Order) -> str:
+def _why_not_divided(order: Order) -> str:
     """Return why memory is not given to bands, else an empty text: what does not fit is refused for the whole."""
     out = order.out
     if out is None or (out.shape == order.shape and out.dtype == np.uint8 and out.flags.c_contiguous):
         return ""
     return "the memory does not fit the picture"
-
-
-def _room_for_depth(first_band: np.ndarray | None, height: int) -> np.ndarray:
-    """Return a depth buffer with as many rows as the picture has, that of the first band in it."""
-    assert first_band is not None
-    rows, columns = first_band.shape
-    depth = np.empty((height, columns), first_band.dtype)
-    depth[:rows] = first_band
-    return depth
 
 
 def _close_all(workers: list[Worker]) -> None:

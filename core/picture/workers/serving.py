@@ -7,17 +7,18 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from time import perf_counter
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
+from core.arrays import Integers
 from core.frame import StageCount
 from core.picture.draw import draw_picture
 from core.picture.record import Picture, Route
-from core.picture.workers.band_memory import band_depth, band_pixels
+from core.picture.workers.band_memory import band_pixels
 from core.picture.workers.messages import Message, Receiver
 from core.scene import AnyScene
 from core.settings import Settings
-from core.timing import timed
 
 READY = "ready"
 """First word of a worker: everything is imported."""
@@ -30,7 +31,8 @@ class BandOrder:
     scene: AnyScene
     settings: Settings
     encoding: str
-    with_depth: bool
+    depth_at: Integers | None
+    """(N,) int64, places in the band whose depth is asked for."""
     plain_colors: bool
     region: tuple[int, int, int, int]
     """First column, first row, columns, rows."""
@@ -40,8 +42,10 @@ class BandOrder:
 
 @dataclass(frozen=True, eq=False)
 class BandDone:
-    """What a worker answers; pixels and depth are in the shared memory."""
+    """What a worker answers; the pixels are in the shared memory."""
 
+    depth: NDArray[Any] | None
+    """(N,) where depth was asked for."""
     route: Route
     statistics: dict[str, StageCount]
     seconds: float
@@ -97,22 +101,18 @@ def _answer(message: Message, receiver: Receiver, memory: SharedBand) -> BandDon
         picture = _draw_band(order, memory.open(order.memory))
     except Exception:
         return BandFailed(traceback.format_exc())
-    return BandDone(picture.route, picture.statistics, perf_counter() - start)
+    return BandDone(picture.depth, picture.route, picture.statistics, perf_counter() - start)
 
 
 def _draw_band(order: BandOrder, memory: SharedMemory) -> Picture:
-    """Draw a band; pixels go straight to the memory, depth is copied there if it was asked for."""
+    """Draw a band; pixels go straight to the memory."""
     _, _, columns, rows = order.region
-    picture = draw_picture(
+    return draw_picture(
         order.scene,
         order.settings,
         encoding=order.encoding,
-        with_depth=order.with_depth,
+        depth_at=order.depth_at,
         plain_colors=order.plain_colors,
         region=order.region,
-        out=band_pixels(memory, rows, columns, order.with_depth),
+        out=band_pixels(memory, rows, columns),
     )
-    if order.with_depth and picture.depth is not None:
-        with timed(picture.statistics["resolve"]):
-            np.copyto(band_depth(memory, rows, columns, picture.depth.dtype), picture.depth)
-    return picture

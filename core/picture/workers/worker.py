@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.picture.workers.band_memory import band_depth, band_pixels, byte_count
+from core.arrays import Integers
+from core.picture.workers.band_memory import band_pixels, byte_count
 from core.picture.workers.messages import Sender
 from core.picture.workers.serving import READY, BandDone, BandFailed, BandOrder, serve
 from core.scene import AnyScene
@@ -89,17 +90,17 @@ class Worker:
         scene: AnyScene,
         settings: Settings,
         encoding: str,
-        with_depth: bool,
+        depth_at: Integers | None,
         plain_colors: bool,
         region: tuple[int, int, int, int],
     ) -> None:
-        """Ask for a band: ``region`` is first column, first row, columns, rows; for the rest see `draw_picture`."""
+        """Ask for a band and for its depth at places (N,); see `draw_picture`."""
         width, height = scene.size
         self.is_asked = True
         try:
             # Room for the whole picture, since the next band may be higher.
-            memory = self._memory_of(byte_count(height, width, with_depth))
-            order = BandOrder(scene, settings, encoding, with_depth, plain_colors, region, memory.name)
+            memory = self._memory_of(byte_count(height, width))
+            order = BandOrder(scene, settings, encoding, depth_at, plain_colors, region, memory.name)
             self._connection.send(self._sender.message(order))
         except OSError as problem:
             raise WorkerFailedError(self._why_it_ended(problem)) from problem
@@ -118,21 +119,11 @@ class Worker:
         self.picture_count += 1
         return done
 
-    def copy_band(self, pixels: NDArray[np.uint8], depth: np.ndarray | None) -> None:
-        """Copy the band that was answered last from the shared memory.
-
-        Parameters
-        ----------
-        pixels : (H, W, 4) uint8
-            Written; H rows of the band.
-        depth : (H, W), optional
-            Written; of the type that the depth method stores. Is there if it was asked for.
-        """
+    def copy_band(self, pixels: NDArray[np.uint8]) -> None:
+        """Copy the band that was answered last from the shared memory to ``pixels`` (H, W, 4) uint8."""
         assert self._memory is not None
         rows, columns, _ = pixels.shape
-        np.copyto(pixels, band_pixels(self._memory, rows, columns, depth is not None))
-        if depth is not None:
-            np.copyto(depth, band_depth(self._memory, rows, columns, depth.dtype))
+        np.copyto(pixels, band_pixels(self._memory, rows, columns))
 
     def close(self) -> None:
         """End the process, and wait until it has ended. A second time does nothing."""

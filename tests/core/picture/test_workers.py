@@ -72,10 +72,12 @@ def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: boo
 
 
 @pytest.mark.parametrize("name", list(SCENES))
-def test_two_processes_keep_the_depth_of_one(workers: BandWorkers, name: str) -> None:
+def test_two_processes_find_the_depth_that_one_finds(workers: BandWorkers, name: str) -> None:
     scene, settings = SCENES[name]
-    alone = draw_picture(scene, settings, with_depth=True)
-    together = workers.draw(scene, settings, with_depth=True)
+    count = scene.size[0] * scene.size[1]
+    places = np.random.default_rng(3).integers(0, count, 500)
+    alone = draw_picture(scene, settings, depth_at=places)
+    together = workers.draw(scene, settings, depth_at=places)
     np.testing.assert_array_equal(together.pixels, alone.pixels)
     assert alone.depth is not None
     assert together.depth is not None
@@ -85,11 +87,20 @@ def test_two_processes_keep_the_depth_of_one(workers: BandWorkers, name: str) ->
     assert workers.draw(scene, settings).pixels.tobytes() == alone.pixels.tobytes()
 
 
-@pytest.mark.parametrize("with_depth", [False, True])
-def test_pixels_go_to_the_memory_that_is_given(workers: BandWorkers, with_depth: bool) -> None:
+def test_bands_without_pixels_whose_depth_is_asked_for(workers: BandWorkers) -> None:
+    scene = ball(size=(75, 61))
+    for places in (np.arange(75), np.arange(60 * 75, 61 * 75), np.zeros(0, np.int64)):
+        depth = workers.draw(scene, SPANS, depth_at=places).depth
+        np.testing.assert_array_equal(
+            depth, draw_picture(scene, SPANS, with_depth=True).depth.ravel()[places]
+        )
+
+
+@pytest.mark.parametrize("depth_at", [None, np.array([3, 3, 4000])], ids=["no depth", "depth"])
+def test_pixels_go_to_the_memory_that_is_given(workers: BandWorkers, depth_at) -> None:
     scene = ball(size=(75, 61))
     out = np.zeros((61, 75, 4), np.uint8)
-    picture = workers.draw(scene, SPANS, with_depth=with_depth, out=out)
+    picture = workers.draw(scene, SPANS, depth_at=depth_at, out=out)
     assert np.shares_memory(picture.pixels, out)
     np.testing.assert_array_equal(out, draw_picture(scene, SPANS).pixels)
     assert workers.sharing.process_count == 2
