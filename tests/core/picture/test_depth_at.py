@@ -12,7 +12,7 @@ SETTINGS = {
     "1/w": Settings(fill="spans", depth="inverse-w"),
     "no depth test": Settings(fill="spans", visibility="painters"),
     "all buffers": Settings(fill="bounding-box"),
-    "blended": Settings(fill="spans", blend="alpha"),
+    "blended": Settings(fill="spans", blend="over"),
     "samples": Settings(fill="spans", antialiasing="msaa-4"),
 }
 
