@@ -10,6 +10,7 @@ from core.framebuffer.display import Bytes
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import transform
 from core.raster.lines import draw_lines, interpolate_line
+from core.raster.schedule import expand
 
 DEPTH_BIAS = 0.004
 """How much farther than the surface, as a part of its distance, a line on it may seem to be."""
@@ -136,13 +137,11 @@ def paint_lines(
     inks = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors]).reshape(-1, 3)
     ink = inks[found.line] * opacity
     width, height = found.size
-    thickness = np.array([line.width for line in lines])[found.line]
+    which, offset = expand(np.array([line.width for line in lines], np.int64)[found.line])
+    is_steep = found.is_steep[which]
+    column, row = found.column[which] + offset * is_steep, found.row[which] + offset * ~is_steep
+    inside = np.flatnonzero((column < width) & (row < height))
+    which, place = which[inside], (row * width + column)[inside]
     flat = pixels.reshape(-1, 4)
-    for offset in range(int(thickness.max(initial=1))):
-        column = found.column + offset * found.is_steep
-        row = found.row + offset * ~found.is_steep
-        chosen = np.flatnonzero((thickness > offset) & (column < width) & (row < height))
-        place = (row * width + column).take(chosen)
-        mixed = flat[place, :3] * (1 - opacity[chosen]) + ink[chosen]
-        flat[place, :3] = np.rint(mixed)
-        flat[place, 3] = 255
+    flat[place, :3] = np.rint(flat[place, :3] * (1 - opacity[which]) + ink[which])
+    flat[place, 3] = 255
