@@ -15,6 +15,7 @@ from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
 from widgets.grid_paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
+from widgets.outline_layer import OutlineLayer
 from widgets.sample_dots import SampleDots
 from widgets.theme import current_theme, theme_notifier
 
@@ -99,6 +100,10 @@ class GridDisplay(QWidget):
             self._geometry = geometry
             self._canvas.set_geometry(geometry)
             self.update()
+
+    def share_outlines(self, outlines: OutlineLayer) -> None:
+        """Take the outlines from a picture that other grids of the same triangles use too."""
+        self._canvas.outlines = outlines
 
     def show_hover(self, pixel: tuple[int, int] | None) -> None:
         """Mark (column, row) as the pixel under the pointer."""
