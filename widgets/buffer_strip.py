@@ -113,7 +113,8 @@ class BufferStrip(QWidget):
         self._pin: tuple[int, int] | None = None
         self._step: NDArray[np.integer] | None = None
         self._geometry: GridGeometry | None = None
-        self._outlines = OutlineLayer()
+        # Tiles side by side differ by a pixel in width.
+        self._outlines = OutlineLayer(most=4)
         self._overlays: tuple[Overlay, ...] = ()
         self._view = FIT
         self.setAccessibleName("Buffers")

@@ -194,7 +194,7 @@ class GridCanvas:
         if self._buffer is not None and visible[0] < visible[2] and visible[1] < visible[3]:
             self._paint_cells(painter, placement, self._buffer, theme, visible)
             if self._geometry is not None and outlines is not None:
-                outlines.paint(painter, placement, area, self._geometry, theme)
+                outlines.paint_others(painter, placement, area, self._geometry, theme)
             elif self._geometry is not None:
                 paint_outlines(painter, outline_lines(placement, self._geometry), theme)
             if self._hidden is not None:

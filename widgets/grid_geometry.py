@@ -85,14 +85,21 @@ def vertex_place(geometry: GridGeometry, placement: GridPlacement, vertex: int) 
 
 
 def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLineF]:
-    """Return the visible edges of the triangles that are not in focus as widget lines, shared ones once."""
+    """Return the visible edges of the triangles that are not in focus as widget lines, shared ones once.
+
+    Triangles share an edge where its ends are at the same places: they need not have vertices in common.
+    """
     others = (
         np.delete(geometry.triangles, geometry.focus, axis=0)
         if geometry.focus_vertices
         else geometry.triangles
     )
-    pairs = np.sort(np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]])), axis=1)
-    lines, _ = widget_lines(geometry.vertices[np.unique(pairs, axis=0)], placement)
+    pairs = np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]]))
+    places = np.ascontiguousarray(geometry.vertices, np.float64).view(np.complex128)
+    _, place = np.unique(places.ravel(), return_inverse=True)
+    low, high = np.sort(place[pairs], axis=1).T
+    _, once = np.unique(low * len(place) + high, return_index=True)
+    lines, _ = widget_lines(geometry.vertices[pairs[once]], placement)
     return lines
 
 
