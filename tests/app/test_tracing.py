@@ -36,7 +36,8 @@ def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
 
 
 def test_all_triangles_that_are_traced_together_are_traced_at_once(qapp: object) -> None:
-    corners = np.random.default_rng(1).uniform(-1, 1, (TRACED_TOGETHER, 3, 4)) + [0, 0, 0, 2]
+    corners = np.random.default_rng(1).uniform(-1, 1, (TRACED_TOGETHER, 3, 4))
+    corners[..., 3] += 2
     scene = ClipScene(corners, size=TEACHING_LIMIT)
     session = Session(open_document(scene, "Many"))
     moved = replace(session.document, scene=replace(scene, clip=corners + 0.01))
