@@ -19,7 +19,8 @@ TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
 LONGEST_RUN = 1_500_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
-TESTS_PER_SECOND = 250_000
+TESTS_PER_SECOND = 2_000_000
+EXACT_TESTS_PER_SECOND = 250_000
 TRIANGLES_PER_SECOND = 600_000
 """How fast pixels are traced and triangles transformed, roughly: what takes long is done off the GUI thread."""
 
@@ -96,7 +97,9 @@ class Document:
         if self.settings.fill == "brute-force":
             # The buffers that earlier triangles left are drawn as well, without being kept.
             drawn += self.triangle_count * self.raster.columns * self.raster.rows // 20
-        return drawn / TRIANGLES_PER_SECOND + self.most_tests / TESTS_PER_SECOND
+        is_exact = self.settings.coverage == "exact"
+        tests_per_second = EXACT_TESTS_PER_SECOND if is_exact else TESTS_PER_SECOND
+        return drawn / TRIANGLES_PER_SECOND + self.most_tests / tests_per_second
 
     def check_length(self) -> None:
         """Refuse a run that has too many steps to be kept.

@@ -93,6 +93,9 @@ class GridPresenter(QObject):
         """Show another run: outlines, rulers, buffers."""
         session = self._session
         self._grid.set_pixel_center(session.document.settings.pixel_center)
+        if self._focus < session.document.triangle_count:
+            # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
+            self._stepped_to = session.cursor
         self._show_outlines()
         self.refresh_step()
         self.refresh_pointing()
@@ -102,7 +105,6 @@ class GridPresenter(QObject):
         """Show the state after the step just done."""
         session = self._session
         row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-        # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
         if row >= 0 and session.cursor != self._stepped_to:
             self._focus_on(int(session.stage_trace.triangle[row]))
         self._stepped_to = session.cursor

@@ -31,8 +31,9 @@ class Session(QObject):
     """Document, trace, cursor, pinned and hovered pixel. A value equal to the present one changes and emits nothing."""
 
     document_changed = Signal()
-    """Another scene, other settings, focus or raster: the trace is a new one."""
+    """Another scene, other settings, focus or raster: the trace is a new one, and the cursor may have moved along."""
     cursor_changed = Signal()
+    """Another step of the same trace, or another stage."""
     pin_changed = Signal()
     hover_changed = Signal()
     history_changed = Signal()
@@ -208,7 +209,6 @@ class Session(QObject):
         self._trace = trace
         count = self.stage_trace.steps.count
         position = count if was_at_end else min(self._cursor.position, count)
-        has_moved = position != self._cursor.position
         self._cursor = replace(self._cursor, position=position)
         has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
         if has_lost_pin:
@@ -216,8 +216,6 @@ class Session(QObject):
         if self._hover is not None and not self.has_pixel(self._hover):
             self._hover = None
         self.document_changed.emit()
-        if has_moved:
-            self.cursor_changed.emit()
         if has_lost_pin:
             self.pin_changed.emit()
         self.history_changed.emit()

@@ -205,6 +205,7 @@ class StepPage(Page):
         self.inspector_rows.setSizes([165, 135, 270])
         self.card.card_folded.connect(self._fit_step_pane)
         self.session.cursor_changed.connect(self._fit_step_pane)
+        self.session.document_changed.connect(self._fit_step_pane)
         self._text_px = current_theme().text_px
         self._owed_growth = 1.0
         theme_notifier().theme_changed.connect(self._follow_theme)

@@ -95,6 +95,7 @@ class SteppingPresenter(QObject):
         session.cursor_changed.connect(self.refresh_cursor)
         session.pin_changed.connect(self.refresh_marks)
         session.predicting_changed.connect(self.refresh_run)
+        session.document_changed.connect(self._end_message)
         session.cursor_changed.connect(self._end_message)
         session.pin_changed.connect(self._end_message)
         timeline.position_requested.connect(session.scrub)

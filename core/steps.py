@@ -71,13 +71,15 @@ class Steps:
         """Return the positions, rising, between which a step of ``level`` goes; 0 and ``count`` are among them."""
         if level == Level.OPERATION:
             return np.arange(self.count + 1)
-        ends = {
-            Level.STAGE: np.array([self.row_count], np.int64),
-            Level.TRIANGLE: self.triangle_ends,
-            Level.GROUP: self.group_ends,
-            Level.PIXEL: np.arange(1, self.row_count + 1),
-        }[level]
-        return np.unique(np.concatenate([[0], self.starts[ends], [self.count]]))
+        if level == Level.STAGE:
+            return np.unique([0, self.count])
+        if level == Level.PIXEL:
+            return self.starts
+        # Rows have operations, so that starts rise as ends do: nothing is sorted, however many rows there are.
+        ends = self.triangle_ends if level == Level.TRIANGLE else self.group_ends
+        after = ends[ends > 0]
+        found: Integers = np.concatenate([[0], self.starts[after]])
+        return found
 
     def forward(self, position: int, level: Level) -> int:
         """Return the next boundary after ``position``, or the end."""

@@ -19,6 +19,7 @@ from widgets.grid_buffer import GridBuffer
 from widgets.grid_geometry import GridGeometry
 from widgets.grid_overlay import Overlay
 from widgets.grid_view import FIT, GridView
+from widgets.outline_layer import OutlineLayer
 from widgets.pixel_grid import PixelGrid
 from widgets.theme import current_theme, text_font, theme_notifier
 
@@ -112,6 +113,8 @@ class BufferStrip(QWidget):
         self._pin: tuple[int, int] | None = None
         self._step: NDArray[np.integer] | None = None
         self._geometry: GridGeometry | None = None
+        # Tiles side by side differ by a pixel in width.
+        self._outlines = OutlineLayer(most=4)
         self._overlays: tuple[Overlay, ...] = ()
         self._view = FIT
         self.setAccessibleName("Buffers")
@@ -266,6 +269,7 @@ class BufferStrip(QWidget):
         grid = tile.grid
         grid.setMinimumWidth(88)
         grid.set_view(self._view)
+        grid.share_outlines(self._outlines)
         grid.show_geometry(self._geometry)
         grid.show_overlays(self._overlays)
         grid.show_step(self._step)

@@ -6,7 +6,7 @@ from PySide6.QtCore import QRect, QRectF
 from PySide6.QtGui import QColor, QImage, QPainter, QPixmap
 
 from widgets.grid_buffer import GridBuffer
-from widgets.grid_geometry import GridGeometry, paint_outlines
+from widgets.grid_geometry import GridGeometry, outline_lines, paint_outlines
 from widgets.grid_overlay import Overlay, bounds, changed_cells, union
 from widgets.grid_paint import (
     beside_rulers,
@@ -21,6 +21,7 @@ from widgets.grid_paint import (
 )
 from widgets.grid_view import GridPlacement
 from widgets.image import buffer_image, value_range
+from widgets.outline_layer import OutlineLayer
 from widgets.overlay_paint import paint_above, paint_below
 from widgets.sample_dots import SampleDots, paint_samples
 from widgets.theme import Theme
@@ -47,6 +48,8 @@ class GridCanvas:
         self._geometry: GridGeometry | None = None
         self._hidden: NDArray[np.bool_] | None = None
         self._samples: SampleDots | None = None
+        self.outlines = OutlineLayer()
+        """Grids that show the same triangles may share one."""
         self._pixmap: QPixmap | None = None
         self._painted: tuple[GridPlacement, QRect, Theme] | None = None
         self._dirty: Cells | None = None
@@ -149,7 +152,7 @@ class GridCanvas:
             self._dirty, self._painted = None, key
         if self._dirty != NO_CELLS:
             with QPainter(self._pixmap) as inner:
-                self.paint_now(inner, placement, area, theme, self._dirty)
+                self.paint_now(inner, placement, area, theme, self._dirty, self.outlines)
             self._dirty = NO_CELLS
         painter.drawPixmap(area.topLeft(), self._pixmap)
 
@@ -160,8 +163,12 @@ class GridCanvas:
         area: QRect,
         theme: Theme,
         cells: Cells | None = None,
+        outlines: OutlineLayer | None = None,
     ) -> None:
-        """Paint the whole still part, or only ``cells``, straight to any device (as vectors into an SVG)."""
+        """Paint the whole still part, or only ``cells``, straight to any device (as vectors into an SVG).
+
+        Outlines are lines of their own, unless there is a picture of them in ``outlines``.
+        """
         visible = placement.visible_cells()
         painter.save()
         if cells is None:
@@ -186,12 +193,18 @@ class GridCanvas:
         painter.fillRect(placement.cells_rect(0, 0, placement.columns, placement.rows), QColor(theme.canvas))
         if self._buffer is not None and visible[0] < visible[2] and visible[1] < visible[3]:
             self._paint_cells(painter, placement, self._buffer, theme, visible)
+            if self._geometry is not None and outlines is not None:
+                outlines.paint_others(painter, placement, area, self._geometry, theme)
+            elif self._geometry is not None:
+                paint_outlines(painter, outline_lines(placement, self._geometry), theme)
+            if self._hidden is not None:
+                paint_hidden(painter, placement, self._hidden, theme)
         painter.restore()
 
     def _paint_cells(
         self, painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme, cells: Cells
     ) -> None:
-        """Paint colours, overlays, lines, numbers and covers, in this order."""
+        """Paint colours, overlays, lines and numbers, in this order."""
         image = self.image(theme)
         paint_image(painter, placement, image)
         paint_nan(painter, placement, buffer, theme)
@@ -204,10 +217,6 @@ class GridCanvas:
         paint_border(painter, placement, theme)
         paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
         paint_above(painter, placement, self._overlays, theme)
-        if self._geometry is not None:
-            paint_outlines(painter, placement, self._geometry, theme)
-        if self._hidden is not None:
-            paint_hidden(painter, placement, self._hidden, theme)
 
     def image(self, theme: Theme) -> QImage:
         """Return the picture of the buffer, made once."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPixmap, QRegion
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.grid_buffer import GridBuffer
@@ -15,6 +15,7 @@ from widgets.grid_marks import marked_rect, paint_hover, paint_pin, paint_step
 from widgets.grid_overlay import Overlay
 from widgets.grid_paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid_view import FIT, GridPlacement, GridView, clamped, place
+from widgets.outline_layer import OutlineLayer
 from widgets.sample_dots import SampleDots
 from widgets.theme import current_theme, theme_notifier
 
@@ -35,8 +36,6 @@ class GridDisplay(QWidget):
         self._step: NDArray[np.integer] | None = None
         self._shows_focus = False
         """Whether the focus came by a key: only then its ring helps."""
-        self._layer: QPixmap | None = None
-        self._layer_key: object = None
         self._vertex: int | None = None
         """The vertex under the pointer or being dragged."""
         self.empty_text = "Nothing to show yet"
@@ -99,6 +98,10 @@ class GridDisplay(QWidget):
             self._geometry = geometry
             self._canvas.set_geometry(geometry)
             self.update()
+
+    def share_outlines(self, outlines: OutlineLayer) -> None:
+        """Take the triangles from pictures that other grids use too."""
+        self._canvas.outlines = outlines
 
     def show_hover(self, pixel: tuple[int, int] | None) -> None:
         """Mark (column, row) as the pixel under the pointer."""
@@ -230,20 +233,13 @@ class GridDisplay(QWidget):
             paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
 
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
-        """Paint the triangle in focus from a kept layer: smooth lines are slow to draw at every move."""
-        theme, ratio = current_theme(), painter.device().devicePixelRatioF()
-        key = (geometry, placement, theme, self._vertex, ratio)
-        if painter.device() is not self:
-            paint_focus(painter, placement, geometry, theme, self._vertex, self._free(placement))
-            return
-        if self._layer is None or self._layer_key != key:
-            self._layer = QPixmap(self.size() * ratio)
-            self._layer.setDevicePixelRatio(ratio)
-            self._layer.fill(Qt.GlobalColor.transparent)
-            with QPainter(self._layer) as inner:
-                paint_focus(inner, placement, geometry, theme, self._vertex, self._free(placement))
-            self._layer_key = key
-        painter.drawPixmap(0, 0, self._layer)
+        """Paint the triangle in focus, on the screen from a kept picture: smooth lines are slow to draw."""
+        theme, free = current_theme(), self._free(placement)
+        if painter.device() is self:
+            outlines = self._canvas.outlines
+            outlines.paint_focus(painter, placement, self.rect(), geometry, theme, self._vertex, free)
+        else:
+            paint_focus(painter, placement, geometry, theme, self._vertex, free)
 
     def _free(self, placement: GridPlacement) -> QRegion | None:
         """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""

@@ -15,6 +15,9 @@ HANDLE_RADIUS = 5.0
 """Radius of a vertex handle in logical pixels."""
 _GRAB_RADIUS = 11.0
 """How near the pointer must come to a vertex to take it."""
+HALO_WIDTH = 2.4
+HALO_OPACITY = 0.5
+"""Of what sets thin outlines off from the cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,22 +84,32 @@ def vertex_place(geometry: GridGeometry, placement: GridPlacement, vertex: int) 
     return _place(placement, geometry.vertices[vertex])
 
 
-def paint_outlines(painter: QPainter, placement: GridPlacement, geometry: GridGeometry, theme: Theme) -> None:
-    """Paint the edges of the triangles that are not in focus: quiet and thin."""
+def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLineF]:
+    """Return the visible edges of the triangles that are not in focus as widget lines, shared ones once.
+
+    Triangles share an edge where its ends are at the same places: they need not have vertices in common.
+    """
     others = (
         np.delete(geometry.triangles, geometry.focus, axis=0)
         if geometry.focus_vertices
         else geometry.triangles
     )
-    if len(others) == 0:
-        return
-    pairs = np.sort(np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]])), axis=1)
-    lines, _ = widget_lines(geometry.vertices[np.unique(pairs, axis=0)], placement)
+    pairs = np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]]))
+    places = np.ascontiguousarray(geometry.vertices, np.float64).view(np.complex128)
+    _, place = np.unique(places.ravel(), return_inverse=True)
+    low, high = np.sort(place[pairs], axis=1).T
+    _, once = np.unique(low * len(place) + high, return_index=True)
+    lines, _ = widget_lines(geometry.vertices[pairs[once]], placement)
+    return lines
+
+
+def paint_outlines(painter: QPainter, lines: list[QLineF], theme: Theme) -> None:
+    """Paint the edges of the triangles that are not in focus: quiet and thin."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     halo = QColor(theme.halo())
-    halo.setAlphaF(0.5)
-    painter.setPen(QPen(halo, 2.4))
+    halo.setAlphaF(HALO_OPACITY)
+    painter.setPen(QPen(halo, HALO_WIDTH))
     painter.drawLines(lines)
     painter.setPen(QPen(QColor(theme.text), 1.0))
     painter.drawLines(lines)

@@ -59,6 +59,8 @@ class TypedValue(QWidget):
     @Slot(float)
     def show_value(self, value: float) -> None:
         """Show a value set by the program; text the user is typing at the moment is left alone."""
+        if _is_same(value, self._value) and not self.edit.isModified():
+            return
         self._value = float(value)
         if not (self.edit.hasFocus() and self.edit.isModified()):
             self._show_text()
@@ -173,3 +175,8 @@ class TypedValue(QWidget):
         rules = "padding-left: 2px; padding-right: 2px;" if self._is_compact else ""
         rules += f"border: 2px solid {current_theme().bad};" if self.error_text() else ""
         self.edit.setStyleSheet(f"QLineEdit {{ {rules} }}" if rules else "")
+
+
+def _is_same(first: float, second: float) -> bool:
+    """Tell whether two values are written alike: a zero has a sign."""
+    return first == second and math.copysign(1.0, first) == math.copysign(1.0, second)

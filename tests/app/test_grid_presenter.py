@@ -87,6 +87,27 @@ def test_handles_go_to_the_triangle_that_is_clicked(window: MainWindow) -> None:
     assert grids.geometry.focus == 0
 
 
+def test_a_drag_leaves_the_handles_where_they_are(window: MainWindow) -> None:
+    session, grids = window.session, window.page.grids
+    session.go_to(session.stage_trace.steps.count)
+    rows, columns = np.nonzero(session.trace.source.picture.primitive == 0)
+    window.page.grid.pixel_clicked.emit(int(columns[0]), int(rows[0]))
+    before = session.cursor
+    window.page.grid.vertex_dragged.emit(0, 7.0, 30.0)
+    assert session.cursor.position == session.stage_trace.steps.count != before.position
+    assert grids.geometry.focus == 0
+
+
+def test_an_edit_is_shown_once(window: MainWindow, qtbot: QtBot) -> None:
+    session = window.session
+    session.go_to(session.stage_trace.steps.count)
+    with qtbot.assertNotEmitted(session.cursor_changed), qtbot.waitSignal(session.document_changed):
+        window.page.grid.vertex_dragged.emit(0, 7.0, 30.0)
+    count = session.stage_trace.steps.count
+    assert session.cursor.position == count
+    assert window.page.timeline.position_box.text() == str(count)
+
+
 def test_a_region_of_a_large_picture_counts_its_own_pixels(window: MainWindow) -> None:
     window.session.open(open_document(make_scene("sphere"), "Sphere"))
     first_column, first_row, _, _ = window.session.trace.source.raster.bounds

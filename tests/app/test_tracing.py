@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import Document, open_document
+from app.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
 from app.main_window import MainWindow
 from app.session import Session
-from core import Settings
+from core import ClipScene, Settings
 from lessons.scenes import make_scene
 
 SPHERE = "sphere"
@@ -32,6 +33,18 @@ def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
     session.undo()
     assert session.document is before
     session.tracing.shut_down()
+
+
+def test_all_triangles_that_are_traced_together_are_traced_at_once(qapp: object) -> None:
+    corners = np.random.default_rng(1).uniform(-1, 1, (TRACED_TOGETHER, 3, 4))
+    corners[..., 3] += 2
+    scene = ClipScene(corners, size=TEACHING_LIMIT)
+    session = Session(open_document(scene, "Many"))
+    moved = replace(session.document, scene=replace(scene, clip=corners + 0.01))
+    session.edit(moved)
+    assert session.document is moved
+    assert session.document.triangle is None
+    assert not session.tracing.is_busy
 
 
 def test_a_quick_edit_takes_the_place_of_a_long_one(qtbot: QtBot) -> None:

@@ -168,6 +168,16 @@ def test_full_precision_while_editing_and_four_digits_otherwise(qtbot, field) ->
     assert field.edit.text() == "0.3333"
 
 
+def test_showing_the_same_value_again_leaves_the_field_alone(qtbot, field) -> None:
+    field.show_value(1 / 3)
+    field.edit.setFocus()
+    field.show_value(1 / 3)
+    assert field.edit.text() == "0.3333333333333333"
+    field.show_value(0.0)
+    field.show_value(-0.0)
+    assert field.edit.text() == "−0"
+
+
 def test_a_narrow_field_rounds_rather_than_cutting_digits_off(qtbot) -> None:
     field = TypedValue("x", is_compact=True)
     qtbot.addWidget(field)

@@ -1,0 +1,100 @@
+"""Outlines as a kept picture: the same lines as painted directly, whatever was shown before."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QRect, Qt
+from PySide6.QtGui import QImage, QPainter, QRegion
+
+from widgets.grid_geometry import GridGeometry, outline_lines, paint_focus, paint_outlines
+from widgets.grid_view import GridPlacement, GridView, place
+from widgets.outline_layer import OutlineLayer
+from widgets.theme import DARK, LIGHT, Theme
+
+pytestmark = pytest.mark.usefixtures("qapp")
+AREA = QRect(0, 0, 160, 120)
+
+
+def placed(zoom: float = 1.0) -> GridPlacement:
+    return place(16, 12, AREA, GridView(zoom=zoom))
+
+
+def geometry_at(x: float) -> GridGeometry:
+    """Return two triangles, the second in focus; a corner of the first at (x, 10)."""
+    vertices = np.array([[1.0, 1.0], [14.0, 2.0], [x, 10.0], [2.0, 11.0], [5.0, 11.0], [2.0, 8.0]])
+    return GridGeometry(vertices, np.array([[0, 1, 2], [3, 4, 5]]), focus=1)
+
+
+def on_canvas(paint) -> np.ndarray:
+    """Return (120, 160, 4) uint8, what was painted onto grey."""
+    image = QImage(AREA.size(), QImage.Format.Format_RGB32)
+    image.fill(Qt.GlobalColor.gray)
+    with QPainter(image) as painter:
+        paint(painter)
+    return np.array(image.constBits()).reshape(120, 160, 4)
+
+
+def by_layer(layer: OutlineLayer, placement: GridPlacement, geometry: GridGeometry, theme: Theme = LIGHT):
+    return on_canvas(lambda painter: layer.paint_others(painter, placement, AREA, geometry, theme))
+
+
+def directly(placement: GridPlacement, geometry: GridGeometry, theme: Theme = LIGHT):
+    return on_canvas(lambda painter: paint_outlines(painter, outline_lines(placement, geometry), theme))
+
+
+def is_alike(first: np.ndarray, second: np.ndarray) -> bool:
+    """Tell whether two pictures differ by rounding, or where a few halos cross."""
+    difference = np.abs(first.astype(int) - second.astype(int)).max(axis=2)
+    return np.count_nonzero(difference > 3) <= 30
+
+
+def test_an_edge_of_two_triangles_is_one_line() -> None:
+    corners = np.array([[1.0, 1.0], [14.0, 2.0], [5.0, 10.0], [14.0, 2.0], [1.0, 1.0], [9.0, 0.5]])
+    apart = GridGeometry(corners, np.arange(6).reshape(2, 3), focus=-1)
+    assert len(outline_lines(placed(), apart)) == 5
+    nowhere = np.full((3, 2), np.nan)
+    partly = GridGeometry(np.concatenate([corners, nowhere]), np.arange(9).reshape(3, 3), focus=0)
+    assert len(outline_lines(placed(), partly)) == 3
+
+
+def test_the_picture_is_what_is_painted_directly() -> None:
+    for theme in (LIGHT, DARK):
+        painted = by_layer(OutlineLayer(), placed(), geometry_at(5.0), theme)
+        assert is_alike(painted, directly(placed(), geometry_at(5.0), theme))
+        assert not is_alike(painted, on_canvas(lambda painter: None))
+
+
+def test_what_was_shown_before_leaves_nothing_behind() -> None:
+    layer = OutlineLayer()
+    for x in (5.0, 9.0, 5.0):
+        for theme in (LIGHT, DARK):
+            for zoom in (1.0, 2.0, 1.0):
+                shown = placed(zoom), geometry_at(x), theme
+                assert np.array_equal(by_layer(layer, *shown), by_layer(OutlineLayer(), *shown))
+
+
+def test_more_places_than_are_kept_are_all_right() -> None:
+    layer, geometry = OutlineLayer(most=2), geometry_at(5.0)
+    zooms = np.linspace(1.0, 3.0, 5).tolist()
+    for zoom in (*zooms, *zooms):
+        assert np.array_equal(
+            by_layer(layer, placed(zoom), geometry), by_layer(OutlineLayer(), placed(zoom), geometry)
+        )
+
+
+def test_the_triangle_in_focus_is_as_painted_directly() -> None:
+    layer, geometry = OutlineLayer(), geometry_at(5.0)
+    for held in (None, 4, None):
+        for free in (QRegion(AREA), QRegion(0, 0, 40, 120), None):
+            shown = placed(), geometry, LIGHT, held, free
+            expected = on_canvas(lambda painter, shown=shown: paint_focus(painter, *shown))
+            for _ in range(2):
+                kept = on_canvas(
+                    lambda painter, shown=shown: layer.paint_focus(painter, shown[0], AREA, *shown[1:])
+                )
+                assert is_alike(kept, expected)
+
+
+def test_the_triangle_in_focus_is_none_of_the_others() -> None:
+    alone = GridGeometry(np.array([[1.0, 1.0], [14.0, 2.0], [5.0, 10.0]]), np.array([[0, 1, 2]]))
+    nothing = on_canvas(lambda painter: None)
+    assert np.array_equal(by_layer(OutlineLayer(), placed(), alone), nothing)
