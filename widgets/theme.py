@@ -75,6 +75,10 @@ class Theme:
     unit: int = 4
     """The rhythm: every margin and gap is a multiple of it."""
 
+    def __hash__(self) -> int:
+        """Return a hash quickly: fonts and layouts are looked up by theme some hundred times a picture."""
+        return hash(self.name)
+
     def halo(self) -> str:
         """Colour that sets thin lines off from any pixel behind them."""
         return "#000000" if self.is_dark else "#ffffff"
