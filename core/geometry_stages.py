@@ -23,7 +23,6 @@ from core.raster.schedule import Raster
 from core.raster.snapping import WindowVertices, place_corners, place_vertices
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
-from core.surface import light_vertices
 from core.timing import timed
 
 __all__ = [
@@ -180,6 +179,8 @@ def corner_values(
             layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
             values = CornerValues(rows, layout, own_corners(triangle))
         else:
+            from core.vertex_light import light_vertices  # Triangles given in clip space come without light.
+
             values = light_vertices(scene, vertices, settings, triangle)
         if settings.interpolation != "flat":
             return values

@@ -46,7 +46,11 @@ class Settings:
 
     def __post_init__(self) -> None:
         for family in families():
-            table.get(family, str(getattr(self, family)))
+            name = str(getattr(self, family))
+            if name != getattr(
+                Settings, family
+            ):  # Defaults are in the table; looking there would import their files.
+                table.get(family, name)
         for name, limit in WHOLE_NUMBERS.items():
             value = getattr(self, name)
             if type(value) is not int or not 1 <= value <= limit:
