@@ -57,7 +57,12 @@ METHOD_FILES: dict[str, tuple[str, ...]] = {
     ),
     "resolve_filter": ("core.framebuffer.resolve",),
     "fill_rule": ("core.raster.fill_rule",),
-    "coverage": ("core.raster.number_formats",),
+    "coverage": (
+        "core.raster.float_formats",
+        "core.raster.inverse_format",
+        "core.raster.integer_formats",
+        "core.raster.exact_format",
+    ),
 }
 """The modules in which each family's methods stand, in the order of the menus."""
 
