@@ -15,6 +15,7 @@ from types import ModuleType
 import numpy as np
 
 from app.bench.contender import Contender, Prepared, UnavailableError
+from app.bench.first_picture import ARRAYS, PIXELS
 from app.bench.records import Bytes, ColdStart, WindowTriangles
 
 CHILD = "app.bench.first_picture"
@@ -33,9 +34,11 @@ def contender(module: ModuleType, work: ColdStart) -> Contender | None:
 def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
     """Write the triangles where the processes will find them."""
     folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
-    triangles, pixels = folder / "triangles.npz", folder / "pixels.npy"
-    np.savez(triangles, corners=work.corners, depth=work.depth, colors=work.colors, size=work.size)
-    command = [sys.executable, "-P", "-m", CHILD, module, str(triangles), str(pixels)]
+    for name in ARRAYS:
+        np.save(folder / f"{name}.npy", getattr(work, name))
+    pixels = folder / PIXELS
+    width, height = work.size
+    command = [sys.executable, "-P", "-m", CHILD, module, str(folder), str(width), str(height)]
     environment = dict(os.environ, PYTHONPATH=str(ROOT))
 
     def run() -> Bytes:

@@ -1,7 +1,7 @@
 """A process that draws one picture with one library and ends.
 
-It reads the triangles from a file and writes the pixels to another one:
-``python -m app.bench.first_picture LIBRARY_MODULE TRIANGLES.npz PIXELS.npy``. Little else is imported here, since the
+It reads the triangles from files of a folder and writes the pixels to another one:
+``python -m app.bench.first_picture LIBRARY_MODULE FOLDER WIDTH HEIGHT``. Little else is imported here, since the
 time of a process from its beginning to its end is what is measured.
 """
 
@@ -15,15 +15,19 @@ from app.bench.contender import Contender
 from app.bench.records import WindowTriangles
 
 
-def draw_first(module: str, triangles: str, pixels: str) -> None:
-    """Draw what stands in one file with one library, and save the pixels to another."""
-    with np.load(triangles) as file:
-        width, height = file["size"].tolist()
-        work = WindowTriangles(file["corners"], file["depth"], file["colors"], (width, height))
+ARRAYS = ("corners", "depth", "colors")
+"""The arrays of `WindowTriangles`, each in a file of its name; an archive of them would cost its own imports."""
+PIXELS = "pixels.npy"
+
+
+def draw_first(module: str, folder: str, width: int, height: int) -> None:
+    """Draw the triangles of a folder with one library, and save the pixels there."""
+    corners, depth, colors = (np.load(f"{folder}/{name}.npy") for name in ARRAYS)
+    work = WindowTriangles(corners, depth, colors, (width, height))
     warm: Contender = import_module(module).contender(work)
     with ExitStack() as stack:
-        np.save(pixels, warm.prepare(stack).run())
+        np.save(f"{folder}/{PIXELS}", warm.prepare(stack).run())
 
 
 if __name__ == "__main__":
-    draw_first(*sys.argv[1:])
+    draw_first(sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]))
