@@ -40,6 +40,8 @@ def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
     width, height = work.size
     command = [sys.executable, "-P", "-m", CHILD, module, str(folder), str(width), str(height)]
     environment = dict(os.environ, PYTHONPATH=str(ROOT))
+    # The run that checks the picture leaves compiled files behind, as installing does for the other libraries.
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
 
     def run() -> Bytes:
         done = subprocess.run(command, env=environment, capture_output=True, text=True)

@@ -14,7 +14,6 @@ import numpy as np
 from app.bench.contender import Contender
 from app.bench.records import WindowTriangles
 
-
 ARRAYS = ("corners", "depth", "colors")
 """The arrays of `WindowTriangles`, each in a file of its name; an archive of them would cost its own imports."""
 PIXELS = "pixels.npy"
