@@ -89,6 +89,16 @@ def test_every_file_with_methods_stands_in_the_table() -> None:
     assert found == {(family, file) for family, files in METHOD_FILES.items() for file in files}
 
 
+def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
+    code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
+    code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
+    imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
+    assert {"core.framebuffer.blending", "core.visibility.painters", "core.raster.float_formats"} <= set(
+        imported
+    )
+    assert "core.raster.exact_format" not in imported
+
+
 def test_defaults_are_methods_of_the_table() -> None:
     settings = Settings()
     assert all(table.get(family, getattr(settings, family)).name for family in families())
