@@ -161,7 +161,7 @@ class SteppingPresenter(QObject):
             marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
         marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
         here = [mark.position - 1 for mark in self.bookmarks if mark.stage == trace.stage]
-        marks[Mark.BOOKMARK] = np.unique(np.array(here, np.int64))
+        marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
         self._timeline.show_run(TimelineRun(trace.steps.count, marks))
         self._timeline.show_position(self._session.cursor.position)
 
@@ -311,10 +311,11 @@ class SteppingPresenter(QObject):
 
     def _break_positions(self, trace: StageTrace) -> Integers:
         """Return the positions, rising, just after a step that a breakpoint stands on."""
-        found = [trace.steps.starts[1:][self._break_rows(trace)]]
-        for function, line in self.line_breakpoints:
-            found.append(self._line_positions(trace, function, line))
-        return np.unique(np.concatenate(found))
+        of_rows = trace.steps.starts[1:][self._break_rows(trace)]
+        if not self.line_breakpoints:
+            return of_rows
+        of_lines = [self._line_positions(trace, function, line) for function, line in self.line_breakpoints]
+        return np.unique(np.concatenate([of_rows, *of_lines]))
 
     def _break_rows(self, trace: StageTrace) -> Flags:
         """Return (R,) bool, the rows of a breakpoint's pixel or of the condition."""

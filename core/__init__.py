@@ -11,26 +11,15 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
   contains the point moved an infinitesimal step right, then up. Attributes and depth come from unsnapped corners.
 * Counter-clockwise is the front. The nearer fragment wins; a tie keeps what is there.
 * Colours are linear in the core, sRGB only for display and in files; alpha is straight in inputs.
+
+Of the functions below, each is imported when it is first asked for: a program that draws does not wait for what steps,
+nor the other way round. Methods are imported by their table (`core.methods`).
 """
 
-from core.antialiased import centers, exact_area, multisampling, supersampling  # noqa: F401  (they register)
-from core.fragments import corrected_affine  # noqa: F401  (it registers)
+from typing import TYPE_CHECKING
+
 from core.frame import STAGES, Frame
-from core.framebuffer import depth_formats  # noqa: F401  (it registers)
-from core.geometry.line_clip_records import ClippedLines
-from core.geometry.line_clipping import clip_lines
-from core.picture import Picture, draw_picture
-from core.pipeline import draw_triangles, render
-from core.raster import (  # noqa: F401  (they register)
-    fill_rule,
-    fills,
-    number_formats,
-    scanline,
-    scanline_lecture,
-    wireframe,
-)
-from core.raster.lines import draw_lines
-from core.raster.spans import fill  # noqa: F401
+from core.on_demand import import_on_demand
 from core.scene import (
     Camera,
     ClipScene,
@@ -43,6 +32,24 @@ from core.scene import (
 )
 from core.settings import Settings
 from core.trace import Trace, trace
+
+if TYPE_CHECKING:
+    from core.geometry.line_clip_records import ClippedLines
+    from core.geometry.line_clipping import clip_lines
+    from core.picture import Picture, draw_picture
+    from core.pipeline import draw_triangles, render
+    from core.raster.lines import draw_lines
+else:
+    __getattr__ = import_on_demand(
+        globals(),
+        ClippedLines="core.geometry.line_clip_records",
+        Picture="core.picture",
+        clip_lines="core.geometry.line_clipping",
+        draw_lines="core.raster.lines",
+        draw_picture="core.picture",
+        draw_triangles="core.pipeline",
+        render="core.pipeline",
+    )
 
 __all__ = [
     "STAGES",
@@ -66,3 +73,7 @@ __all__ = [
     "render",
     "trace",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

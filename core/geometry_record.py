@@ -1,13 +1,16 @@
-"""The record of the stages before the raster; what only some pictures need is computed when it is first asked for."""
+"""The record of the stages before the raster; what only some pictures need is computed when it is first asked for.
+
+Outlines and exact comparisons of rays come with many files, which are imported no earlier.
+"""
 
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.clipped_outlines import OutlineClip, clip_outlines
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
@@ -20,13 +23,14 @@ from core.geometry.vertex_stage import VertexStage
 from core.methods import table
 from core.primitives import IndexedPrimitives, Primitives
 from core.raster.edge_functions import EdgeFunctions, set_up_edges
-from core.raster.line_intensities import run_rightwards
-from core.raster.lines import has_intensities
 from core.raster.snapping import CornerPositions, WindowVertices, place_corners
-from core.raster.wireframe import Outlines, set_up_outlines
 from core.settings import Settings
 from core.timing import timed
-from core.visibility.ray_planes import RayPlanes, set_up_ray_planes
+
+if TYPE_CHECKING:
+    from core.clipped_outlines import OutlineClip
+    from core.raster.wireframe import Outlines
+    from core.visibility.ray_planes import RayPlanes
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,33 +160,41 @@ class Geometry:
             )
 
     @cached_property
-    def ray_planes(self) -> RayPlanes:
+    def ray_planes(self) -> "RayPlanes":
         """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
+        from core.visibility.ray_planes import set_up_ray_planes
+
         with timed(self.count):
             vertices = self.vertices
             clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
             return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None, self.shift)
 
     @cached_property
-    def outlines(self) -> Outlines | None:
+    def outlines(self) -> "Outlines | None":
         """The edges that a wireframe draws; ``None``: triangles are filled."""
         return self.whole_outlines if self.outline_clip is None else self.outline_clip.outlines
 
     @cached_property
-    def outline_clip(self) -> OutlineClip | None:
+    def outline_clip(self) -> "OutlineClip | None":
         """What line clipping did to the outlines; ``None``: they are drawn as they are."""
         method, whole = self.settings.line_clipping, self.whole_outlines
         if whole is None or method == "none":
             return None
+        from core.clipped_outlines import clip_outlines
+
         with timed(self.count):
             center: float = table.get("pixel_center", self.settings.pixel_center).function()
             return clip_outlines(whole, method, self.vertices.size, center)
 
     @cached_property
-    def whole_outlines(self) -> Outlines | None:
+    def whole_outlines(self) -> "Outlines | None":
         """The edges before line clipping; ``None``: triangles are filled."""
         if not table.get("polygon_mode", self.settings.polygon_mode).function():
             return None
+        from core.raster.line_intensities import run_rightwards
+        from core.raster.lines import has_intensities
+        from core.raster.wireframe import set_up_outlines
+
         with timed(self.count):
             outlines = set_up_outlines(
                 self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size

@@ -23,7 +23,6 @@ from core.raster.schedule import Raster
 from core.raster.snapping import WindowVertices, place_corners, place_vertices
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
-from core.surface import light_vertices
 from core.timing import timed
 
 __all__ = [
@@ -172,19 +171,26 @@ def corner_values(
     scene: AnyScene, vertices: VertexStage, settings: Settings, count: StageCount, triangle: Integers
 ) -> CornerValues:
     """Return what is interpolated over triangles (P,); the time goes to ``count``."""
+    if isinstance(scene, ClipScene):
+        find_values = partial(_given_values, scene)
+    else:
+        from core.vertex_light import light_vertices  # Triangles given in clip space come without light.
+
+        find_values = partial(light_vertices, scene, vertices, settings)
     with timed(count):
-        if isinstance(scene, ClipScene):
-            assert scene.attributes is not None
-            count_of_triangles, _, width = scene.attributes.shape
-            rows = scene.attributes.reshape(3 * count_of_triangles, width)
-            layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
-            values = CornerValues(rows, layout, own_corners(triangle))
-        else:
-            values = light_vertices(scene, vertices, settings, triangle)
+        values = find_values(triangle)
         if settings.interpolation != "flat":
             return values
         provoking = table.get("provoking", settings.provoking).function()
         return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
+
+
+def _given_values(scene: ClipScene, triangle: Integers) -> CornerValues:
+    """Return the attributes at the corners of triangles (P,)."""
+    assert scene.attributes is not None
+    count, _, width = scene.attributes.shape
+    layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
+    return CornerValues(scene.attributes.reshape(3 * count, width), layout, own_corners(triangle))
 
 
 def place(

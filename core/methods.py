@@ -4,13 +4,67 @@ A method is added by one function in the file of its idea under one decorator::
 
     @method("fill", "bounding-box", "Bounding box", source="Zwicker 2016, Binning", exact_for="every triangle")
     def bounding_box(edges, raster, block_size): ...
+
+and a new file by a line in ``METHOD_FILES``. A file is imported when the table is first asked for something that
+may stand in it, so that a program which draws one picture does not wait for the methods that it does not use.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+METHOD_FILES: dict[str, tuple[str, ...]] = {
+    "interpolation": ("core.fragments.interpolation", "core.fragments.corrected_affine"),
+    "provoking": ("core.fragments.interpolation",),
+    "depth": ("core.framebuffer.depth", "core.framebuffer.depth_formats", "core.framebuffer.fixed_depth"),
+    "line_clipping": (
+        "core.geometry.line_clip_records",
+        "core.geometry.cohen_sutherland",
+        "core.geometry.cyrus_beck",
+        "core.geometry.exact_line_clipping",
+        "core.geometry.liang_barsky",
+    ),
+    "pixel_center": ("core.raster.schedule",),
+    "line": (
+        "core.raster.bresenham",
+        "core.raster.dda",
+        "core.raster.diamond_exit",
+        "core.raster.rectangle_lines",
+        "core.raster.smooth_lines",
+    ),
+    "polygon_mode": ("core.raster.polygon_mode",),
+    "cull": ("core.geometry.culling",),
+    "clipping": ("core.geometry.polygon_clipping",),
+    "visibility": ("core.visibility.painters", "core.visibility.ray_casting"),
+    "blend": ("core.framebuffer.blending",),
+    "wrap": ("core.fragments.textures",),
+    "texture_filter": ("core.fragments.textures", "core.fragments.level_of_detail"),
+    "shading": ("core.fragments.shading",),
+    "fill": (
+        "core.raster.fills",
+        "core.raster.scanline",
+        "core.raster.scanline_lecture",
+        "core.raster.spans.fill",
+    ),
+    "antialiasing": (
+        "core.antialiased.centers",
+        "core.antialiased.supersampling",
+        "core.antialiased.exact_area",
+        "core.antialiased.multisampling",
+    ),
+    "resolve_filter": ("core.framebuffer.resolve",),
+    "fill_rule": ("core.raster.fill_rule",),
+    "coverage": (
+        "core.raster.float_formats",
+        "core.raster.inverse_format",
+        "core.raster.integer_formats",
+        "core.raster.exact_format",
+    ),
+}
+"""The modules in which each family's methods stand, in the order of the menus."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,45 +89,72 @@ class Method:
 
 
 class MethodTable:
-    """Methods by family, in the order of registration."""
+    """Methods by family, in the order of their files and in these as they are registered.
 
-    def __init__(self) -> None:
-        self._families: dict[str, dict[str, Method]] = {}
+    Parameters
+    ----------
+    files : mapping of str to tuple of str
+        The modules that register the methods of a family.
+    """
+
+    def __init__(self, files: Mapping[str, tuple[str, ...]]) -> None:
+        self._files = files
+        self._registered: dict[str, dict[str, Method]] = {family: {} for family in files}
 
     def __iter__(self) -> Iterator[Method]:
-        for methods in self._families.values():
-            yield from methods.values()
+        for family in self.families:
+            yield from self._all_of(family)
 
     def add(self, method: Method) -> None:
-        """Register ``method``; a name that is taken is refused with ValueError."""
-        methods = self._families.setdefault(method.family, {})
+        """Register ``method``; ValueError if its name is taken, or its file is none of its family's."""
+        methods, file = self._family(method.family), method.function.__module__
         if method.name in methods:
             raise ValueError(f"{method.family} has a method {method.name} already")
+        if file not in self._files[method.family]:
+            known = ", ".join(self._files[method.family])
+            raise ValueError(f"methods of {method.family} must stand in {known}, got {method.name} in {file}")
         methods[method.name] = method
 
     @property
     def families(self) -> tuple[str, ...]:
         """Names of the families."""
-        return tuple(self._families)
+        return tuple(self._files)
 
     def names(self, family: str) -> tuple[str, ...]:
         """Names of the methods of ``family``."""
-        return tuple(self._family(family))
+        return tuple(method.name for method in self._all_of(family))
 
     def get(self, family: str, name: str) -> Method:
         """Return one method, or raise ValueError with the names that there are."""
         methods = self._family(family)
         if name not in methods:
-            raise ValueError(f"{family} must be one of {', '.join(methods)}, got {name}")
+            self._import_until(family, name)
+        if name not in methods:
+            raise ValueError(f"{family} must be one of {', '.join(self.names(family))}, got {name}")
         return methods[name]
 
     def _family(self, family: str) -> dict[str, Method]:
-        if family not in self._families:
-            raise ValueError(f"setting must be one of {', '.join(self._families)}, got {family}")
-        return self._families[family]
+        """Return the methods of a family that are registered so far."""
+        if family not in self._files:
+            raise ValueError(f"setting must be one of {', '.join(self.families)}, got {family}")
+        return self._registered[family]
+
+    def _import_until(self, family: str, name: str) -> None:
+        """Import the files of a family until one of them has registered ``name``, or all are imported."""
+        for file in self._files[family]:
+            import_module(file)
+            if name in self._registered[family]:
+                return
+
+    def _all_of(self, family: str) -> list[Method]:
+        """Return all methods of a family; a file may have been imported before one that stands further up."""
+        methods, files = self._family(family), self._files[family]
+        for file in files:
+            import_module(file)
+        return sorted(methods.values(), key=lambda method: files.index(method.function.__module__))
 
 
-table = MethodTable()
+table = MethodTable(METHOD_FILES)
 """All methods of the program."""
 
 

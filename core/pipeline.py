@@ -27,7 +27,7 @@ from core.raster.wireframe import (
     interpolate_outlines,
 )
 from core.scene import AnyScene, ClipScene, Texture
-from core.settings import Settings
+from core.settings import Settings, import_methods
 from core.surface import shade_fragments
 from core.texture_slopes import texture_slopes
 
@@ -139,6 +139,7 @@ def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Int
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
+    import_methods(settings)
     antialiased = table.get("antialiasing", settings.antialiasing).function
     frame: Frame = antialiased(scene, settings, raster, chosen)
     return frame

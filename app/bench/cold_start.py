@@ -1,10 +1,8 @@
 """The first picture of a fresh process: the interpreter's start, the imports, and what a library does only once.
 
-A process reads the triangles from a file, draws them with one library, and writes the pixels to another file:
-``python -m app.bench.cold_start LIBRARY_MODULE TRIANGLES.npz PIXELS.npy``.
+What the process does stands in `app.bench.first_picture`.
 """
 
-import importlib
 import os
 import subprocess
 import sys
@@ -17,8 +15,11 @@ from types import ModuleType
 import numpy as np
 
 from app.bench.contender import Contender, Prepared, UnavailableError
+from app.bench.first_picture import ARRAYS, PIXELS
 from app.bench.records import Bytes, ColdStart, WindowTriangles
 
+CHILD = "app.bench.first_picture"
+"""The module that runs in the process."""
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -33,10 +34,14 @@ def contender(module: ModuleType, work: ColdStart) -> Contender | None:
 def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
     """Write the triangles where the processes will find them."""
     folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
-    triangles, pixels = folder / "triangles.npz", folder / "pixels.npy"
-    np.savez(triangles, corners=work.corners, depth=work.depth, colors=work.colors, size=work.size)
-    command = [sys.executable, "-P", "-m", __name__, module, str(triangles), str(pixels)]
+    for name in ARRAYS:
+        np.save(folder / f"{name}.npy", getattr(work, name))
+    pixels = folder / PIXELS
+    width, height = work.size
+    command = [sys.executable, "-P", "-m", CHILD, module, str(folder), str(width), str(height)]
     environment = dict(os.environ, PYTHONPATH=str(ROOT))
+    # The run that checks the picture leaves compiled files behind, as installing does for the other libraries.
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
 
     def run() -> Bytes:
         done = subprocess.run(command, env=environment, capture_output=True, text=True)
@@ -47,17 +52,3 @@ def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
         return drawn
 
     return Prepared(run)
-
-
-def draw_first(module: str, triangles: str, pixels: str) -> None:
-    """Draw what stands in one file with one library, and save the pixels to another."""
-    with np.load(triangles) as file:
-        width, height = file["size"].tolist()
-        work = WindowTriangles(file["corners"], file["depth"], file["colors"], (width, height))
-    warm: Contender = importlib.import_module(module).contender(work)
-    with ExitStack() as stack:
-        np.save(pixels, warm.prepare(stack).run())
-
-
-if __name__ == "__main__":
-    draw_first(*sys.argv[1:])

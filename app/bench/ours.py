@@ -8,7 +8,6 @@ from app.bench.contender import Contender, Prepared
 from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
 from app.bench.scenes import clip_scene, lights_of, mesh_of, method_names, view_of
 from core import Picture, Settings, draw_picture
-from core.raster.spans.lines import paint_lines
 
 LIBRARY = "Rasterscope"
 DISTRIBUTION = "numpy"
@@ -70,6 +69,8 @@ def account(picture: Picture) -> str:
 
 def prepare_lines(work: Lines) -> Prepared:
     """Hold the colours packed as the picture has them."""
+    from core.raster.spans.lines import paint_lines
+
     (width, height), columns = work.size, work.size[0] + ROW_FILLING
     opaque = np.full((len(work.colors), 4), 255, np.uint8)
     opaque[:, :3] = work.colors

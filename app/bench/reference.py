@@ -22,8 +22,12 @@ from app.bench.records import (
     WindowTriangles,
     Work,
 )
-from app.bench.scenes import plain_frame
+from app.bench.scenes import lights_of, mesh_of, method_names, view_of
+from core import Frame, Settings, render
 from core.arrays import Flags
+
+PLAIN = {"cull": "back", "fill": "bounding-box"}
+"""Settings whose pictures are the reference."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +130,11 @@ def _blended_reference(work: WindowTriangles) -> Reference:
         covered[at] = True
         fragment_count += len(cover.rows)
     return Reference(covered, rounded(colors), len(work.corners), fragment_count)
+
+
+def plain_frame(work: ViewedMesh) -> Frame:
+    """Draw a mesh with the plain methods."""
+    return render(view_of(work, mesh_of(work), lights_of(work)), Settings(**PLAIN, **method_names(work)))  # type: ignore[arg-type]
 
 
 def _mesh_reference(work: ViewedMesh) -> Reference:

@@ -3,11 +3,9 @@
 import numpy as np
 
 from app.bench.records import ViewedMesh, WindowTriangles
-from core import Camera, ClipScene, DirectionalLight, Frame, Material, Mesh, Scene, Settings, Texture, render
+from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 
 BLACK = np.array([0.0, 0.0, 0.0, 1.0])
-PLAIN = {"cull": "back", "fill": "bounding-box"}
-"""Settings whose pictures are the reference."""
 
 
 def clip_scene(work: WindowTriangles) -> ClipScene:
@@ -61,8 +59,3 @@ def method_names(work: WindowTriangles | ViewedMesh) -> dict[str, str]:
         return {"shading": "phong" if work.lighting.is_per_pixel else "gouraud"}
     names = {"interpolation": "flat" if work.is_flat else "perspective"}
     return names | ({"blend": "over", "visibility": "last-drawn"} if work.is_blended else {})
-
-
-def plain_frame(work: ViewedMesh) -> Frame:
-    """Draw a mesh with the plain methods."""
-    return render(view_of(work, mesh_of(work), lights_of(work)), Settings(**PLAIN, **method_names(work)))  # type: ignore[arg-type]

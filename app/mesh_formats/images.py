@@ -3,14 +3,17 @@
 import warnings
 from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PIL import Image, UnidentifiedImageError
 
 from core.arrays import Floats
 from core.framebuffer.display import from_display, linear_light
 from core.scene import Texture
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 PIXEL_LIMIT = 2**26
 """Most pixels of a texture: 8192 x 8192, which is 1 GiB as four float32 channels."""
@@ -38,6 +41,8 @@ def read_texture(path: Path) -> Texture:
 
 def decode_texture(content: bytes, name: str) -> Texture:
     """Return the bytes of an image file as a texture, or raise ImageError."""
+    from PIL import Image, UnidentifiedImageError  # Pillow takes a moment: not before there is an image.
+
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
@@ -49,7 +54,7 @@ def decode_texture(content: bytes, name: str) -> Texture:
         raise ImageError(str(problem)) from problem
 
 
-def texture_from_image(image: Image.Image, name: str) -> Texture:
+def texture_from_image(image: "Image.Image", name: str) -> Texture:
     """Return ``image`` as a texture of three channels, or four where it has transparency.
 
     Raises
@@ -60,6 +65,8 @@ def texture_from_image(image: Image.Image, name: str) -> Texture:
     if image.width * image.height > PIXEL_LIMIT:
         raise ImageError(f"has {image.width} x {image.height} pixels, more than the limit of {PIXEL_LIMIT}")
     if image.mode.startswith("I"):
+        from PIL import Image
+
         # 16 bits of grey: the upper 8 are kept.
         grey = (np.asarray(image).astype(np.int64) >> 8).clip(0, 255).astype(np.uint8)
         image = Image.fromarray(grey)

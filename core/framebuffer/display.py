@@ -104,15 +104,15 @@ def byte_table(thresholds: Singles) -> Words:
     u, l > 0) is one more, which is 0 in eight bits. Negative values and all other NaN are 0.
     """
     bits = thresholds.view(np.uint32).astype(np.int64)
-    first = np.arange(65536, dtype=np.int64) << 16
-    byte = np.searchsorted(bits, first, side="right")
-    has_threshold = np.searchsorted(bits, first + 0xFFFF, side="right") > byte
+    upper, lower = bits >> 16, bits & 0xFFFF
+    # With a lower half of 0 a threshold is reached by all values of its u, otherwise by all of the next u only.
+    is_between = lower > 0
+    byte = np.cumsum(np.bincount(upper + is_between, minlength=65536)[:65536])
     summand = byte << 16
-    lower_half = bits[byte[has_threshold]] - first[has_threshold]
-    summand[has_threshold] += 0x10000 - lower_half
+    summand[upper[is_between]] += 0x10000 - lower[is_between]
     summand[_INFINITY] = (255 << 16) + 0xFFFF
     summand[_INFINITY + 1 :] = 0
-    return read_only((summand - first).astype(np.uint32))
+    return read_only((summand - (np.arange(65536) << 16)).astype(np.uint32))
 
 
 @lru_cache(maxsize=1)

@@ -4,7 +4,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.arrays import checked
-from core.geometry import cohen_sutherland, cyrus_beck, exact_line_clipping, liang_barsky  # noqa: F401
 from core.geometry.line_clip_records import (
     LINE_CLIP_LIMIT,
     ClippedLines,

@@ -57,7 +57,11 @@ class ByteColors:
     """Offset of a pixel's centre."""
     name: ClassVar[Coloring] = "bytes"
     stage = "interpolate"
-    fits_layer = True
+
+    @property
+    def for_layer(self) -> "ByteColors":
+        """These, for a picture that is one layer: no pixel that is drawn is 0."""
+        return self
 
     def packed(self) -> IntegerPlanes:
         """Return the words of all triangles."""

@@ -1,4 +1,7 @@
-"""Draw a picture: choose by what the scene holds, draw, and say which way was taken."""
+"""Draw a picture: choose by what the scene holds, draw, and say which way was taken.
+
+A way that is not that of most pictures is imported when it is first taken: the first picture does not wait for it.
+"""
 
 from dataclasses import replace
 from functools import partial
@@ -8,19 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.antialiased.sample_counts import sample_count, side_of
-from core.antialiased.supersampling import finer_settings
 from core.arrays import Integers, read_only
 from core.frame import STAGES, StageCount
 from core.geometry_stages import process_geometry
 from core.methods import table
-from core.picture.blended import draw_blended
 from core.picture.job import Job, Words, encode
-from core.picture.multisampled import draw_multisampled
 from core.picture.opaque import draw_opaque
 from core.picture.palette import palette
 from core.picture.record import Coloring, Passing, Picture, Route
-from core.picture.supersampled import draw_supersampled
-from core.pipeline import draw
 from core.raster.number_format import number_format
 from core.raster.schedule import Raster, make_raster
 from core.raster.spans.arena import Arena
@@ -107,10 +105,14 @@ def draw_picture(
 
     keeps_depth = with_depth or depth_at is not None
     if not keeps_depth and _is_supersampled(settings):
+        from core.picture.supersampled import draw_supersampled
+
         draw_part = partial(draw_picture, plain_colors=plain_colors)
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
     depth = None
     if not keeps_depth and _is_multisampled(settings):
+        from core.picture.multisampled import draw_multisampled
+
         route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
     elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and keeps_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
@@ -128,8 +130,11 @@ def draw_picture(
 
 def _is_supersampled(settings: Settings) -> bool:
     """Tell whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
-    has_sides = bool(side_of(settings)) and settings.pixel_center == "half"
-    return has_sides and is_drawn_by_spans(finer_settings(settings))
+    if not side_of(settings) or settings.pixel_center != "half":
+        return False
+    from core.antialiased.supersampling import finer_settings
+
+    return is_drawn_by_spans(finer_settings(settings))
 
 
 def _is_multisampled(settings: Settings) -> bool:
@@ -148,6 +153,8 @@ def _draw_frame(
     depth_at: Integers | None,
 ) -> Picture:
     """Draw all buffers, and encode the colours."""
+    from core.pipeline import draw
+
     frame = draw(scene, settings, raster)
     with timed(frame.statistics["resolve"]):
         pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
@@ -160,6 +167,8 @@ def _draw_frame(
 
 def _draw_stacks(job: Job) -> tuple[Route, Passing]:
     """Draw every fragment in its turn."""
+    from core.picture.blended import draw_blended
+
     with job.timed("shade"):
         of_triangles = palette(job)
     blended = draw_blended(job, of_triangles)

@@ -1,24 +1,22 @@
-"""An opaque picture by spans: the cheapest colours with the right bytes, and no depth where there is one layer."""
+"""An opaque picture by spans: the cheapest colours with the right bytes, and no depth where there is one layer.
+
+The files of each way are imported when it is first taken, as in `core.picture.draw`.
+"""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from core.arrays import Integers, Singles, read_only
 from core.framebuffer.nearest import NearestFragments
-from core.picture.byte_colors import byte_colors
-from core.picture.cleared import all_pass_depth_test
-from core.picture.deferred import shade_visible
 from core.picture.job import Job
-from core.picture.layer import LayerColors, draw_layer
-from core.picture.lit.one_color import LitNormals, lit_normals
-from core.picture.lit.textured import LitTexture, lit_texture
 from core.picture.palette import PaletteColors, palette
 from core.picture.record import Route, Split
-from core.picture.textured import texture_colors
 from core.picture.visible import find_visible
 from core.scene import AnyScene, ClipScene, Mesh
 
-Colors = LayerColors | LitNormals | LitTexture
+if TYPE_CHECKING:
+    from core.picture.smooth_colors import SmoothColors
 
 FEW = 16
 """Triangles: so few are tried without depth, since it costs little."""
@@ -58,30 +56,30 @@ def draw_opaque(
     return replace(route, allowed=name if len(job.geometry.primitives) else PaletteColors.name), depth
 
 
-def _choose_colors(job: Job) -> Colors | None:
+def _choose_colors(job: Job) -> "PaletteColors | SmoothColors | None":
     """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
     with job.timed("shade"):
         of_triangles = palette(job)
         if of_triangles is not None:
             return PaletteColors(job.encode(of_triangles))
+    from core.picture.smooth_colors import smooth_colors
+
     with job.timed("interpolate"):
-        return byte_colors(job) or lit_normals(job) or lit_texture(job) or texture_colors(job)
+        return smooth_colors(job)
 
 
-def _draw_layer(job: Job, colors: Colors | None) -> Route | None:
+def _draw_layer(job: Job, colors: "PaletteColors | SmoothColors | None") -> Route | None:
     """Draw without depth, if that can be right; ``None``: it is not."""
-    if (
-        colors is None
-        or isinstance(colors, LitNormals | LitTexture)
-        or not colors.fits_layer
-        or not _may_be_one_layer(job)
-    ):
+    of_layer = None if colors is None else colors.for_layer
+    if of_layer is None or not _may_be_one_layer(job):
         return None
-    fragments = draw_layer(job, colors)
+    from core.picture.layer import draw_layer
+
+    fragments = draw_layer(job, of_layer)
     if fragments is None:
         _overlaps[_key(job.scene)] = True
         return None
-    return Route("layer", colors.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
+    return Route("layer", of_layer.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
 
 
 def _may_be_one_layer(job: Job) -> bool:
@@ -93,6 +91,8 @@ def _may_be_one_layer(job: Job) -> bool:
     is_likely = count <= FEW or (job.settings.cull != "none" and not isinstance(scene, ClipScene))
     if count > 1 and (not is_likely or _key(scene) in _overlaps):
         return False
+    from core.picture.cleared import all_pass_depth_test
+
     with job.timed("depth"):
         return all_pass_depth_test(geometry, job.depth_format)
 
@@ -101,12 +101,14 @@ def _key(scene: AnyScene) -> Mesh | ClipScene:
     return scene if isinstance(scene, ClipScene) else scene.meshes[0]
 
 
-def _draw_visible(job: Job, colors: Colors | None) -> tuple[NearestFragments, Route]:
+def _draw_visible(job: Job, colors: "PaletteColors | SmoothColors | None") -> tuple[NearestFragments, Route]:
     """Find what is seen, then colour it."""
     nearest, split = find_visible(job)
     with job.timed("resolve"):
         job.pixels.fill(job.background)
     if colors is None:
+        from core.picture.deferred import shade_visible
+
         return nearest, Route("words", "deferred", split, shade_visible(job, nearest))
     with job.timed(colors.stage):
         return nearest, Route("words", colors.name, split, colors.look_up(job, nearest))

@@ -68,9 +68,9 @@ class PaletteColors:
     stage = "resolve"
 
     @property
-    def fits_layer(self) -> bool:
-        """Whether all are opaque, so that a pixel that is drawn is never 0."""
-        return not bool((self.words < OPAQUE).any())
+    def for_layer(self) -> "PaletteColors | None":
+        """These, if all are opaque, so that a pixel that is drawn is never 0; else ``None``."""
+        return None if (self.words < OPAQUE).any() else self
 
     def packed(self) -> IntegerPlanes:
         """Return the colours as words that are the same all over the window."""

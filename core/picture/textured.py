@@ -31,7 +31,11 @@ class TextureColors:
 
     name: ClassVar[Coloring] = "texture"
     stage = "shade"
-    fits_layer = True
+
+    @property
+    def for_layer(self) -> "TextureColors":
+        """These, for a picture that is one layer: no pixel that is drawn is 0."""
+        return self
 
     def __init__(self, job: Job, texture: Texture) -> None:
         geometry = job.geometry

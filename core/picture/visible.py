@@ -16,7 +16,6 @@ from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.job import Job
 from core.picture.record import Split
-from core.pipeline import covered, fragment_depth
 from core.raster.spans.bands import BIG_AREA, bands, draw_band_words
 from core.raster.spans.packed import draw_words, word_block, word_spans
 from core.raster.spans.plane_words import DepthPlanes, draw_plane_words, plane_spans
@@ -111,6 +110,11 @@ def _draw_big(job: Job, words: Integers, planes: Planes, chosen: Integers) -> in
 
 def _one_by_one(job: Job, nearest: NearestFragments, chosen: Integers) -> int:
     """Look at the fragments of the ``chosen`` (C,) triangles; return how many there were."""
+    from core.pipeline import (
+        covered,
+        fragment_depth,
+    )  # Most pictures have no such triangle and do not wait for it.
+
     raster = job.raster
     total = 0
     for fragments in covered(job.geometry, job.settings, raster, job.counts, chosen):

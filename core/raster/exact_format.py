@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.methods import method
 from core.raster.number_format import Coefficients, Held, NumberFormat
 from core.raster.snapping import SUBPIXELS, CornerPositions
 
@@ -151,3 +152,15 @@ def decide_filtered(
 EXACT = ExactFormat("exact", object, "homogeneous", "exact", "", bounds_outward=True)
 EXACT_SNAPPED = ExactFormat("exact", object, "snapped", "exact", "", uses_lattice=True)
 """The referee of formats that snap: exact on snapped corners, whatever the signs of w."""
+
+
+@method(
+    "coverage",
+    "exact",
+    "Not snapped, exact",
+    source="J. R. Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997",
+    exact_for="every triangle in clip space; every shared edge",
+)
+def exact() -> NumberFormat:
+    """Return whole numbers of any length on the corners as they are."""
+    return EXACT

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from core.arrays import Flags, Floats
+from core.methods import method
 from core.raster.edge_functions import set_up_per_edge
 from core.raster.number_format import Coefficients, Held, NumberFormat
 from core.raster.snapping import CornerPositions, snap
@@ -58,3 +59,54 @@ FLOAT64 = Float64Format(
 )
 FLOAT32 = RoundedFormat("float32", np.float32, "rounded", "rounded", "float32", bounds_outward=True)
 FLOAT16 = RoundedFormat("float16", np.float16, "rounded", "rounded", "float16", bounds_outward=True)
+
+
+@method(
+    "coverage",
+    "snapped",
+    "Snapped to 1/256 pixel",
+    source="OpenGL 4.6, 14.6.1 and GPU practice; F. Giesen, Triangle rasterization in practice, 2013",
+    exact_for="corners within 65,536 pixels; every shared edge",
+)
+def snapped() -> NumberFormat:
+    """Return float64 on corners snapped to 1/256 pixel, which holds every number exactly."""
+    return SNAPPED
+
+
+@method(
+    "coverage",
+    "float64",
+    "Not snapped, float64",
+    source="M. Olano, T. Greer, Triangle scan conversion using 2D homogeneous coordinates, 1997",
+    exact_for="no promise: each edge is rounded by itself",
+    breaks_where="a pixel centre within rounding of an edge",
+)
+def float64() -> NumberFormat:
+    """Return float64 on the corners as they are."""
+    return FLOAT64
+
+
+@method(
+    "coverage",
+    "float32",
+    "Not snapped, float32",
+    source="IEEE 754-2019, binary32; Goldberg 1991",
+    exact_for="no promise: 24 bits for every product and sum",
+    breaks_where="a pixel centre near an edge that is long or far away: holes and double hits on shared edges",
+)
+def float32() -> NumberFormat:
+    """Return float32 on the corners as they are."""
+    return FLOAT32
+
+
+@method(
+    "coverage",
+    "float16",
+    "Not snapped, float16",
+    source="IEEE 754-2019, binary16; Goldberg 1991",
+    exact_for="small whole numbers: products up to 2,048",
+    breaks_where="images of more than a few dozen pixels; products above 65,504 are infinite",
+)
+def float16() -> NumberFormat:
+    """Return float16 on the corners as they are."""
+    return FLOAT16

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Flags, Floats
+from core.methods import method
 from core.raster.number_format import Held, NumberFormat
 from core.raster.snapping import SUBPIXELS, CornerPositions, snap
 
@@ -48,3 +49,31 @@ FIXED_24_8 = FixedFormat(
 INT64 = FixedFormat("int64", np.int64, "snapped", "wrapped", "fixed-48.16", limit=2.0**55).scaled(
     -8, -16, -16
 )
+
+
+@method(
+    "coverage",
+    "fixed-24.8",
+    "Fixed point 24.8, int32",
+    source="F. Giesen, Triangle rasterization in practice, 2013; fixed-point rasterizers of the 1990s",
+    exact_for="triangles and pixels less than 128 pixels from each other",
+    breaks_where="a value of 32,768 square pixels or more wraps around: pixels are lost, others drawn outside",
+    needs=("projected",),
+)
+def fixed_24_8() -> NumberFormat:
+    """Return whole numbers of 1/256 pixel in 32 bits."""
+    return FIXED_24_8
+
+
+@method(
+    "coverage",
+    "int64",
+    "Whole 1/256 pixels, int64",
+    source="F. Giesen, Triangle rasterization in practice, 2013; softpipe and llvmpipe",
+    exact_for="triangles and pixels less than 8,388,608 pixels from each other",
+    breaks_where="a value of 2^47 square pixels or more wraps around",
+    needs=("projected",),
+)
+def int64() -> NumberFormat:
+    """Return whole numbers of 1/256 pixel in 64 bits."""
+    return INT64

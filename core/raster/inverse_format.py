@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
+from core.methods import method
 from core.raster.number_format import Coefficients, NumberFormat
 from core.raster.snapping import CornerPositions
 
@@ -85,3 +86,16 @@ def inverse_coefficients(matrix: list[list[float]]) -> tuple[list[list[float]], 
 
 
 INVERSE = InverseFormat("inverse", np.float64, "homogeneous", "exact", "float64", bounds_outward=True)
+
+
+@method(
+    "coverage",
+    "inverse",
+    "3x3 inverse, float64",
+    source="Olano and Greer 1997, as often programmed: with the inverse in place of the adjugate",
+    exact_for="no promise: each triangle divides its edges by a determinant of its own",
+    breaks_where="shared edges (holes and double hits), slivers and triangles seen edge-on",
+)
+def inverse() -> NumberFormat:
+    """Return float64 by elimination on the corners as they are."""
+    return INVERSE

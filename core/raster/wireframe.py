@@ -1,4 +1,4 @@
-"""Polygon mode: triangles filled, or drawn as their edges.
+"""Outlines: triangles drawn as their edges.
 
 An outline is made of line segments, drawn by any method of the family ``line`` without their last pixel, as closed
 loops are. Edges that clipping made, and the diagonals of its fans, are no part of it. Two triangles that share an edge
@@ -18,7 +18,6 @@ from functools import partial
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
-from core.methods import method
 from core.primitives import Primitives
 from core.raster.coverage import Fragments, join_fragments
 from core.raster.cut_lines import draw_cut_lines
@@ -35,26 +34,6 @@ BATCH = 1 << 20
 """Pixels of segments that are drawn in one go, about."""
 SIDE_STARTS, SIDE_ENDS = np.array([0, 1, 2]), np.array([1, 2, 0])
 """The corners between which the sides of a triangle run, in drawing order."""
-
-
-@method("polygon_mode", "fill", "Filled", source="OpenGL 4.6, 14.6.4", exact_for="every triangle")
-def filled() -> bool:
-    """Return whether only the edges are drawn."""
-    return False
-
-
-@method(
-    "polygon_mode",
-    "wireframe",
-    "Wireframe",
-    source="OpenGL 4.6, 14.6.4 (POLYGON_MODE LINE); Pellacini, Interactive Graphics, lines",
-    exact_for="outlines of triangles in front of the eye, as exact as the line method",
-    breaks_where="edges seen end-on and triangles seen edge-on vanish; edges that two triangles share are drawn twice",
-    needs=("projected",),
-)
-def outlined() -> bool:
-    """Return whether only the edges are drawn."""
-    return True
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,52 +1,37 @@
 """Traces: what every stage did, as rows of numbers that a cursor moves over.
 
-``trace(scene, settings, triangle)`` runs nothing; a stage is traced when it is first looked at.
+``trace(scene, settings, triangle)`` runs nothing; a stage is traced when it is first looked at,
+and what traces it is imported no earlier.
 """
 
-from collections.abc import Callable
-from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from core.frame import STAGES
+from core.on_demand import import_on_demand
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
-from core.trace.binning import trace_bin
-from core.trace.blend import trace_blend
-from core.trace.clip import trace_clip
-from core.trace.cull import trace_cull
-from core.trace.depth import trace_depth
-from core.trace.edges import trace_edges
-from core.trace.interpolate import trace_interpolate
-from core.trace.raster import trace_raster
-from core.trace.resolve import trace_resolve
-from core.trace.samples import trace_samples
-from core.trace.shade import trace_shade
-from core.trace.source import TraceSource
-from core.trace.stage_trace import BufferTrack, Explanation, StageTrace
-from core.trace.transform import trace_transform
 
-TRACERS: dict[str, Callable[[TraceSource], StageTrace]] = {
-    "transform": trace_transform,
-    "cull": trace_cull,
-    "clip": trace_clip,
-    "edges": trace_edges,
-    "bin": trace_bin,
-    "raster": trace_raster,
-    "interpolate": trace_interpolate,
-    "shade": trace_shade,
-    "depth": trace_depth,
-    "blend": trace_blend,
-    "resolve": trace_resolve,
-}
+if TYPE_CHECKING:
+    from core.trace.source import TraceSource
+    from core.trace.stage_trace import BufferTrack, Explanation, StageTrace
+else:
+    __getattr__ = import_on_demand(
+        globals(),
+        BufferTrack="core.trace.stage_trace",
+        Explanation="core.trace.stage_trace",
+        StageTrace="core.trace.stage_trace",
+        TraceSource="core.trace.source",
+    )
 
 
 class Trace:
     """All stages of one run; each is traced when it is first asked for."""
 
-    def __init__(self, source: TraceSource) -> None:
+    def __init__(self, source: "TraceSource") -> None:
         self.source = source
         self._stages: dict[str, StageTrace] = {}
 
-    def stage(self, name: str) -> StageTrace:
+    def stage(self, name: str) -> "StageTrace":
         """Return the trace of a stage of ``core.STAGES``.
 
         Raises
@@ -54,23 +39,13 @@ class Trace:
         ValueError
             If there is no such stage.
         """
-        if name not in TRACERS:
+        if name not in STAGES:
             raise ValueError(f"stage must be one of {', '.join(STAGES)}, got {name}")
         if name not in self._stages:
-            self._stages[name] = self._run(name)
+            from core.trace.tracers import trace_stage
+
+            self._stages[name] = trace_stage(self.source, name)
         return self._stages[name]
-
-    def _run(self, name: str) -> StageTrace:
-        """Trace a stage: of several samples a pixel, the stages before they are resolved have rows for each of them.
-
-        Exact areas have their own rows where they are resolved; before, the pixels' centres are followed.
-        """
-        source, antialiasing = self.source, self.source.settings.antialiasing
-        if name == "resolve" or antialiasing == "none":
-            return TRACERS[name](source)
-        if antialiasing == "area":
-            return TRACERS[name](replace(source, settings=replace(source.settings, antialiasing="none")))
-        return trace_samples(source, name, TRACERS[name])
 
 
 def trace(
@@ -103,6 +78,8 @@ def trace(
         raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
     if before not in ("earlier", "cleared"):
         raise ValueError(f"before must be earlier or cleared, got {before}")
+    from core.trace.source import TraceSource
+
     source = TraceSource(scene, settings or Settings(), triangle, region, before)
     if min(source.raster.shape) <= 0:
         width, height = scene.size

@@ -14,10 +14,10 @@ from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.listing import Listing, listing
 from core.scene import ClipScene, Scene, Texture
 from core.steps import Operation, Steps, ends_of
-from core.surface import material_of, viewpoint
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
+from core.vertex_light import material_of, viewpoint
 
 TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {
     "nearest": nearest_color,

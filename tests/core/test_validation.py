@@ -273,15 +273,24 @@ def test_every_method_says_what_it_is(row: Method) -> None:
 
 
 def test_a_name_is_registered_once() -> None:
-    methods = MethodTable()
-    row = Method("fill", "blocks", "Blocks", print, "source", "everything")
+    methods = MethodTable({"fill": (__name__,)})
+    row = Method("fill", "blocks", "Blocks", test_a_name_is_registered_once, "source", "everything")
     methods.add(row)
     with pytest.raises(ValueError, match="fill has a method blocks already"):
         methods.add(row)
     assert methods.families == ("fill",)
-    assert list(methods) == [row]
+    assert methods.get("fill", "blocks") is row
     with pytest.raises(ValueError, match="setting must be one of fill, got cull"):
         methods.get("cull", "none")
+
+
+def test_a_method_must_stand_in_a_file_of_its_family() -> None:
+    methods = MethodTable({"fill": ("core.raster.fills", "core.raster.scanline")})
+    row = Method("fill", "blocks", "Blocks", test_a_name_is_registered_once, "source", "everything")
+    with pytest.raises(
+        ValueError, match=r"of fill must stand in core\.raster\.fills, core\.raster\.scanline, got blocks in"
+    ):
+        methods.add(row)
 
 
 def test_a_listing_is_the_source_without_its_labels() -> None:

@@ -53,6 +53,8 @@ class LitTexture:
     sampler: SingleSampler
     name: ClassVar[Coloring] = "lit-texture"
     stage = "shade"
+    for_layer: ClassVar[None] = None
+    """None: they light what is seen once it is known, so a picture has its depth first."""
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""

@@ -16,8 +16,9 @@ from core.framebuffer.pixel_pieces import SQUARE
 from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.framebuffer.resolve import weighted_mean
 from core.methods import table
-from core.trace import TRACERS, StageTrace, Trace, TraceSource
+from core.trace import StageTrace, Trace, TraceSource
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
+from core.trace.tracers import TRACERS
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.depth_listings import check_blend, check_depth
 from tests.core.trace.executed_rows import equal, rows_of_kind

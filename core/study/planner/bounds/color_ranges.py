@@ -19,7 +19,7 @@ from core.study.planner.bounds.light_ranges import Cones, LightRange, Reflectanc
 from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around
 from core.study.planner.look.touched import MARGIN, Touched
 from core.study.planner.watching import Pause, unpaused
-from core.surface import viewpoint
+from core.vertex_light import viewpoint
 
 Levels = tuple[Floats, Floats]
 """The least and the largest level of detail (Q,)."""

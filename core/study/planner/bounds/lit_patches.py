@@ -12,7 +12,7 @@ from core.scene import Scene
 from core.study.planner.bounds.color_ranges import MOST_WEIGHT, materials, weights_below_zero
 from core.study.planner.bounds.light_ranges import Reflectances
 from core.study.planner.look.touched import Touched
-from core.surface import viewpoint
+from core.vertex_light import viewpoint
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from core.study.planner.bounds.lit_patches import LitPatches, lit_primitives, no
 from core.study.planner.look.closer import sample_pairs
 from core.study.planner.look.patterns import Pattern
 from core.study.planner.look.touched import Touched, is_cut
-from core.surface import viewpoint
+from core.vertex_light import viewpoint
 
 MOST = 2048
 """Pairs that are looked at sample by sample: those of the largest bounds."""

@@ -19,7 +19,7 @@ from core.study.stability.fragments.lit_cases import clip_corners, faces_the_eye
 from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
 from core.study.stability.record import Axis, ExperimentInfo
 from core.study.stability.smaller.meshes import LIT_MESHES
-from core.surface import viewpoint
+from core.vertex_light import viewpoint
 
 SIZE = (65, 3)
 """An odd number of columns: the centre of the middle one is where opposite normals interpolate to 0."""

@@ -1,0 +1,43 @@
+"""What the window imports before Qt, and what neither the window nor a first picture waits for."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.cli_window import BEFORE_QT
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def imported_by(code: str) -> set[str]:
+    """Run Python code in an interpreter of its own, and return the packages and modules that it has imported."""
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", f"{code}\nimport sys\nprint(*sys.modules, sep='\\n')"],
+        env=dict(os.environ, PYTHONPATH=str(ROOT)),
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return set(done.stdout.split())
+
+
+@pytest.mark.parametrize("module", BEFORE_QT)
+def test_what_is_imported_before_qt_needs_no_qt(module: str) -> None:
+    imported = imported_by(f"import {module}")
+    assert module in imported
+    assert not {"PySide6", "shiboken6", "pyqtgraph"} & imported
+
+
+def test_a_scene_opens_without_pillow_and_trimesh() -> None:
+    imported = imported_by("from app.open_any import open_any; open_any('cube')")
+    assert "app.mesh_formats.images" in imported
+    assert not {"PIL", "trimesh"} & imported
+
+
+def test_the_process_of_the_first_picture_imports_little() -> None:
+    imported = imported_by("import app.bench.first_picture")
+    assert "app.bench.records" in imported
+    assert not {"core", "subprocess", "tempfile", "zipfile"} & imported

@@ -1,0 +1,133 @@
+"""What is imported when: the first picture waits for nothing that it does not use, and nothing is missed later."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import core
+from core.methods import METHOD_FILES, table
+from core.settings import Settings, families
+
+ROOT = Path(__file__).resolve().parents[2]
+DRAW = """
+import numpy as np
+from core import ClipScene, Settings, draw_picture
+clip = np.array([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], float)
+scene = ClipScene(clip, np.ones((1, 3, 4)), (8, 8))
+print(draw_picture(scene, Settings(cull="back", interpolation="flat", depth="fixed-38")).route.color)
+"""
+UNUSED = (
+    "core.antialiased.centers",
+    "core.fragments.lighting",
+    "core.fragments.textures",
+    "core.framebuffer.blending",
+    "core.geometry.line_clipping",
+    "core.picture.blended",
+    "core.picture.lit",
+    "core.picture.multisampled",
+    "core.picture.smooth_colors",
+    "core.picture.supersampled",
+    "core.pipeline",
+    "core.raster.coverage",
+    "core.raster.lines",
+    "core.raster.wireframe",
+    "core.steps",
+    "core.study",
+    "core.trace.source",
+    "core.trace.tracers",
+    "core.visibility.ray_casting",
+    "core.why",
+)
+"""Parts of the core that a picture of plain triangles has no use for."""
+ON_DEMAND = (
+    "ClippedLines",
+    "Picture",
+    "clip_lines",
+    "draw_lines",
+    "draw_picture",
+    "draw_triangles",
+    "render",
+)
+
+
+def run_fresh(code: str) -> list[str]:
+    """Run Python code in an interpreter of its own, and return the lines that it prints."""
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", code],
+        cwd=ROOT,
+        env=dict(os.environ, PYTHONPATH=str(ROOT)),
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def test_the_first_picture_imports_nothing_that_it_does_not_use() -> None:
+    route, *imported = run_fresh(DRAW + "import sys\nprint(*sys.modules, sep='\\n')")
+    assert route == "palette"
+    assert "core.picture.opaque" in imported
+    assert not set(UNUSED) & set(imported)
+
+
+@pytest.mark.parametrize("name", UNUSED)
+def test_what_is_not_imported_is_there(name: str) -> None:
+    path = ROOT.joinpath(*name.split("."))
+    assert path.with_suffix(".py").is_file() or (path / "__init__.py").is_file()
+
+
+def test_every_file_with_methods_stands_in_the_table() -> None:
+    found = {
+        (family, ".".join(path.relative_to(ROOT).with_suffix("").parts))
+        for path in (ROOT / "core").rglob("*.py")
+        for family in re.findall(r'^@method\(\s*"(\w+)"', path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    assert found == {(family, file) for family, files in METHOD_FILES.items() for file in files}
+
+
+def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
+    code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
+    code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
+    imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
+    assert {"core.framebuffer.blending", "core.visibility.painters", "core.raster.float_formats"} <= set(
+        imported
+    )
+    assert "core.raster.exact_format" not in imported
+
+
+def test_defaults_are_methods_of_the_table() -> None:
+    settings = Settings()
+    assert all(table.get(family, getattr(settings, family)).name for family in families())
+
+
+def test_methods_keep_their_order_whatever_is_imported_first() -> None:
+    code = "import core.raster.spans.fill; from core.methods import table; print(*table.names('fill'))"
+    assert run_fresh(code) == [" ".join(table.names("fill"))]
+    assert table.names("fill")[-1] == "spans"
+
+
+def test_a_name_that_is_not_there_is_told_with_those_of_files_not_imported_yet() -> None:
+    code = "from core import Settings\ntry: Settings(visibility='guess')\nexcept ValueError as error: print(error)"
+    assert run_fresh(code) == [f"visibility must be one of {', '.join(table.names('visibility'))}, got guess"]
+
+
+@pytest.mark.parametrize("name", ON_DEMAND)
+def test_names_that_are_imported_on_demand_are_told_and_found(name: str) -> None:
+    code = f"import core; print('{name}' in dir(core), '{name}' in vars(core)); from core import {name}"
+    assert run_fresh(code + f"; print(core.{name} is {name})") == ["True False", "True"]
+
+
+def test_trace_is_the_function_whatever_was_imported_before() -> None:
+    code = (
+        "import core.trace.tracers; from core import trace; print(trace.__qualname__, type(trace).__name__)"
+    )
+    assert run_fresh(code) == ["trace function"]
+
+
+def test_a_name_that_the_core_does_not_have() -> None:
+    with pytest.raises(AttributeError, match="module 'core' has no attribute 'draw_circle'"):
+        core.draw_circle  # noqa: B018
