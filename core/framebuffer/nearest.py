@@ -7,6 +7,7 @@ equally near ones the one drawn first: exactly what testing them one by one keep
 (later primitives first << bits) | nearness. ``numpy.minimum.at`` takes about 2 ns a fragment.
 """
 
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -15,7 +16,9 @@ from core.arrays import Integers
 from core.framebuffer.depth import DepthFormat, Stored
 
 BLOCK = 1 << 15
-"""Pixels that are read at once: their numbers stay in the processor's cache."""
+"""Pixels that are worked on together: their numbers stay in the processor's cache."""
+READ_AT_ONCE = 8 * BLOCK
+"""Pixels among which those are looked for that something is seen at."""
 
 
 class NearestFragments:
@@ -59,6 +62,18 @@ class NearestFragments:
         else:
             key = ((self._last - primitive) << self._format.nearness_bits) | nearness
         np.minimum.at(self.keys, pixel, key)
+
+    def seen(self) -> Iterator[tuple[Integers, Integers]]:
+        """Yield the places that something is seen at (V,), and the primitive there (V,), up to `BLOCK` at a time.
+
+        They come from the first to the last, in few parts even where little is seen: work on a part has its fixed cost.
+        """
+        for first in range(0, len(self.keys), READ_AT_ONCE):
+            place, primitive = self.seen_in(slice(first, first + READ_AT_ONCE))
+            part_count = -(-len(place) // BLOCK)
+            for part in range(part_count):
+                at = slice(len(place) * part // part_count, len(place) * (part + 1) // part_count)
+                yield place[at], primitive[at]
 
     def seen_in(self, part: slice) -> tuple[Integers, Integers]:
         """Return the places, within ``part``, that something is seen at (V,), and the primitive there (V,)."""

@@ -25,7 +25,7 @@ from core.picture.byte_errors import (
     product_error,
 )
 from core.picture.byte_words import FIELDS, unpack
-from core.picture.job import Job, Words, blocks
+from core.picture.job import Job, Words
 from core.picture.record import Coloring
 from core.raster.spans.bands import Strip
 from core.surface import shade_fragments
@@ -102,8 +102,7 @@ class ByteColors:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         planes = self.packed()
         seen_count = 0
-        for part in blocks(len(job.pixels)):
-            place, primitive = nearest.seen_in(part)
+        for place, primitive in nearest.seen():
             seen_count += len(place)
             word = planes.at(primitive, *job.raster.position(place))
             job.pixels[place] = unpack(word, job.arena)

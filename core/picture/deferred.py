@@ -2,20 +2,17 @@
 
 from core.framebuffer.nearest import NearestFragments
 from core.picture.fragment_colors import FragmentColors
-from core.picture.job import Job, blocks
+from core.picture.job import Job
 
 
 def shade_visible(job: Job, nearest: NearestFragments) -> int:
     """Write the pixels that something is seen at, and return how many there are; the others keep what they have."""
     colors = FragmentColors(job)
     seen_count = 0
-    for part in blocks(len(job.pixels)):
-        with job.timed("depth"):
-            place, primitive = nearest.seen_in(part)
-        if not len(place):
-            continue
-        seen_count += len(place)
-        color = colors.at(primitive, *job.raster.position(place))
-        with job.timed("resolve"):
-            job.pixels[place] = job.encode(color)
+    with job.timed("depth"):
+        for place, primitive in nearest.seen():
+            seen_count += len(place)
+            color = colors.at(primitive, *job.raster.position(place))
+            with job.timed("resolve"):
+                job.pixels[place] = job.encode(color)
     return seen_count

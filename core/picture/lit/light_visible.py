@@ -15,7 +15,7 @@ from core.arrays import Flags, Integers, Singles
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import IntegerPlanes
 from core.picture.fragment_colors import FragmentColors
-from core.picture.job import Job, Words, blocks
+from core.picture.job import Job, Words
 from core.picture.lit.packed_normals import unit_normals
 from core.picture.lit.pixel_light import PixelLight, lit_pixels
 
@@ -38,10 +38,7 @@ class LitPlanes:
         """Write the lit colour of what is seen at the (H*W,) pixels, and return how many are seen; the others stay."""
         seen_count = 0
         doubtful: list[tuple[Integers, Integers]] = []
-        for part in blocks(len(job.pixels)):
-            place, primitive = nearest.seen_in(part)
-            if not len(place):
-                continue
+        for place, primitive in nearest.seen():
             seen_count += len(place)
             column, row = job.raster.position(place)
             color = albedo(primitive, column, row)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.framebuffer.depth import run_depth_tests
-from core.framebuffer.nearest import NearestFragments
+from core.framebuffer.nearest import BLOCK, READ_AT_ONCE, NearestFragments
 from core.framebuffer.stacks import stack_fragments
 from core.methods import table
 
@@ -76,3 +76,20 @@ def test_two_million_triangles_still_fit_the_key() -> None:
         stored = np.full(2, 0.5, np.float32)
         nearest.add(np.zeros(2, np.int64), np.array([0, count - 1]), stored)
         assert nearest.resolve()[1].tolist() == [expected]
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.3, 1.0])
+def test_what_is_seen_comes_in_order_and_in_few_parts(share: float) -> None:
+    count = 3 * READ_AT_ONCE + 17
+    rng = np.random.default_rng(7)
+    pixel = np.flatnonzero(rng.random(count) < share)
+    primitive = np.sort(rng.integers(0, 500, len(pixel)))
+    nearest = NearestFragments(count, 500, table.get("depth", "z-float32").function(), True)
+    nearest.add(pixel, primitive, np.full(len(pixel), 0.25, np.float32))
+    parts = list(nearest.seen())
+    empty = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
+    found_place, found_primitive = (np.concatenate(of) for of in zip(*(parts or empty), strict=True))
+    assert np.array_equal(found_place, pixel)
+    assert np.array_equal(found_primitive, primitive)
+    assert all(0 < len(place) <= BLOCK for place, _ in parts)
+    assert len(parts) <= len(pixel) / BLOCK + 4
