@@ -40,7 +40,10 @@ def stack_fragments(pixel: Integers) -> PixelStacks:
 
 def stacks_of(pixel: Integers, fragment: Integers) -> PixelStacks:
     """Return the stacks of fragments (F,) that are sorted by pixel (F,), then by drawing order."""
-    bottom = np.flatnonzero(np.diff(pixel, prepend=-1))
+    begins = np.empty(len(pixel), bool)
+    begins[:1] = True
+    np.not_equal(pixel[1:], pixel[:-1], out=begins[1:])
+    bottom = np.flatnonzero(begins)
     height = np.diff(bottom, append=len(pixel))
     order, higher = largest_first(height)
     bottom = bottom.take(order)

@@ -1,6 +1,7 @@
 """Transparent triangles: every fragment in its turn, pixel by pixel.
 
-The spans give the fragments in any order; sorted by pixel and number of the triangle they stand in drawing order.
+Spans taken triangle by triangle give the fragments in drawing order; a stable sort puts those of a pixel on top of
+each other.
 Depth test and blending then go layer by layer (``stacks``), by the rules of every other picture.
 """
 
@@ -13,7 +14,6 @@ from core.arrays import Flags, Floats, Integers, Singles
 from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import run_depth_tests
 from core.framebuffer.stacks import stacks_of
-from core.integer_planes import IntegerPlanes
 from core.methods import table
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, blocks
@@ -21,7 +21,7 @@ from core.picture.record import Split
 from core.picture.visible import chunks
 from core.pipeline import covered, fragment_depth
 from core.raster.coverage import Fragments
-from core.raster.spans.packed import list_words, word_spans
+from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
 from core.sorting import radix_order
 
 STRIP_FRAGMENTS = 1 << 17
@@ -63,62 +63,58 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
 
 def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
     """Return the blended colours of a strip, (h*W, 4) float32, its fragments, those blended, and their pixels."""
-    geometry, raster = job.geometry, job.raster
+    geometry = job.geometry
     pixel, primitive = _fragments(job)
+    count, passes = len(pixel), None
     with job.timed("depth"):
-        # Both in one number, as short as can be: pixel first, then drawing order.
-        bits = max(len(geometry.primitives) - 1, 0).bit_length()
-        order = radix_order((pixel << bits) | primitive)
-        pixel, primitive = pixel.take(order), primitive.take(order)
-        fragments = Fragments(primitive, *raster.position(pixel))
-        passes = None
         is_tested = geometry.uses_depth_test or job.depth_format.quantity != "z"
         if is_tested or not geometry.is_in_range.all():
-            fragments, pixel, passes = _test_depth(job, fragments, pixel)
+            pixel, primitive, passes = _test_depth(job, pixel, primitive)
         stacks = stacks_of(pixel, np.arange(len(pixel)))
     if palette is not None:
-        source, number = np.ascontiguousarray(palette.T).T, fragments.primitive
+        source, number = np.ascontiguousarray(palette.T).T, primitive
     elif passes is None:
-        source, number = _colors(job, fragments), np.arange(len(pixel))
+        source, number = _colors(job, pixel, primitive), np.arange(len(pixel))
     else:
-        source, number = _colors(job, fragments.select(passes)), np.cumsum(passes) - 1
+        source, number = _colors(job, pixel[passes], primitive[passes]), np.cumsum(passes) - 1
     with job.timed("blend"):
         color = np.empty((len(job.pixels), 4), np.float32)
         color[:] = job.scene.background
         rule = table.get("blend", job.settings.blend).function
         blend_stacks(color, source, number, stacks, passes, rule)
-    blended = pixel if passes is None else pixel[passes]
+    if passes is None:
+        return color, (count, len(pixel), len(stacks.pixel))
+    blended = pixel[passes]
     visible = int(np.count_nonzero(blended[1:] != blended[:-1])) + min(len(blended), 1)
-    return color, (len(order), len(blended), visible)
+    return color, (count, len(blended), visible)
 
 
-def _test_depth(job: Job, fragments: Fragments, pixel: Integers) -> tuple[Fragments, Integers, Flags]:
-    """Return the fragments in depth range, their pixels, and which of them pass the depth test."""
+def _test_depth(job: Job, pixel: Integers, primitive: Integers) -> tuple[Integers, Integers, Flags]:
+    """Return pixel and primitive (F,) of the fragments in depth range, and which of them pass the depth test."""
     depth_format = job.depth_format
+    fragments = Fragments(primitive, *job.raster.position(pixel))
     _, keeps, stored = fragment_depth(job.geometry, fragments, job.raster, depth_format)
     if not keeps.all():
-        fragments, stored, pixel = fragments.select(keeps), stored[keeps], pixel[keeps]
+        pixel, primitive, stored = pixel[keeps], primitive[keeps], stored[keeps]
     stacks = stacks_of(pixel, np.arange(len(pixel)))
     cleared = np.full(len(job.pixels), depth_format.cleared, depth_format.stored_type)
     tests = run_depth_tests(stored, stacks, cleared, depth_format, job.geometry.uses_depth_test)
-    return fragments, pixel, tests.passes
+    return pixel, primitive, tests.passes
 
 
 def _fragments(job: Job) -> tuple[Integers, Integers]:
-    """Return pixel and primitive (F,) int64 of all fragments, in any order."""
+    """Return pixel and primitive (F,) int64 of all fragments, sorted by pixel, then by drawing order."""
     geometry, raster = job.geometry, job.raster
     count = len(geometry.primitives)
-    # A word that is the number of the triangle at every pixel.
-    level = np.zeros(count, np.int64)
-    numbers = IntegerPlanes(np.arange(count), level, level)
     none = np.empty(0, np.int64)
     pixels, primitives = [none], [none]
     for first, end in chunks(count):
         with job.timed("bin"):
             lanes = job.lanes(first, end, geometry.is_projected)
         with job.timed("raster"):
-            spans = word_spans(numbers.part(first, end), lanes, raster, job.owners, job.arena)
-            pixel, primitive = list_words(spans)
+            rows = rows_in_order(lanes, end - first, raster, job.owners, job.arena)
+            pixel, primitive = pixels_of_rows(rows, raster)
+            primitive += first
             pixels.append(pixel)
             primitives.append(primitive)
     rest = np.flatnonzero(~geometry.is_projected)
@@ -126,13 +122,17 @@ def _fragments(job: Job) -> tuple[Integers, Integers]:
         for fragments in covered(geometry, job.settings, raster, job.counts, rest):
             pixels.append(raster.index(fragments.column, fragments.row))
             primitives.append(fragments.primitive)
-    return np.concatenate(pixels), np.concatenate(primitives)
+    with job.timed("depth"):
+        pixel, primitive = np.concatenate(pixels), np.concatenate(primitives)
+        # Spans come in drawing order; what does not is sorted by both, in one number as short as can be.
+        bits = max(count - 1, 0).bit_length()
+        order = radix_order((pixel << bits) | primitive if len(rest) else pixel)
+        return pixel.take(order), primitive.take(order)
 
 
-def _colors(job: Job, fragments: Fragments) -> Floats:
-    """Return the colours (F, 4) float64 of fragments."""
-    colors, source = FragmentColors(job), np.empty((4, len(fragments))).T
-    for part in blocks(len(fragments)):
-        at = (fragments.primitive[part], fragments.column[part], fragments.row[part])
-        source[part] = colors.at(*at)
+def _colors(job: Job, pixel: Integers, primitive: Integers) -> Floats:
+    """Return the colours (F, 4) float64 of fragments of primitives (F,) at pixels (F,)."""
+    colors, source = FragmentColors(job), np.empty((4, len(pixel))).T
+    for part in blocks(len(pixel)):
+        source[part] = colors.at(primitive[part], *job.raster.position(pixel[part]))
     return source

@@ -86,6 +86,24 @@ def rows_in_order(
     return _as_rows(triangle, row.take(walked), start.take(walked), length.take(walked))
 
 
+def pixels_of_rows(rows: LaneRows, raster: Raster) -> tuple[Integers, Integers]:
+    """Return place in the buffer and triangle of all pixels of rows (R,), (F,) int64 each, in the order of the rows.
+
+    Notes
+    -----
+    A place is one more than the one before it, but for the first of a row: a running sum of these steps.
+    """
+    length = rows.stop - rows.start
+    inside = np.flatnonzero(length)
+    length, first = length.take(inside), raster.index(rows.start, rows.row).take(inside)
+    ends = np.cumsum(length)
+    place = np.ones(int(ends[-1]) if len(ends) else 0, np.int64)
+    if len(place):
+        place[0] = first[0]
+        place[ends[:-1]] = first[1:] - (first[:-1] + length[:-1] - 1)
+    return np.cumsum(place, out=place), np.repeat(rows.triangle.take(inside), length)
+
+
 def _as_rows(triangle: Integers, row: Integers, start: Integers, length: Integers) -> LaneRows:
     """Return rows (R,) that have pixels where the length is positive."""
     begin = start.astype(np.int64)

@@ -99,17 +99,6 @@ def draw_words(words: Integers, spans: WordSpans) -> None:
         np.minimum.at(words, pixel, word)
 
 
-def list_words(spans: WordSpans) -> tuple[Integers, Integers]:
-    """Return place in the buffer and word of all pixels of spans (used up), (F,) int64 each, pass by pass."""
-    pixels, words = np.empty((2, spans.pixel_count), np.int64)
-    done = 0
-    for pixel, word in each_pass(spans):
-        at = slice(done, done + len(pixel))
-        pixels[at], words[at] = pixel, word
-        done += len(pixel)
-    return pixels, words
-
-
 def write_out(longer: list[int]) -> tuple[Integers, Integers]:
     """Return for every pixel of spans its span and its place in it, (F,) int64 each; ``longer`` as in `Spans`."""
     count = longer[0]
