@@ -20,8 +20,10 @@ from core.frame import STAGES, StageCount
 from core.geometry.vertex_stage import transform_vertices
 from core.geometry_record import Geometry
 from core.geometry_stages import process_geometry
-from core.pipeline import covered
 from core.raster.schedule import Raster, make_raster
+from core.raster.spans.arena import Arena
+from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
+from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.scene import Camera, Scene
 from core.settings import Settings
 
@@ -45,12 +47,6 @@ def welded(positions: Floats, triangles: Integers) -> Integers:
     return np.asarray(np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[triangles])
 
 
-def edge_key(start: Integers, end: Integers) -> Integers:
-    """Return a number (E,) int64 for every edge between two vertices, whichever way it goes."""
-    count = np.int64(max(start.max(initial=0), end.max(initial=0))) + 1
-    return np.asarray(np.minimum(start, end) * count + np.maximum(start, end))
-
-
 def is_closed(positions: Floats, triangles: Integers) -> bool:
     """Tell whether every edge of a mesh is gone along as often one way as the other.
 
@@ -59,10 +55,14 @@ def is_closed(positions: Floats, triangles: Integers) -> bool:
     positions : (N, 3) float64
     triangles : (T, 3) int64
     """
-    vertex = welded(positions, triangles)
-    start, end = vertex.reshape(-1), np.roll(vertex, -1, axis=1).reshape(-1)
-    edge = np.unique(edge_key(start, end), return_inverse=True)[1].reshape(-1)
-    return not bool(np.bincount(edge, np.sign(end - start)).any())
+    return _goes_both_ways(triangles) or _goes_both_ways(welded(positions, triangles))
+
+
+def _goes_both_ways(triangles: Integers) -> bool:
+    """Tell whether the edges of triangles (T, 3) are the same edges when all of them are turned round."""
+    start, end = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
+    count = int(triangles.max(initial=0)) + 1
+    return np.array_equal(np.sort(start * count + end), np.sort(end * count + start))
 
 
 def is_solid(scene: Scene) -> bool:
@@ -77,18 +77,10 @@ def is_solid(scene: Scene) -> bool:
         return False
     raster = make_raster((RAYS, RAYS), "half", (0, 0, RAYS, RAYS))
     aside = replace(scene, camera=_camera_aside(scene), size=(RAYS, RAYS))
-    settings = Settings(fill="spans")
-    counts = {stage: StageCount() for stage in STAGES}
-    geometry = process_geometry(aside, settings, counts, raster=raster)
-    faces = [
-        _faces_on_rays(geometry, *raster.centers(found.column, found.row), found.primitive, raster)
-        for found in covered(geometry, settings, raster, counts)
-    ]
-    if not faces:
-        return False
-    ray, depth, facing = (np.concatenate(of) for of in zip(*faces, strict=True))
+    geometry = process_geometry(aside, Settings(), {stage: StageCount() for stage in STAGES}, raster=raster)
+    ray, depth, facing = _faces_on_rays(geometry, raster)
     order = np.lexsort((depth, ray))
-    return bool(is_never_negative(ray[order], depth[order], facing[order]).all())
+    return len(ray) > 0 and bool(is_never_negative(ray[order], depth[order], facing[order]).all())
 
 
 def is_never_negative(ray: Integers, depth: Floats, facing: Integers) -> Flags:
@@ -128,13 +120,13 @@ def _camera_aside(scene: Scene) -> Camera:
     )
 
 
-def _faces_on_rays(
-    geometry: Geometry, x: Floats, y: Floats, primitive: Integers, raster: Raster
-) -> tuple[Integers, Floats, Integers]:
-    """Return ray, depth and facing (F,) of primitives (F,) at window positions, see `is_never_negative`."""
+def _faces_on_rays(geometry: Geometry, raster: Raster) -> tuple[Integers, Floats, Integers]:
+    """Return ray, depth and facing (F,) of all faces on rays through pixel centres, see `is_never_negative`."""
+    arena, owners = Arena(), tie_owners(geometry.settings.fill_rule)
+    lanes = set_up_lanes(geometry.window_x, geometry.window_y, geometry.doubled_area, raster, owners, arena)
+    rows = rows_in_order(lanes, len(geometry.primitives), raster, owners, arena)
+    ray, primitive = pixels_of_rows(rows, raster)
     corners = geometry.depth.take(primitive, axis=1)
-    depth = np.clip(
-        plane_value(geometry.depth_plane, primitive, x, y), corners.min(axis=0), corners.max(axis=0)
-    )
-    ray = raster.index(x.astype(np.int64), y.astype(np.int64))
+    on_plane = plane_value(geometry.depth_plane, primitive, *raster.centers(*raster.position(ray)))
+    depth = np.clip(on_plane, corners.min(axis=0), corners.max(axis=0))
     return ray, depth, np.sign(geometry.doubled_area).astype(np.int64).take(primitive)

@@ -15,7 +15,7 @@ verification of geometric structures*, 1996.
 import numpy as np
 
 from core.arrays import Floats, Integers
-from core.solids import edge_key, welded
+from core.solids import welded
 
 HAIR = 1e-6
 """Part of a mesh's size that a vertex may stand out: rounded coordinates are never quite convex."""
@@ -56,16 +56,22 @@ def is_convex(positions: Floats, triangles: Integers) -> bool:
     return bool((rise <= HAIR * size).all()) and _faces_on_ray(corner) == 1
 
 
+def _edge_key(start: Integers, end: Integers) -> Integers:
+    """Return a number (E,) int64 for every edge between two vertices, whichever way it goes."""
+    count = np.int64(max(start.max(initial=0), end.max(initial=0))) + 1
+    return np.asarray(np.minimum(start, end) * count + np.maximum(start, end))
+
+
 def _neighbours(vertex: Integers) -> tuple[Integers, Integers] | None:
     """Return the two faces (E,) of every edge; ``None``: an edge has not just two, one each way."""
     start, end = vertex.reshape(-1), np.roll(vertex, -1, axis=1).reshape(-1)
-    order = np.lexsort((start < end, edge_key(start, end)))
+    order = np.lexsort((start < end, _edge_key(start, end)))
     if len(order) % 2:
         return None
     one, other = order[::2], order[1::2]
     if (start[one] != end[other]).any() or (end[one] != start[other]).any() or (start == end).any():
         return None
-    if (np.diff(edge_key(start, end)[one]) == 0).any():
+    if (np.diff(_edge_key(start, end)[one]) == 0).any():
         return None
     return one // 3, other // 3
 
