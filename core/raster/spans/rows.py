@@ -133,8 +133,8 @@ def _cross(
     np.maximum(block[LEFT], block[MIDDLE_LEFT], out=left)
     np.minimum(block[RIGHT], block[MIDDLE_RIGHT], out=right)
     numerator += step * levels
-    ends = np.array(lanes.taller[row : row + levels])
-    if ends[-1] < count:
+    if lanes.taller[row + levels - 1] < count:
+        ends = np.array(lanes.taller[row : row + levels])
         has_ended = np.arange(count) >= ends[:, None]
         np.copyto(left, 0.0, where=has_ended)
         np.copyto(right, -1.0, where=has_ended)
