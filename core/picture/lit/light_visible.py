@@ -3,7 +3,8 @@
 A highlight ends where the light goes behind the surface, and it may end abruptly. There the least turn of a normal
 decides between a highlight and none, and no bound holds. Nor does one for triangles hardly wider than snapping moves
 their corners: attributes belong to the unsnapped ones, and pixels may lie far outside of these. The few pixels that are
-so are coloured once more, with the attributes and the light of every other picture.
+so are coloured once more, with the attributes and the light of every other picture, and so are those of the few
+triangles whose normals differ too much.
 """
 
 from collections.abc import Callable, Sequence
@@ -31,8 +32,9 @@ class LitPlanes:
     light: PixelLight
     turn: float
     """Angle that a normal may be off, in radians."""
-    is_thin: Flags
-    """(P,) bool, triangles that are not drawn where they are, see ``corner_places``."""
+    is_doubtful: Flags
+    """(P,) bool, thin triangles, which are not drawn where they are (``corner_places``), and those whose normals differ
+    too much (``packed_normals``): their pixels are coloured once more."""
 
     def light_visible(self, job: Job, nearest: NearestFragments, albedo: Albedo) -> int:
         """Write the lit colour of what is seen at the (H*W,) pixels, and return how many are seen; the others stay."""
@@ -45,7 +47,7 @@ class LitPlanes:
             normal = unit_normals(self.normals, job, primitive, column, row)
             diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
             job.pixels[place] = lit_pixels(job, color, diffuse, specular)
-            in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_thin.take(primitive))])
+            in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_doubtful.take(primitive))])
             if len(in_doubt):
                 doubtful.append((place.take(in_doubt), primitive.take(in_doubt)))
         if doubtful:

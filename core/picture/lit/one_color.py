@@ -97,5 +97,8 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
     error = light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
-    normals = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(job.geometry), places)
-    return None if normals is None else LitPlanes(normals, mesh.light, turn, places.is_thin)
+    packed = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(job.geometry), places)
+    if packed is None:
+        return None
+    normals, is_unlike = packed
+    return LitPlanes(normals, mesh.light, turn, places.is_thin | is_unlike)

@@ -7,14 +7,14 @@ there: perspective-correct without a division by w.
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles
+from core.arrays import Flags, Floats, Integers, Singles
 from core.geometry.matrices import world_to_camera
 from core.geometry_record import Geometry
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces
 from core.picture.lit.pixel_light import make_unit
-from core.picture.lit.vertex_facts import VertexFacts, cosine
+from core.picture.lit.vertex_facts import VertexFacts, least_cosine
 from core.raster.spans.arena import Arena
 from core.scene import Camera
 
@@ -26,8 +26,12 @@ FIELD = 21
 """Bits from one component to the next."""
 ALIKE = 0.2
 """Least cosine between the normals of a triangle: with less, those between them become too short."""
+MOST_UNLIKE = 0.25
+"""Part of the triangles that may have normals less alike: these are coloured in another way."""
 RATIO = 2.0
 """Largest ratio of w within a triangle, likewise."""
+FORWARD = np.array([[0.0], [0.0], [1.0]])
+"""Any direction."""
 STEEPEST = 2.0**60
 """Units of a component a pixel; steeper planes are seen edge-on."""
 
@@ -43,8 +47,8 @@ def pack_normals(
     facts: VertexFacts,
     w: list[Floats],
     places: CornerPlaces,
-) -> IntegerPlanes | None:
-    """Return the normals of all primitives as words over the window.
+) -> tuple[IntegerPlanes, Flags] | None:
+    """Return the normals of all primitives as words over the window, and which of them hold too different ones.
 
     Parameters
     ----------
@@ -57,8 +61,12 @@ def pack_normals(
 
     Returns
     -------
-    IntegerPlanes or None
-        ``None``: in some triangle w or the normals differ by more than `RATIO` and `ALIKE`, or a plane is too steep.
+    normals : IntegerPlanes
+    is_unlike : (P,) bool
+        Where they point anywhere: the normals at the corners are less alike than `ALIKE`.
+
+    ``None`` is returned where w differs by more than `RATIO` in a triangle, the normals are unlike in more than
+    `MOST_UNLIKE` of them, or a plane is too steep.
     """
     normal = world_to_camera(camera)[:3, :3] @ facts.normals
     corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
@@ -67,10 +75,13 @@ def pack_normals(
     if not float((greatest / least).max(initial=1)) <= RATIO:
         return None
     # Where nothing is cut the triangles are some of the mesh's, which mostly are alike all over.
+    is_unlike = np.zeros(len(least), bool)
     if job.geometry.clipped is not None or not facts.least_cosine >= ALIKE:
-        pairs = ((0, 1), (1, 2), (2, 0))
-        if not min(float(cosine(corners[a], corners[b]).min(initial=1)) for a, b in pairs) >= ALIKE:
+        is_unlike = ~(least_cosine(corners) >= ALIKE)
+        if np.count_nonzero(is_unlike) > MOST_UNLIKE * len(is_unlike):
             return None
+        for corner in corners:
+            corner[:, is_unlike] = FORWARD
     unit = 2.0**BITS
     for corner, of_corner in zip(corners, w, strict=True):
         corner *= least / of_corner * unit
@@ -81,7 +92,7 @@ def pack_normals(
         FieldPlane(corners[0][axis] + OFFSET * unit, across[axis], up[axis], FIELD * axis)
         for axis in range(3)
     ]
-    return integer_planes(places.x[0], places.y[0], job.raster.center, fields)
+    return integer_planes(places.x[0], places.y[0], job.raster.center, fields), is_unlike
 
 
 def unit_normals(

@@ -4,6 +4,7 @@ The values at vertices are the very same array in every picture of an orbit, whe
 camera; so what was found in the array of the last picture is kept with it.
 """
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -42,8 +43,7 @@ class VertexFacts:
         The backs of the vertices, if there are rows for them, have the same normals turned round, and cosines alike.
         """
         corners = [self.normals.take(index, axis=1) for index in self._mesh.triangles.T]
-        pairs = ((0, 1), (1, 2), (2, 0))
-        return min(float(cosine(corners[a], corners[b]).min(initial=1)) for a, b in pairs)
+        return float(least_cosine(corners).min(initial=1))
 
     @cached_property
     def uv(self) -> Floats:
@@ -70,7 +70,12 @@ def vertex_facts(values: CornerValues, mesh: Mesh) -> VertexFacts:
     return made
 
 
-def cosine(a: Floats, b: Floats) -> Floats:
-    """Return the cosines (P,) between unit vectors (3, P); zero vectors have 0 with all others."""
+def least_cosine(corners: Sequence[Floats]) -> Floats:
+    """Return the least cosine (P,) between two of three unit vectors (3, P); zero vectors have 0 with all others."""
+    first, second, third = corners
+    return np.minimum(np.minimum(_cosine(first, second), _cosine(second, third)), _cosine(third, first))
+
+
+def _cosine(a: Floats, b: Floats) -> Floats:
     product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product

@@ -94,6 +94,25 @@ def unlike_normals() -> Mesh:
     return replace(mesh, normals=normals)
 
 
+def few_unlike_normals() -> Mesh:
+    mesh = sphere()
+    normals = mesh.positions / np.linalg.norm(mesh.positions, axis=1, keepdims=True)
+    chosen = np.random.default_rng(4).choice(len(normals), 20, replace=False)
+    normals[chosen] = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]).repeat(
+        5, axis=0
+    )
+    return replace(mesh, normals=normals)
+
+
+@pytest.mark.parametrize("cull", ["none", "back"])
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+def test_triangles_with_unlike_normals_are_coloured_as_in_the_buffers(encoding: str, cull: str) -> None:
+    scene = scene_of(few_unlike_normals(), size=(320, 240))
+    assert_close(scene, encoding, replace(PHONG, cull=cull))
+    near = Camera(np.array([0.2, 0.1, 1.9]), np.zeros(3), near=1.2)
+    assert_close(replace(scene, camera=near), encoding, replace(PHONG, cull=cull))
+
+
 def without_normals() -> Mesh:
     mesh = sphere()
     return replace(mesh, normals=np.zeros((len(mesh.positions), 3)))

@@ -39,14 +39,14 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
 
 
 def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_cheap_ones() -> None:
-    smooth, torn = textured_ball(), textured_ball(with_torn_triangle=True)
-    assert draw_picture(torn, region=(0, 0, 220, 100)).route.color == "lit-texture"
-    expected = {id(scene): draw_picture(scene) for scene in (smooth, torn)}
-    assert [expected[id(scene)].route.color for scene in (smooth, torn)] == ["lit-texture", "deferred"]
-    assert (expected[id(torn)].pixels[:90] != expected[id(smooth)].pixels[:90]).any()
+    smooth, near = textured_ball(), textured_ball(with_near_triangle=True)
+    assert draw_picture(near, region=(0, 0, 220, 100)).route.color == "lit-texture"
+    expected = {id(scene): draw_picture(scene) for scene in (smooth, near)}
+    assert [expected[id(scene)].route.color for scene in (smooth, near)] == ["lit-texture", "deferred"]
+    assert (expected[id(near)].pixels[:90] != expected[id(smooth)].pixels[:90]).any()
     with BandWorkers(2, always=True) as workers:
         assert workers.start(), workers.failure
-        for scene in (smooth, torn, torn, smooth, smooth, torn):
+        for scene in (smooth, near, near, smooth, smooth, near):
             together = workers.draw(scene)
             np.testing.assert_array_equal(together.pixels, expected[id(scene)].pixels)
             assert together.route.color == expected[id(scene)].route.color
