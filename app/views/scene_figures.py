@@ -18,7 +18,7 @@ VISIBILITIES: dict[Visibility, str] = {
 COLORS: dict[Coloring, str] = {
     "palette": "one for each triangle",
     "bytes": "corner colours interpolated as bytes",
-    "normals": "light once per visible pixel, from packed normals",
+    "normals": "light once per visible pixel, in single precision",
     "lit-texture": "light and texture once per visible pixel, in single precision",
     "texture": "packed texels",
     "deferred": "attributes and light once per visible pixel",

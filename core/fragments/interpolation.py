@@ -51,7 +51,7 @@ def set_up_planes(homogeneous: Floats) -> Planes:
     Notes
     -----
     A triangle seen edge-on (a determinant within its own rounding error) has no inverse, but snapping may still
-    give it pixels: there it takes the mean of its corners.
+    give it pixels: there it takes the mean of its corners, or of those that lie in front of the eye.
     """
     x, y, w = (homogeneous[..., k] for k in range(3))
     following, last = [1, 2, 0], [2, 0, 1]
@@ -66,10 +66,17 @@ def set_up_planes(homogeneous: Floats) -> Planes:
     )
     edge_on = np.flatnonzero(np.abs(determinant) <= DETERMINANT_ERROR * size)
     if len(edge_on):
-        with np.errstate(divide="ignore"):
-            a[edge_on], b[edge_on], c[edge_on] = 0, 0, 1 / (3 * w[edge_on])
+        a[edge_on], b[edge_on], c[edge_on] = 0, 0, _mean_of_corners(w[edge_on])
         determinant[edge_on] = 1
     return Planes(a, b, c, determinant, w)
+
+
+def _mean_of_corners(w: Floats) -> Floats:
+    """Return alpha_k / w (Q, 3) with the same alpha for all corners, or for those with w > 0 if there are any."""
+    in_front = w > 0
+    chosen = in_front | ~in_front.any(axis=1, keepdims=True)
+    with np.errstate(divide="ignore"):
+        return np.where(chosen, 1 / (chosen.sum(axis=1, keepdims=True) * w), 0.0)
 
 
 def value_plane(planes: Planes, values: Floats) -> tuple[Floats, Floats, Floats]:

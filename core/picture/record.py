@@ -36,7 +36,7 @@ class Route:
     picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
     and what they show averaged where they differ."""
     color: Coloring
-    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: packed normals
+    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: normals
     lit once per visible pixel; ``lit-texture``: the same times a texture, read in single precision; ``texture``: packed
     texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
     split: Split | None = None

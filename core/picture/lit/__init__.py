@@ -1,1 +1,1 @@
-"""Light at every visible pixel in float32, from packed normals, as long as a bound keeps the bytes right."""
+"""Light at every visible pixel in float32, as long as a bound keeps the bytes right."""

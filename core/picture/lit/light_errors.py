@@ -1,4 +1,4 @@
-"""How far light from packed normals, in float32, may be from that of ``render``, in bytes.
+"""How far light in float32 may be from that of ``render``, in bytes.
 
 A normal that is off by an angle e moves the cosine by e at most. The highlight cos^n falls fastest where its angle has
 the tangent 1 / sqrt(n - 1): by less than sqrt(n) e. In linear bytes that is 255 times as much. sRGB is steep where it
@@ -9,11 +9,14 @@ never off by more in a sum.
 """
 
 from collections.abc import Sequence
+from math import sqrt
 
 import numpy as np
 
-from core.geometry_record import Geometry
-from core.picture.lit.packed_normals import ALIKE, BITS, RATIO
+from core.arrays import Floats
+from core.picture.lit.corner_places import CornerPlaces
+from core.picture.lit.planes import rounding
+from core.picture.lit.vertex_facts import ALIKE
 from core.scene import DirectionalLight, Material
 
 STEEPEST = 255 * 12.92
@@ -27,19 +30,26 @@ TABLE = 0.25
 """Bytes that the table of levels and the sums in float32 may be off."""
 
 
-def normal_error(geometry: Geometry) -> float:
+def normal_error(places: CornerPlaces, w: Sequence[Floats]) -> float:
     """Return the greatest angle, in radians, that an interpolated normal may be turned by.
+
+    Parameters
+    ----------
+    places : CornerPlaces
+        Of triangles that are not thin: the others have no such bound.
+    w : sequence of three (P,) float64 arrays
+        Of the corners.
 
     Notes
     -----
-    A component of the packed normal drifts by half of its last bit a pixel from corner 0, and the shortest
-    interpolated normal has length sqrt((1 + 2 ALIKE) / 3) / RATIO. `SINGLE` is what float32 adds.
+    The components at the corners differ by 2 at most, and the shortest interpolated normal has length
+    sqrt((1 + 2 ALIKE) / 3) times the least w over the greatest. `SINGLE` is what float32 adds.
     """
+    greatest = np.maximum(np.maximum(w[0], w[1]), w[2])
+    turn = rounding(places, np.full(len(greatest), 4 * np.sqrt(3)))
+    turn *= greatest / np.minimum(np.minimum(w[0], w[1]), w[2])
     # Of one triangle, so that what holds for all bands of a picture holds for the picture.
-    across, up = (np.abs(of[1:] - of[0]).max(axis=0) for of in (geometry.window_x, geometry.window_y))
-    reach = float((across + up).max(initial=0)) + 2
-    turn = np.sqrt(3) * reach * 2.0 ** -(BITS + 1) * RATIO / np.sqrt((1 + 2 * ALIKE) / 3)
-    return float(turn) + SINGLE
+    return float(turn.max(initial=0)) / sqrt((1 + 2 * ALIKE) / 3) + SINGLE
 
 
 def light_error(

@@ -1,4 +1,4 @@
-"""Light once for every visible pixel, from packed normals; and what is in doubt once more, as ``render`` has it.
+"""Light once for every visible pixel; and what is in doubt once more, as ``render`` has it.
 
 A highlight ends where the light goes behind the surface, and it may end abruptly. There the least turn of a normal
 decides between a highlight and none, and no bound holds. Nor does one for triangles hardly wider than snapping moves
@@ -14,10 +14,9 @@ import numpy as np
 
 from core.arrays import Flags, Integers, Singles
 from core.framebuffer.nearest import NearestFragments
-from core.integer_planes import IntegerPlanes
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, Words
-from core.picture.lit.packed_normals import unit_normals
+from core.picture.lit.normals import NormalPlanes, unit_normals
 from core.picture.lit.pixel_light import PixelLight, lit_pixels
 
 Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]]
@@ -28,13 +27,13 @@ Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]
 class LitPlanes:
     """Normals of P triangles in camera space, and what lights them."""
 
-    normals: IntegerPlanes
+    normals: NormalPlanes
     light: PixelLight
     turn: float
     """Angle that a normal may be off, in radians."""
     is_doubtful: Flags
     """(P,) bool, thin triangles, which are not drawn where they are (``corner_places``), and those whose normals differ
-    too much (``packed_normals``): their pixels are coloured once more."""
+    too much (``normals``): their pixels are coloured once more."""
 
     def light_visible(self, job: Job, nearest: NearestFragments, albedo: Albedo) -> int:
         """Write the lit colour of what is seen at the (H*W,) pixels, and return how many are seen; the others stay."""

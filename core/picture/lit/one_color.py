@@ -1,4 +1,4 @@
-"""Phong's shading of one colour from packed normals: what it needs of a pixel is a direction (``packed_normals``).
+"""Phong's shading of one colour: what it needs of a pixel is a direction (``normals``).
 
 The direction to the eye follows from the pixel alone. Then the lighting rule is evaluated in float32 (``pixel_light``),
 and linear light becomes bytes through a table.
@@ -15,8 +15,9 @@ from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import light_error, normal_error
 from core.picture.lit.light_visible import LitPlanes
-from core.picture.lit.packed_normals import corner_w, pack_normals
+from core.picture.lit.normals import normal_planes
 from core.picture.lit.pixel_light import PixelLight, pixel_light
+from core.picture.lit.planes import corner_w
 from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
 from core.picture.record import Coloring
 from core.scene import DirectionalLight, Scene
@@ -93,12 +94,13 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
         Bytes that what the light is multiplied with may be off.
     """
     lights = [light for light in mesh.scene.lights if isinstance(light, DirectionalLight)]
-    turn, brightest = normal_error(job.geometry), float(max(mesh.color))
+    w = corner_w(job.geometry)
+    turn, brightest = normal_error(places, w), float(max(mesh.color))
     error = light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
-    packed = pack_normals(job, mesh.light.camera, mesh.facts, corner_w(job.geometry), places)
-    if packed is None:
+    found = normal_planes(job, mesh.light.camera, mesh.facts, w, places)
+    if found is None:
         return None
-    normals, is_unlike = packed
+    normals, is_unlike = found
     return LitPlanes(normals, mesh.light, turn, places.is_thin | is_unlike)

@@ -1,15 +1,14 @@
-"""Phong's shading of a textured mesh: normals from packed words, texture coordinates from planes, lit in float32.
+"""Phong's shading of a textured mesh: normals and texture coordinates from planes, lit in float32.
 
 Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
 float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
 precision (``single_texture``), normals and light are those of ``one_color``.
 
-How close the bytes are: planes through corners far from the origin are rounded, these and those of ``render``, by
-`ROUNDING` times x y over the area, as a part of what the corners differ by (``core.fragments.interpolation``). So the
-position in the texture is off by that many texels, the texture by no more, neighbours being 1 apart at most, and bytes
-by as much times the steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only
-where the sum stays within the tolerance is this way taken. Triangles hardly wider than snapping moves their corners
-have no such bound: their pixels are coloured once more, exactly (``light_visible``).
+How close the bytes are: the rounding of the planes moves the position in the texture by some part of a texel
+(`position_error`), the texture is off by no more, neighbours being 1 apart at most, and bytes by as much times the
+steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only where the sum stays
+within the tolerance is this way taken. Triangles hardly wider than snapping moves their corners have no such bound:
+their pixels are coloured once more, exactly (``light_visible``).
 """
 
 from dataclasses import dataclass
@@ -23,22 +22,15 @@ from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
 from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
 from core.framebuffer.nearest import NearestFragments
 from core.geometry_record import Geometry
-from core.integer_planes import window_slopes
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import STEEPEST
 from core.picture.lit.light_visible import LitPlanes
 from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
-from core.picture.lit.packed_normals import corner_w
+from core.picture.lit.planes import Plane, corner_w, evaluate, plane_through, rounding
 from core.picture.lit.vertex_facts import Color
 from core.picture.record import Coloring
 from core.scene import Texture
-
-ROUNDING = 2.0**-48
-"""Rounding of planes, as a part of the products of coordinates in them, with room to spare."""
-
-Plane = tuple[Floats, Floats, Floats]
-"""Change per column, per row, and value at the window's origin, (P,) float64 each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +58,7 @@ class LitTexture:
         inverse_w, u, v = job.arena("texture_position", 3, len(x))
         term = job.arena("texture_term", len(x))
         for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
-            _evaluate(plane, primitive, x, y, values, term)
+            evaluate(plane, primitive, x, y, values, term)
         np.divide(1, inverse_w, out=inverse_w)
         u *= inverse_w
         v *= inverse_w
@@ -99,7 +91,7 @@ def lit_texture(job: Job) -> LitTexture | None:
         return None
     inverse = [1 / of_corner for of_corner in corner_w(job.geometry)]
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
-    inverse_w, u, v = (_plane(places, values) for values in (inverse, *over_w))
+    inverse_w, u, v = (plane_through(places, values) for values in (inverse, *over_w))
     sampler = SingleSampler(texture, job.settings.wrap)
     return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
 
@@ -123,12 +115,8 @@ def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
     for first, second, third in position:
         extent += np.abs(second - first)
         extent += np.abs(third - first)
-    extent[places.is_thin] = 0
-    extent /= np.abs(places.doubled_area)
     # Of one triangle, so that what holds for all bands of a picture holds for the picture.
-    extent *= np.abs(places.x).max(axis=0)
-    extent *= np.abs(places.y).max(axis=0)
-    return float(extent.max(initial=0)) * ROUNDING
+    return float(rounding(places, extent).max(initial=0))
 
 
 def _texture_bytes(mesh: LitMesh, texels: float) -> float:
@@ -136,21 +124,3 @@ def _texture_bytes(mesh: LitMesh, texels: float) -> float:
     material, lights = mesh.light.material, mesh.light.lights
     strength = material.ambient + material.diffuse * sum(max(*color, 0.0) for _, color in lights)
     return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))
-
-
-def _plane(places: CornerPlaces, values: list[Floats]) -> Plane:
-    """Return the plane through values (P,) at the three corners."""
-    across, up = window_slopes(places.x, places.y, places.doubled_area, *values)
-    origin = values[0] - (across * places.x[0] + up * places.y[0])
-    return across, up, origin
-
-
-def _evaluate(plane: Plane, primitive: Integers, x: Floats, y: Floats, values: Floats, term: Floats) -> None:
-    """Write the ``values`` (F,) of the planes of primitives (F,) at pixel centres; ``term`` (F,) is memory."""
-    across, up, origin = plane
-    up.take(primitive, out=values, mode="clip")
-    values *= y
-    values += origin.take(primitive, out=term, mode="clip")
-    across.take(primitive, out=term, mode="clip")
-    term *= x
-    values += term

@@ -9,11 +9,13 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Flags, Floats
 from core.primitives import CornerValues
 from core.scene import Mesh
 
 Color = tuple[np.float32, ...]
+ALIKE = 0.2
+"""Least cosine between the normals of a triangle: with less, those between them become too short."""
 
 
 class VertexFacts:
@@ -37,13 +39,14 @@ class VertexFacts:
         return np.ascontiguousarray(self.rows[:, self._layout["normal"]].T)
 
     @cached_property
-    def least_cosine(self) -> float:
-        """Least cosine between two normals of a triangle of the mesh.
+    def unlike_share(self) -> float:
+        """Part of the mesh's triangles that have two normals less alike than `ALIKE`.
 
         The backs of the vertices, if there are rows for them, have the same normals turned round, and cosines alike.
         """
-        corners = [self.normals.take(index, axis=1) for index in self._mesh.triangles.T]
-        return float(least_cosine(corners).min(initial=1))
+        return float(
+            are_unlike([self.normals.take(index, axis=1) for index in self._mesh.triangles.T]).mean()
+        )
 
     @cached_property
     def uv(self) -> Floats:
@@ -70,10 +73,11 @@ def vertex_facts(values: CornerValues, mesh: Mesh) -> VertexFacts:
     return made
 
 
-def least_cosine(corners: Sequence[Floats]) -> Floats:
-    """Return the least cosine (P,) between two of three unit vectors (3, P); zero vectors have 0 with all others."""
+def are_unlike(corners: Sequence[Floats]) -> Flags:
+    """Return (P,) bool: two of three unit vectors (3, P) have a cosine below `ALIKE`; a zero vector is like none."""
     first, second, third = corners
-    return np.minimum(np.minimum(_cosine(first, second), _cosine(second, third)), _cosine(third, first))
+    least = np.minimum(np.minimum(_cosine(first, second), _cosine(second, third)), _cosine(third, first))
+    return ~np.asarray(least >= ALIKE)
 
 
 def _cosine(a: Floats, b: Floats) -> Floats:

@@ -260,3 +260,16 @@ def test_edge_on_takes_the_mean_of_the_corners() -> None:
     )
     assert weights[0].tolist() == pytest.approx([1 / 3] * 3)
     assert value[0].tolist() == pytest.approx([3.0])
+
+
+def test_edge_on_with_corners_behind_the_eye_takes_the_mean_of_those_in_front() -> None:
+    # 1/w of the three corners add up to 0.
+    homogeneous = np.array([[[1.0, 1.0, 1.0], [-8.0, -2.0, -2.0], [-14.0, -2.0, -2.0]]])
+    planes = set_up_planes(homogeneous)
+    values = np.array([[[1.0], [2.0], [6.0]]])
+    weights, value = interpolate(
+        planes, values, FIRST, np.array([3.5]), np.array([1.0]), "perspective", "last"
+    )
+    assert weights[0].tolist() == [1, 0, 0]
+    assert value[0].tolist() == [1]
+    assert (plane_value(value_plane(planes, np.ones((1, 3))), FIRST, np.zeros(1), np.zeros(1)) > 0).all()

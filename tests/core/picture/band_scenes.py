@@ -27,13 +27,13 @@ def plain_ball() -> Scene:
 
 
 def textured_ball(with_near_triangle: bool = False) -> Scene:
-    """Return a textured ball lit from far away; w varies too much for packed normals in the triangle above it."""
+    """Return a textured ball lit from far away; the triangle above it has a corner hardly before the eye."""
     positions, triangles = icosphere(4)
     normals = positions
     scene = ball(size=(220, 200))
     if with_near_triangle:
         right, up, backward = camera_axes(scene.camera)
-        places = ((0.5, -0.5, 0.5), (1.5, 0.5, 0.5), (1.5, 0.0, 0.9))
+        places = ((1.5, -0.5, 0.5), (1.5, 0.5, 0.5), (1e-12, 0.0, 0.9))
         corners = [w * (0.4 * (x * right + y * up) - backward) for w, x, y in places]
         positions = np.concatenate([positions, scene.camera.eye + np.array(corners)])
         normals = np.concatenate([normals, np.tile(backward, (3, 1))])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Settings
@@ -28,6 +28,7 @@ def in_view(generator: np.random.Generator, count: int, size: tuple[int, int]) -
 
 
 @settings(max_examples=80)
+@example(901, (3, 257), 40, True, "z-float32", "ray-casting", "none", "homogeneous", "shared-edge", "half")
 @given(
     SEEDS,
     st.sampled_from(SIZES),

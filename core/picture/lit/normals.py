@@ -1,0 +1,85 @@
+"""Normals of triangles in camera space as planes: a direction is linear over the window.
+
+A normal divided by w is linear over the window, and dividing all of it by one number does not turn it; so its three
+components are evaluated at every visible pixel and made a unit vector there: perspective-correct without a division
+by w.
+"""
+
+import numpy as np
+
+from core.arrays import Flags, Floats, Integers, Singles
+from core.geometry.matrices import world_to_camera
+from core.picture.job import Job
+from core.picture.lit.corner_places import CornerPlaces
+from core.picture.lit.pixel_light import make_unit
+from core.picture.lit.planes import Plane, evaluate, plane_through
+from core.picture.lit.vertex_facts import VertexFacts, are_unlike
+from core.scene import Camera
+
+MOST_UNLIKE = 0.25
+"""Part of a mesh's triangles that may have unlike normals: these are coloured in another way."""
+FORWARD = np.array([[0.0], [0.0], [1.0]])
+"""Any direction."""
+STEEPEST = 2.0**40
+"""Change of a component a pixel; steeper planes are seen edge-on."""
+
+NormalPlanes = tuple[Plane, Plane, Plane]
+"""Of x, y and z of P triangles, over w and in any scale."""
+
+
+def normal_planes(
+    job: Job,
+    camera: Camera,
+    facts: VertexFacts,
+    w: list[Floats],
+    places: CornerPlaces,
+) -> tuple[NormalPlanes, Flags] | None:
+    """Return the normals of all primitives, and which of them hold too different ones.
+
+    Parameters
+    ----------
+    facts : VertexFacts
+        Of the values at the vertices.
+    w : list of three (P,) float64 arrays
+        Of the corners; all above 0.
+    places : CornerPlaces
+        Where the corners lie in the window.
+
+    Returns
+    -------
+    normals : NormalPlanes
+    is_unlike : (P,) bool
+        Where they point anywhere: the normals at the corners are too different, see `are_unlike`.
+
+    ``None`` is returned where they are so in more than `MOST_UNLIKE` of the mesh's triangles, or a plane is too steep.
+    """
+    # Of the whole mesh, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
+    is_whole = job.geometry.clipped is None
+    if is_whole and facts.unlike_share > MOST_UNLIKE:
+        return None
+    normal = world_to_camera(camera)[:3, :3] @ facts.normals
+    corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
+    is_unlike = np.zeros(len(w[0]), bool)
+    if not is_whole or facts.unlike_share > 0:
+        is_unlike = are_unlike(corners)
+        for corner in corners:
+            corner[:, is_unlike] = FORWARD
+    least = np.minimum(np.minimum(w[0], w[1]), w[2])
+    for corner, of_corner in zip(corners, w, strict=True):
+        corner *= least / of_corner
+    x, y, z = (plane_through(places, [corner[axis] for corner in corners]) for axis in range(3))
+    steepest = max(float(np.abs(slope).max(initial=0)) for plane in (x, y, z) for slope in plane[:2])
+    return ((x, y, z), is_unlike) if steepest < STEEPEST else None
+
+
+def unit_normals(
+    planes: NormalPlanes, job: Job, primitive: Integers, column: Integers, row: Integers
+) -> Singles:
+    """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the job's arena."""
+    x, y = job.raster.centers(column, row)
+    value, term = job.arena("normal_value", len(x)), job.arena("normal_term", len(x))
+    components = job.arena("components", 3, len(x), dtype=np.float32)
+    for plane, component in zip(planes, components, strict=True):
+        evaluate(plane, primitive, x, y, value, term)
+        np.copyto(component, value, casting="same_kind")
+    return make_unit(components, job.arena)
