@@ -80,14 +80,18 @@ class IndexedPrimitives:
         return len(self.triangle)
 
     def take(self, index: Integers) -> "IndexedPrimitives":
-        """Return the primitives of ``index`` (Q,), in that order."""
-        return replace(
+        """Return the primitives of ``index`` (Q,), in that order; values that are known go with them."""
+        taken = replace(
             self,
             corner=self.corner.take(index, axis=1),
             triangle=self.triangle.take(index),
             mesh=self.mesh.take(index),
             source=self.source.take(index),
         )
+        known: CornerValues | None = vars(self).get("values")
+        if known is not None:
+            vars(taken)["values"] = replace(known, index=known.index.take(index, axis=1))
+        return taken
 
     def clip_of(self, index: Integers) -> Floats:
         """Return the clip positions (Q, 3, 4) of primitives (Q,)."""

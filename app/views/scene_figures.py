@@ -20,6 +20,7 @@ COLORS: dict[Coloring, str] = {
     "bytes": "corner colours interpolated as bytes",
     "normals": "light once per visible pixel, in single precision",
     "lit-texture": "light and texture once per visible pixel, in single precision",
+    "meshes": "light, and texture where there is one, once per visible pixel, mesh by mesh",
     "texture": "packed texels",
     "deferred": "attributes and light once per visible pixel",
 }

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -50,6 +50,20 @@ class Job:
     """(H*W,) uint32, the picture."""
     counts: dict[str, StageCount]
     arena: Arena
+    mesh_number: int | None = None
+    """Of a scene of several meshes, the one whose primitives these are; ``None``: they may be of all."""
+
+    def part(self, chosen: Integers, mesh_number: int | None = None) -> "Job":
+        """Return the same picture of the ``chosen`` (C,) primitives, numbered anew; all of one mesh, if it is given."""
+        primitives, area = self.geometry.primitives.take(chosen), self.geometry.doubled_area.take(chosen)
+        geometry = replace(self.geometry, primitives=primitives, doubled_area=area)
+        return replace(self, geometry=geometry, mesh_number=mesh_number)
+
+    @property
+    def only_mesh(self) -> int | None:
+        """The number of the mesh that all primitives are of; ``None``: there are several, or they are of none."""
+        is_alone = not isinstance(self.scene, ClipScene) and len(self.scene.meshes) == 1
+        return 0 if is_alone else self.mesh_number
 
     @cached_property
     def owners(self) -> TieOwners:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.arrays import Flags, Floats, Integers
 from core.geometry_record import Geometry
 from core.picture.cleared import is_thin
 from core.raster.snapping import window_position
@@ -25,6 +25,11 @@ class CornerPlaces:
     """(P,) float64, not 0: 1 for triangles without area, which cover no pixel."""
     is_thin: Flags
     """(P,) bool, see ``core.picture.cleared``."""
+
+    def take(self, chosen: Integers) -> "CornerPlaces":
+        """Return the places of the ``chosen`` (C,) triangles."""
+        x, y = self.x.take(chosen, axis=1), self.y.take(chosen, axis=1)
+        return CornerPlaces(x, y, self.doubled_area.take(chosen), self.is_thin.take(chosen))
 
 
 def corner_places(geometry: Geometry) -> CornerPlaces:

@@ -7,20 +7,33 @@ so are coloured once more, with the attributes and the light of every other pict
 triangles whose normals differ too much.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from core.arrays import Flags, Integers, Singles
-from core.framebuffer.nearest import NearestFragments
 from core.picture.fragment_colors import FragmentColors
-from core.picture.job import Job, Words
+from core.picture.job import Job
 from core.picture.lit.normals import NormalPlanes, unit_normals
 from core.picture.lit.pixel_light import PixelLight, lit_pixels
 
 Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]]
 """Linear grey, or red, green and blue, of primitives (F,) at columns and rows (F,)."""
+Seen = Iterable[tuple[Integers, Integers]]
+"""Places in the picture (V,), and the primitives (V,) that are seen there, some at a time."""
+
+
+class Lit(NamedTuple):
+    """What has been lit."""
+
+    seen_count: int
+    """Pixels that something is seen at."""
+    place: Integers
+    """(D,) int64, those whose colour is in doubt."""
+    primitive: Integers
+    """(D,) int64, what is seen there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +48,12 @@ class LitPlanes:
     """(P,) bool, thin triangles, which are not drawn where they are (``corner_places``), and those whose normals differ
     too much (``normals``): their pixels are coloured once more."""
 
-    def light_visible(self, job: Job, nearest: NearestFragments, albedo: Albedo) -> int:
-        """Write the lit colour of what is seen at the (H*W,) pixels, and return how many are seen; the others stay."""
+    def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
+        """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
         seen_count = 0
-        doubtful: list[tuple[Integers, Integers]] = []
-        for place, primitive in nearest.seen():
+        none = np.empty(0, np.int64)
+        doubtful = [(none, none)]
+        for place, primitive in seen:
             seen_count += len(place)
             column, row = job.raster.position(place)
             color = albedo(primitive, column, row)
@@ -49,16 +63,15 @@ class LitPlanes:
             in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_doubtful.take(primitive))])
             if len(in_doubt):
                 doubtful.append((place.take(in_doubt), primitive.take(in_doubt)))
-        if doubtful:
-            places, primitives = (np.concatenate(of_blocks) for of_blocks in zip(*doubtful, strict=True))
-            job.pixels[places] = _exact_pixels(job, primitives, places)
-        return seen_count
+        place, primitive = (np.concatenate(of_blocks) for of_blocks in zip(*doubtful, strict=True))
+        return Lit(seen_count, place, primitive)
 
 
-def _exact_pixels(job: Job, primitive: Integers, place: Integers) -> Words:
-    """Return the pixels (D,) of primitives (D,) at places as ``render`` has them; only these are set up."""
-    shown, local = np.unique(primitive, return_inverse=True)
-    primitives = job.geometry.primitives.take(shown)
-    area = job.geometry.doubled_area.take(shown)
-    of_shown = replace(job, geometry=replace(job.geometry, primitives=primitives, doubled_area=area))
-    return job.encode(FragmentColors(of_shown).at(local, *job.raster.position(place)))
+def color_doubtful(job: Job, lit: Lit) -> int:
+    """Colour pixels in doubt as ``render`` has them, and return how many pixels are lit."""
+    if len(lit.place):
+        # Only the primitives that are shown there are set up.
+        shown, local = np.unique(lit.primitive, return_inverse=True)
+        colors = FragmentColors(job.part(shown))
+        job.pixels[lit.place] = job.encode(colors.at(local, *job.raster.position(lit.place)))
+    return lit.seen_count

@@ -8,7 +8,6 @@ by w.
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.geometry.matrices import world_to_camera
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces
 from core.picture.lit.pixel_light import make_unit
@@ -57,7 +56,7 @@ def normal_planes(
     is_whole = job.geometry.clipped is None
     if is_whole and facts.unlike_share > MOST_UNLIKE:
         return None
-    normal = world_to_camera(camera)[:3, :3] @ facts.normals
+    normal = facts.values.normals_seen_by(camera)
     corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
     is_unlike = np.zeros(len(w[0]), bool)
     if not is_whole or facts.unlike_share > 0:

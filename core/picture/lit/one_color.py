@@ -14,13 +14,13 @@ from core.framebuffer.nearest import NearestFragments
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import light_error, normal_error
-from core.picture.lit.light_visible import LitPlanes
+from core.picture.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
 from core.picture.lit.normals import normal_planes
 from core.picture.lit.pixel_light import PixelLight, pixel_light
 from core.picture.lit.planes import corner_w
 from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
 from core.picture.record import Coloring
-from core.scene import DirectionalLight, Scene
+from core.scene import DirectionalLight, Mesh, Scene
 
 TOLERANCE = 1.0
 """Bytes that a colour may be away from the exact one before both are rounded."""
@@ -40,28 +40,37 @@ class LitNormals:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return self.planes.light_visible(job, nearest, self._albedo)
+        return color_doubtful(job, self.light_seen(job, nearest.seen()))
+
+    def light_seen(self, job: Job, seen: Seen) -> Lit:
+        """Write the lit colour of what is seen at some of the (H*W,) pixels."""
+        return self.planes.light_seen(job, seen, self._albedo)
 
     def _albedo(self, primitive: Integers, column: Integers, row: Integers) -> Color:
         """Return the colour, which is that of all primitives (F,) at all pixels."""
         return self.albedo
 
 
-def lit_normals(job: Job) -> LitNormals | None:
+def lit_normals(job: Job, places: CornerPlaces | None = None) -> LitNormals | None:
     """Return the lit normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
-    The scene is one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
+    ``places`` are those of the corners, where they are known.
+
+    They are those of one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
     """
-    mesh = None if job.has_texture else lit_mesh(job)
-    planes = lit_planes(job, mesh, corner_places(job.geometry)) if mesh else None
-    return LitNormals(planes, mesh.color) if mesh and planes else None
+    lit = lit_mesh(job)
+    if lit is None or lit.mesh.texture is not None:
+        return None
+    planes = lit_planes(job, lit, places or corner_places(job.geometry))
+    return LitNormals(planes, lit.color) if planes else None
 
 
 @dataclass(frozen=True, eq=False)
 class LitMesh:
     """A mesh whose pixels differ in nothing but their normals, and maybe in what a texture shows there."""
 
-    scene: Scene
+    mesh: Mesh
+    lights: tuple[DirectionalLight, ...]
     light: PixelLight
     facts: VertexFacts
     color: Color
@@ -69,20 +78,22 @@ class LitMesh:
 
 
 def lit_mesh(job: Job) -> LitMesh | None:
-    """Return the one mesh of a scene, or ``None`` where something else differs from pixel to pixel.
+    """Return the mesh that all primitives are of, or ``None`` where something else differs from pixel to pixel.
 
     It is opaque, of one colour, shaded by Phong's method, lit from far away, all of it in front of the eye.
     """
-    scene, geometry, settings = job.scene, job.geometry, job.settings
-    if not isinstance(scene, Scene) or settings.shading != "phong" or len(scene.meshes) != 1:
+    scene, geometry, settings, number = job.scene, job.geometry, job.settings, job.only_mesh
+    if number is None or not isinstance(scene, Scene) or settings.shading != "phong":
         return None
     if settings.interpolation != "perspective" or not geometry.is_projected.all():
         return None
-    light = pixel_light(scene)
-    facts = vertex_facts(geometry.primitives.values, scene.meshes[0])
+    mesh = scene.meshes[number]
+    light = pixel_light(scene, mesh)
+    facts = vertex_facts(geometry, number)
     if light is None or facts.color is None:
         return None
-    return LitMesh(scene, light, facts, facts.color)
+    lights = tuple(light for light in scene.lights if isinstance(light, DirectionalLight))
+    return LitMesh(mesh, lights, light, facts, facts.color)
 
 
 def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: float = 0.0) -> LitPlanes | None:
@@ -93,10 +104,9 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
     texture_error : float
         Bytes that what the light is multiplied with may be off.
     """
-    lights = [light for light in mesh.scene.lights if isinstance(light, DirectionalLight)]
     w = corner_w(job.geometry)
     turn, brightest = normal_error(places, w), float(max(mesh.color))
-    error = light_error(turn, mesh.light.material, lights, brightest, job.encoding) + texture_error
+    error = light_error(turn, mesh.light.material, mesh.lights, brightest, job.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
     found = normal_planes(job, mesh.light.camera, mesh.facts, w, places)

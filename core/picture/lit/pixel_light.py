@@ -16,7 +16,7 @@ from core.framebuffer.display import encode_linear, encode_srgb
 from core.geometry.matrices import world_to_camera
 from core.picture.job import Job, Words
 from core.raster.spans.arena import Arena
-from core.scene import Camera, DirectionalLight, Light, Material, Scene
+from core.scene import Camera, DirectionalLight, Light, Material, Mesh, Scene
 
 LEVELS = 1 << 14
 """Linear colours that are told apart."""
@@ -32,7 +32,7 @@ FarLight = tuple[Singles, tuple[float, ...]]
 
 @dataclass(frozen=True, eq=False)
 class PixelLight:
-    """What lights the one mesh of a scene, and how it is seen."""
+    """What lights a mesh, and how it is seen."""
 
     material: Material
     lights: tuple[FarLight, ...]
@@ -134,13 +134,13 @@ def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: floa
     return np.flatnonzero(is_at_edge)
 
 
-def pixel_light(scene: Scene) -> PixelLight | None:
-    """Return what lights a scene of one mesh, or ``None`` where a light is not far away."""
+def pixel_light(scene: Scene, mesh: Mesh) -> PixelLight | None:
+    """Return what lights a mesh of a scene, or ``None`` where a light is not far away."""
     rotation = world_to_camera(scene.camera)[:3, :3]
     lights = [_far_light(light, rotation) for light in scene.lights if isinstance(light, DirectionalLight)]
     if len(lights) < len(scene.lights):
         return None
-    return PixelLight(scene.meshes[0].material, tuple(lights), scene.camera)
+    return PixelLight(mesh.material, tuple(lights), scene.camera)
 
 
 def _far_light(light: Light, rotation: Floats) -> FarLight:

@@ -25,7 +25,7 @@ from core.geometry_record import Geometry
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import STEEPEST
-from core.picture.lit.light_visible import LitPlanes
+from core.picture.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
 from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
 from core.picture.lit.planes import Plane, corner_w, evaluate, plane_through, rounding
 from core.picture.lit.vertex_facts import Color
@@ -50,7 +50,11 @@ class LitTexture:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return self.planes.light_visible(job, nearest, partial(self._albedo, job))
+        return color_doubtful(job, self.light_seen(job, nearest.seen()))
+
+    def light_seen(self, job: Job, seen: Seen) -> Lit:
+        """Write the lit colour of what is seen at some of the (H*W,) pixels."""
+        return self.planes.light_seen(job, seen, partial(self._albedo, job))
 
     def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
         """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
@@ -72,18 +76,20 @@ class LitTexture:
         ]
 
 
-def lit_texture(job: Job) -> LitTexture | None:
+def lit_texture(job: Job, places: CornerPlaces | None = None) -> LitTexture | None:
     """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
-    The scene is what ``one_color`` draws, with a texture that is looked up bilinearly.
+    ``places`` are those of the corners, where they are known.
+
+    They are what ``one_color`` draws, with a texture that is looked up bilinearly.
     """
-    mesh = lit_mesh(job) if job.has_texture and job.settings.texture_filter == "bilinear" else None
-    texture = mesh.scene.meshes[0].texture if mesh else None
+    mesh = lit_mesh(job) if job.settings.texture_filter == "bilinear" else None
+    texture = mesh.mesh.texture if mesh else None
     if mesh is None or texture is None or not is_plain(texture, job.settings.wrap):
         return None
     if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
-    places = corner_places(job.geometry)
+    places = places or corner_places(job.geometry)
     position = _texel_positions(job.geometry, mesh, texture)
     error = _texture_bytes(mesh, position_error(places, position))
     planes = lit_planes(job, mesh, places, error)
@@ -102,7 +108,7 @@ def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> lis
     index = geometry.primitives.values.index
     return [
         [(of_vertices * size).take(of_corner) for of_corner in index]
-        for of_vertices, size in zip(mesh.facts.uv, (columns, rows), strict=True)
+        for of_vertices, size in zip(mesh.facts.values.uv, (columns, rows), strict=True)
     ]
 
 

@@ -9,68 +9,93 @@ from functools import cached_property
 
 import numpy as np
 
-from core.arrays import Flags, Floats
-from core.primitives import CornerValues
-from core.scene import Mesh
+from core.arrays import Flags, Floats, Integers
+from core.geometry.matrices import world_to_camera
+from core.geometry_record import Geometry
+from core.scene import Camera
 
 Color = tuple[np.float32, ...]
 ALIKE = 0.2
 """Least cosine between the normals of a triangle: with less, those between them become too short."""
 
 
-class VertexFacts:
-    """Facts of the values (M, K) at the vertices of one mesh, found when they are first asked for."""
+class VertexValues:
+    """The values (M, K) at the vertices of all meshes, or at the corners of pieces, in contiguous columns."""
 
-    def __init__(self, values: CornerValues, mesh: Mesh) -> None:
-        self.rows, self._layout, self._mesh = values.rows, values.layout, mesh
+    def __init__(self, rows: Floats, layout: dict[str, slice]) -> None:
+        self.rows, self.layout = rows, layout
+        self.of_mesh: dict[int, VertexFacts] = {}
+        self._seen: tuple[Camera, Floats] | None = None
+
+    @cached_property
+    def normals(self) -> Floats:
+        """(3, M) float64 unit normals in world space, a contiguous row for each component."""
+        return np.ascontiguousarray(self.rows[:, self.layout["normal"]].T)
+
+    def normals_seen_by(self, camera: Camera) -> Floats:
+        """Return the `normals` (3, M) in the space of a camera; those of the last one are kept."""
+        if self._seen is None or self._seen[0] is not camera:
+            self._seen = camera, world_to_camera(camera)[:3, :3] @ self.normals
+        return self._seen[1]
+
+    @cached_property
+    def uv(self) -> Floats:
+        """(2, M) float64 texture coordinates, a contiguous row for u and for v."""
+        return np.ascontiguousarray(self.rows[:, self.layout["uv"]].T)
+
+
+class VertexFacts:
+    """Facts of the values at the vertices of one mesh, found when they are first asked for.
+
+    The backs of the vertices, if there are rows for them, have the same colours and coordinates, and the same normals
+    turned round.
+    """
+
+    def __init__(self, values: VertexValues, corner: Integers) -> None:
+        """``corner`` (3, T): the rows of the mesh's triangles, which no other mesh has in between."""
+        self.values, self._corner = values, corner
+        self._rows = slice(int(corner.min()), int(corner.max()) + 1) if corner.size else slice(0)
 
     @cached_property
     def color(self) -> Color | None:
         """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, or are not opaque."""
-        colors = self.rows[:, self._layout["color"]]
+        colors = self.values.rows[self._rows, self.values.layout["color"]]
         if not len(colors) or (colors != colors[:1]).any() or colors[0, 3] != 1:
             return None
         red, green, blue = (np.float32(part) for part in colors[0, :3])
         return (red,) if red == green == blue else (red, green, blue)
 
     @cached_property
-    def normals(self) -> Floats:
-        """(3, M) float64 unit normals in world space, a contiguous row for each component."""
-        return np.ascontiguousarray(self.rows[:, self._layout["normal"]].T)
-
-    @cached_property
     def unlike_share(self) -> float:
-        """Part of the mesh's triangles that have two normals less alike than `ALIKE`.
-
-        The backs of the vertices, if there are rows for them, have the same normals turned round, and cosines alike.
-        """
-        return float(
-            are_unlike([self.normals.take(index, axis=1) for index in self._mesh.triangles.T]).mean()
-        )
-
-    @cached_property
-    def uv(self) -> Floats:
-        """(2, M) float64 texture coordinates, a contiguous row for u and for v."""
-        return np.ascontiguousarray(self.rows[:, self._layout["uv"]].T)
+        """Part of the triangles that have two normals less alike than `ALIKE`."""
+        return float(are_unlike([self.values.normals.take(index, axis=1) for index in self._corner]).mean())
 
     @cached_property
     def farthest_uv(self) -> float:
         """Greatest size of a texture coordinate; NaN if one is."""
-        return float(np.abs(self.uv).max(initial=0))
+        return float(np.abs(self.values.uv[:, self._rows]).max(initial=0))
 
 
-_last: list[VertexFacts] = []
+_last: list[VertexValues] = []
 
 
-def vertex_facts(values: CornerValues, mesh: Mesh) -> VertexFacts:
-    """Return what is known of values at the vertices of a mesh; that of the last array is kept."""
-    for known in _last:
-        if known.rows is values.rows:
-            return known
-    made = VertexFacts(values, mesh)
-    # Another thread may keep others the next moment.
-    _last[:] = [made]
-    return made
+def vertex_facts(geometry: Geometry, mesh_number: int) -> VertexFacts:
+    """Return what is known of values at the vertices of a mesh, or of all pieces; what was found last is kept."""
+    of_corners = geometry.primitives.values
+    values = next((known for known in _last if known.rows is of_corners.rows), None)
+    if values is None:
+        values = VertexValues(of_corners.rows, of_corners.layout)
+        # Another thread may keep others the next moment.
+        _last[:] = [values]
+    if mesh_number not in values.of_mesh:
+        corner = of_corners.index
+        if geometry.clipped is None:
+            assembled = geometry.assembled
+            corner = geometry.vertices.corner_rows.take(assembled.triangle, axis=1)
+            if assembled.mesh.any():
+                corner = corner[:, assembled.mesh == mesh_number]
+        values.of_mesh[mesh_number] = VertexFacts(values, corner)
+    return values.of_mesh[mesh_number]
 
 
 def are_unlike(corners: Sequence[Floats]) -> Flags:

@@ -46,6 +46,20 @@ def textured_ball(with_near_triangle: bool = False) -> Scene:
     return replace(scene, meshes=(mesh,), lights=lights)
 
 
+def several_meshes() -> Scene:
+    """Return a textured ball, a plain one above it and a ring, lit from far away."""
+    ball_of_texture = textured_ball()
+    positions, triangles = torus(24, 12)
+    above = np.eye(4)
+    above[1, 3] = 0.9
+    meshes = (
+        ball_of_texture.meshes[0],
+        replace(plain_ball().meshes[0], transform=above),
+        Mesh(positions * 1.3, triangles),
+    )
+    return replace(ball_of_texture, meshes=meshes)
+
+
 def textured_rings() -> Scene:
     positions, triangles = torus(24, 12)
     generator = np.random.default_rng(3)
@@ -124,6 +138,7 @@ SCENES = {
     "ball of one colour": (plain_ball(), replace(SPANS, cull="back")),
     "textured ball": (textured_ball(), replace(SPANS, cull="back")),
     "textured ball below a near triangle": (textured_ball(True), replace(SPANS, cull="back")),
+    "several meshes under far lights": (several_meshes(), SPANS),
     "multisampled": (textured_rings(), replace(SPANS, antialiasing="msaa-4")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }

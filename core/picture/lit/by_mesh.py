@@ -1,0 +1,115 @@
+"""Phong's shading of several meshes: each is lit in its own way, by its material, with its colour or its texture.
+
+All of them have to allow it, so that the bands of a picture agree with the whole, see `core.picture.record.Route`.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Integers
+from core.framebuffer.nearest import BLOCK, NearestFragments
+from core.picture.job import Job
+from core.picture.lit.corner_places import corner_places
+from core.picture.lit.light_visible import Lit, color_doubtful
+from core.picture.lit.one_color import LitNormals, lit_mesh, lit_normals
+from core.picture.lit.textured import LitTexture, lit_texture
+from core.picture.record import Coloring
+from core.scene import Scene
+
+MOST = 64
+"""Meshes: of more, setting up each of them takes longer than light by the plain rules."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeshPart:
+    """The primitives of one mesh."""
+
+    job: Job
+    colors: LitNormals | LitTexture
+    chosen: Integers
+    """(C,) int64, their numbers in the picture."""
+
+
+@dataclass(frozen=True, eq=False)
+class LitMeshes:
+    """The meshes of a picture of P primitives, each with its colours."""
+
+    parts: list[MeshPart]
+    part: NDArray[np.uint8]
+    """(P,) uint8, the part that each primitive is in."""
+    local: Integers
+    """(P,) int64, its number there."""
+    name: ClassVar[Coloring] = "meshes"
+    stage = "shade"
+    for_layer: ClassVar[None] = None
+    """None: they light what is seen once it is known, so a picture has its depth first."""
+
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
+        none = np.empty(0, np.int64)
+        seen_count, doubtful = 0, [(none, none)]
+        for part, seen in zip(self.parts, self._seen_by_part(nearest), strict=True):
+            lit = part.colors.light_seen(part.job, _blocks(*seen))
+            seen_count += lit.seen_count
+            doubtful.append((lit.place, part.chosen.take(lit.primitive)))
+        place, primitive = (np.concatenate(of_parts) for of_parts in zip(*doubtful, strict=True))
+        return color_doubtful(job, Lit(seen_count, place, primitive))
+
+    def _seen_by_part(self, nearest: NearestFragments) -> list[tuple[Integers, Integers]]:
+        """Return for every part the places that it is seen at (V,), and its primitives there (V,)."""
+        none = np.empty(0, np.int64)
+        found = [([none], [none]) for _ in self.parts]
+        for place, primitive in nearest.seen():
+            part = self.part.take(primitive)
+            order = part.argsort(kind="stable")
+            place, local = place.take(order), self.local.take(primitive.take(order))
+            ends = np.searchsorted(part.take(order), np.arange(len(self.parts) + 1)).tolist()
+            for (places, locals_), (first, end) in zip(found, pairwise(ends), strict=True):
+                if first < end:
+                    places.append(place[first:end])
+                    locals_.append(local[first:end])
+        return [(np.concatenate(places), np.concatenate(locals_)) for places, locals_ in found]
+
+
+def _blocks(place: Integers, primitive: Integers) -> Iterator[tuple[Integers, Integers]]:
+    """Yield places and primitives (V,), up to `BLOCK` at a time."""
+    for first in range(0, len(place), BLOCK):
+        yield place[first : first + BLOCK], primitive[first : first + BLOCK]
+
+
+def lit_meshes(job: Job) -> LitMeshes | None:
+    """Return the meshes of a scene of several, or ``None`` where one of them allows no cheaper colours.
+
+    Pieces of clipped triangles are left to the plain rules.
+    """
+    scene, primitives = job.scene, job.geometry.primitives
+    if not isinstance(scene, Scene) or not 1 < len(scene.meshes) <= MOST or job.geometry.clipped is not None:
+        return None
+    # What is interpolated is found once for all of them.
+    if job.settings.shading != "phong" or not len(primitives.values.rows):
+        return None
+    drawn = np.flatnonzero(np.bincount(primitives.mesh, minlength=len(scene.meshes)))
+    part_of_mesh = np.zeros(len(scene.meshes), np.uint8)
+    part_of_mesh[drawn] = np.arange(len(drawn))
+    part = part_of_mesh.take(primitives.mesh)
+    jobs = []
+    for place, number in enumerate(drawn.tolist()):
+        chosen = np.flatnonzero(part == place)
+        jobs.append((job.part(chosen, number), chosen))
+    if not all(lit_mesh(of_mesh) for of_mesh, _ in jobs):
+        return None
+    places = corner_places(job.geometry)
+    local, parts = np.empty(len(primitives), np.int64), []
+    for of_mesh, chosen in jobs:
+        at = places.take(chosen)
+        colors = lit_normals(of_mesh, at) or lit_texture(of_mesh, at)
+        if colors is None:
+            return None
+        local[chosen] = np.arange(len(chosen))
+        parts.append(MeshPart(of_mesh, colors, chosen))
+    return LitMeshes(parts, part, local)
