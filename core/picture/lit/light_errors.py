@@ -13,7 +13,6 @@ from math import sqrt
 
 import numpy as np
 
-from core.arrays import Floats
 from core.picture.lit.corner_places import CornerPlaces
 from core.picture.lit.planes import rounding
 from core.picture.lit.vertex_facts import ALIKE
@@ -30,24 +29,17 @@ TABLE = 0.25
 """Bytes that the table of levels and the sums in float32 may be off."""
 
 
-def normal_error(places: CornerPlaces, w: Sequence[Floats]) -> float:
-    """Return the greatest angle, in radians, that an interpolated normal may be turned by.
-
-    Parameters
-    ----------
-    places : CornerPlaces
-        Of triangles that are not thin: the others have no such bound.
-    w : sequence of three (P,) float64 arrays
-        Of the corners.
+def normal_error(places: CornerPlaces) -> float:
+    """Return the greatest angle, in radians, that an interpolated normal may be turned by, of P triangles (P,).
 
     Notes
     -----
-    The components at the corners differ by 2 at most, and the shortest interpolated normal has length
-    sqrt((1 + 2 ALIKE) / 3) times the least w over the greatest. `SINGLE` is what float32 adds.
+    Doubtful triangles have no such bound. The components at the corners differ by 2 at most, and the shortest
+    interpolated normal has length sqrt((1 + 2 ALIKE) / 3) times the least w over the greatest. `SINGLE` is what float32
+    adds.
     """
-    greatest = np.maximum(np.maximum(w[0], w[1]), w[2])
-    turn = rounding(places, np.full(len(greatest), 4 * np.sqrt(3)))
-    turn *= greatest / np.minimum(np.minimum(w[0], w[1]), w[2])
+    turn = rounding(places, np.full(len(places.is_doubtful), 4 * sqrt(3)))
+    turn *= places.w.max(axis=0) / places.w.min(axis=0)
     # Of one triangle, so that what holds for all bands of a picture holds for the picture.
     return float(turn.max(initial=0)) / sqrt((1 + 2 * ALIKE) / 3) + SINGLE
 

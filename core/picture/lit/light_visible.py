@@ -45,8 +45,8 @@ class LitPlanes:
     turn: float
     """Angle that a normal may be off, in radians."""
     is_doubtful: Flags
-    """(P,) bool, thin triangles, which are not drawn where they are (``corner_places``), and those whose normals differ
-    too much (``normals``): their pixels are coloured once more."""
+    """(P,) bool, those in doubt where they are (``corner_places``), and those whose normals differ too much
+    (``normals``): their pixels are coloured once more."""
 
     def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""

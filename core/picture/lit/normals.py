@@ -7,7 +7,7 @@ by w.
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, Singles
+from core.arrays import Flags, Integers, Singles
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces
 from core.picture.lit.pixel_light import make_unit
@@ -30,7 +30,6 @@ def normal_planes(
     job: Job,
     camera: Camera,
     facts: VertexFacts,
-    w: list[Floats],
     places: CornerPlaces,
 ) -> tuple[NormalPlanes, Flags] | None:
     """Return the normals of all primitives, and which of them hold too different ones.
@@ -39,8 +38,6 @@ def normal_planes(
     ----------
     facts : VertexFacts
         Of the values at the vertices.
-    w : list of three (P,) float64 arrays
-        Of the corners; all above 0.
     places : CornerPlaces
         Where the corners lie in the window.
 
@@ -58,13 +55,13 @@ def normal_planes(
         return None
     normal = facts.values.normals_seen_by(camera)
     corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
-    is_unlike = np.zeros(len(w[0]), bool)
+    is_unlike = np.zeros(len(places.is_doubtful), bool)
     if not is_whole or facts.unlike_share > 0:
         is_unlike = are_unlike(corners)
         for corner in corners:
             corner[:, is_unlike] = FORWARD
-    least = np.minimum(np.minimum(w[0], w[1]), w[2])
-    for corner, of_corner in zip(corners, w, strict=True):
+    least = places.w.min(axis=0)
+    for corner, of_corner in zip(corners, places.w, strict=True):
         corner *= least / of_corner
     x, y, z = (plane_through(places, [corner[axis] for corner in corners]) for axis in range(3))
     steepest = max(float(np.abs(slope).max(initial=0)) for plane in (x, y, z) for slope in plane[:2])

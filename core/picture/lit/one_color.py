@@ -9,21 +9,25 @@ Used where the bytes stay within `TOLERANCE` of those of ``render`` before both 
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from core.arrays import Integers
 from core.framebuffer.nearest import NearestFragments
+from core.geometry_record import Geometry
 from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import light_error, normal_error
 from core.picture.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
 from core.picture.lit.normals import normal_planes
 from core.picture.lit.pixel_light import PixelLight, pixel_light
-from core.picture.lit.planes import corner_w
 from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
 from core.picture.record import Coloring
 from core.scene import DirectionalLight, Mesh, Scene
 
 TOLERANCE = 1.0
 """Bytes that a colour may be away from the exact one before both are rounded."""
+IN_FRONT = 0.75
+"""Part of the triangles that have a place in the window, at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +84,12 @@ class LitMesh:
 def lit_mesh(job: Job) -> LitMesh | None:
     """Return the mesh that all primitives are of, or ``None`` where something else differs from pixel to pixel.
 
-    It is opaque, of one colour, shaded by Phong's method, lit from far away, all of it in front of the eye.
+    It is opaque, of one colour, shaded by Phong's method, lit from far away, nearly all of it in front of the eye.
     """
     scene, geometry, settings, number = job.scene, job.geometry, job.settings, job.only_mesh
     if number is None or not isinstance(scene, Scene) or settings.shading != "phong":
         return None
-    if settings.interpolation != "perspective" or not geometry.is_projected.all():
+    if settings.interpolation != "perspective" or not _is_mostly_in_front(geometry):
         return None
     mesh = scene.meshes[number]
     light = pixel_light(scene, mesh)
@@ -96,6 +100,21 @@ def lit_mesh(job: Job) -> LitMesh | None:
     return LitMesh(mesh, lights, light, facts, facts.color)
 
 
+def _is_mostly_in_front(geometry: Geometry) -> bool:
+    """Tell whether so few triangles have corners without a place in the window that they may be coloured twice.
+
+    Of all that are not culled, so that what holds for the picture holds for all bands of it.
+    """
+    has_place = geometry.window.is_projected
+    if has_place.all():
+        return True
+    if geometry.clipped is not None:
+        return bool(geometry.is_projected.all())
+    corner = geometry.assembled.corner[:, geometry.culled.kept]
+    in_front = np.count_nonzero(has_place.take(corner).all(axis=0))
+    return bool(in_front >= IN_FRONT * corner.shape[1])
+
+
 def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: float = 0.0) -> LitPlanes | None:
     """Return the normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
@@ -104,13 +123,12 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
     texture_error : float
         Bytes that what the light is multiplied with may be off.
     """
-    w = corner_w(job.geometry)
-    turn, brightest = normal_error(places, w), float(max(mesh.color))
+    turn, brightest = normal_error(places), float(max(mesh.color))
     error = light_error(turn, mesh.light.material, mesh.lights, brightest, job.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
-    found = normal_planes(job, mesh.light.camera, mesh.facts, w, places)
+    found = normal_planes(job, mesh.light.camera, mesh.facts, places)
     if found is None:
         return None
     normals, is_unlike = found
-    return LitPlanes(normals, mesh.light, turn, places.is_thin | is_unlike)
+    return LitPlanes(normals, mesh.light, turn, places.is_doubtful | is_unlike)

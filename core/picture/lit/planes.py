@@ -7,7 +7,6 @@ area, as a part of what the corners differ by (``core.fragments.interpolation``)
 import numpy as np
 
 from core.arrays import Floats, Integers
-from core.geometry_record import Geometry
 from core.integer_planes import window_slopes
 from core.picture.lit.corner_places import CornerPlaces
 
@@ -16,11 +15,6 @@ ROUNDING = 2.0**-48
 
 Plane = tuple[Floats, Floats, Floats]
 """Change per column, per row, and value at the window's origin, (P,) float64 each."""
-
-
-def corner_w(geometry: Geometry) -> list[Floats]:
-    """Return w of the three corners, (P,) float64 each."""
-    return [geometry.primitives.vertex_clip[3].take(index) for index in geometry.primitives.corner]
 
 
 def plane_through(places: CornerPlaces, values: list[Floats]) -> Plane:
@@ -33,9 +27,9 @@ def plane_through(places: CornerPlaces, values: list[Floats]) -> Plane:
 def rounding(places: CornerPlaces, extent: Floats) -> Floats:
     """Return by how much (P,) values may be off that the corners of a triangle differ in by ``extent`` (P,).
 
-    Used up is ``extent``: second minus first plus third minus first, in size. Thin triangles have no such bound: 0.
+    Used up is ``extent``: second minus first plus third minus first, in size. Doubtful triangles have no such bound: 0.
     """
-    extent[places.is_thin] = 0
+    extent[places.is_doubtful] = 0
     extent /= np.abs(places.doubled_area)
     extent *= np.abs(places.x).max(axis=0)
     extent *= np.abs(places.y).max(axis=0)

@@ -27,7 +27,7 @@ from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import STEEPEST
 from core.picture.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
 from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
-from core.picture.lit.planes import Plane, corner_w, evaluate, plane_through, rounding
+from core.picture.lit.planes import Plane, evaluate, plane_through, rounding
 from core.picture.lit.vertex_facts import Color
 from core.picture.record import Coloring
 from core.scene import Texture
@@ -95,7 +95,7 @@ def lit_texture(job: Job, places: CornerPlaces | None = None) -> LitTexture | No
     planes = lit_planes(job, mesh, places, error)
     if planes is None:
         return None
-    inverse = [1 / of_corner for of_corner in corner_w(job.geometry)]
+    inverse = list(1 / places.w)
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
     inverse_w, u, v = (plane_through(places, values) for values in (inverse, *over_w))
     sampler = SingleSampler(texture, job.settings.wrap)
@@ -113,11 +113,11 @@ def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> lis
 
 
 def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
-    """Return by how many texels the position of a fragment of a triangle that is not thin may be off.
+    """Return by how many texels the position of a fragment of a triangle that is not doubtful may be off.
 
     ``position`` are the corners' places in the texture: for u and v three times (P,) float64 texels.
     """
-    extent = np.zeros(len(places.is_thin))
+    extent = np.zeros(len(places.is_doubtful))
     for first, second, third in position:
         extent += np.abs(second - first)
         extent += np.abs(third - first)

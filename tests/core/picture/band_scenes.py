@@ -60,6 +60,13 @@ def several_meshes() -> Scene:
     return replace(ball_of_texture, meshes=meshes)
 
 
+def on_endless_floor() -> Scene:
+    """Return several meshes on a floor of two triangles that reach behind the eye."""
+    scene = several_meshes()
+    corners = np.array([[-9.0, -0.8, -9.0], [-9.0, -0.8, 9.0], [9.0, -0.8, 9.0], [9.0, -0.8, -9.0]])
+    return replace(scene, meshes=(*scene.meshes, Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))))
+
+
 def textured_rings() -> Scene:
     positions, triangles = torus(24, 12)
     generator = np.random.default_rng(3)
@@ -139,6 +146,7 @@ SCENES = {
     "textured ball": (textured_ball(), replace(SPANS, cull="back")),
     "textured ball below a near triangle": (textured_ball(True), replace(SPANS, cull="back")),
     "several meshes under far lights": (several_meshes(), SPANS),
+    "meshes on an endless floor": (on_endless_floor(), SPANS),
     "multisampled": (textured_rings(), replace(SPANS, antialiasing="msaa-4")),
     "nothing": (ball(eye=(0.0, 0.0, 90.0), size=(9, 9)), SPANS),
 }

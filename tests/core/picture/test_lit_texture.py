@@ -146,10 +146,12 @@ def test_how_far_positions_are_off_is_asked_of_one_triangle_at_a_time() -> None:
     y = np.array([[1.0, 9000.0], [1.0, 9000.0], [4.0, 9100.0]])
     area = np.array([6.0, 10000.0])
     across = [np.array([0.0, 0.0]), np.array([1e5, 1.0]), np.array([0.0, 0.0])]
-    both = position_error(CornerPlaces(x, y, area, np.zeros(2, bool)), [across, 3 * [np.zeros(2)]])
+    both = position_error(
+        CornerPlaces(x, y, np.ones((3, 2)), area, np.zeros(2, bool)), [across, 3 * [np.zeros(2)]]
+    )
     alone = [
         position_error(
-            CornerPlaces(x[:, part], y[:, part], area[part], np.zeros(1, bool)),
+            CornerPlaces(x[:, part], y[:, part], np.ones((3, 1)), area[part], np.zeros(1, bool)),
             [[of[part] for of in across], 3 * [np.zeros(1)]],
         )
         for part in (slice(0, 1), slice(1, 2))
