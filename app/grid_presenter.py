@@ -77,6 +77,7 @@ class GridPresenter(QObject):
         strip.buffer_chosen.connect(self._choose_buffer)
         grid.vertex_dragged.connect(self._drag)
         grid.vertex_drag_finished.connect(self._end_drag)
+        grid.vertex_drag_taken_back.connect(self._take_drag_back)
         legend.overlays_changed.connect(self._choose_overlays)
         ranges.range_changed.connect(self._choose_range)
         ranges.range_reset.connect(self._reset_range)
@@ -274,7 +275,7 @@ class GridPresenter(QObject):
         size = document.traced_scene.size
         try:
             scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)
-            self._session.edit(replace(document, scene=scene), f"drag {self._drags}")
+            self._session.edit(replace(document, scene=scene), self._gesture)
         except ValueError as error:
             self.edit_refused.emit(f"The vertex was not moved: {error}")
 
@@ -282,3 +283,12 @@ class GridPresenter(QObject):
     def _end_drag(self, vertex: int) -> None:
         self._drags += 1
         self._session.end_gesture()
+
+    @Slot(int)
+    def _take_drag_back(self, vertex: int) -> None:
+        self._session.take_back(self._gesture)
+        self._drags += 1
+
+    @property
+    def _gesture(self) -> str:
+        return f"drag {self._drags}"

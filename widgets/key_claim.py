@@ -1,6 +1,6 @@
 """Who gets a key: a pane that Tab reached keeps the few it needs, a clicked one leaves stepping alone."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
@@ -38,3 +38,24 @@ class KeyClaim(QObject):
             event.setAccepted(is_claimed)
             return True
         return False
+
+
+class EscapeClaim(QObject):
+    """Keeps Escape of a widget from window-wide shortcuts while the widget has something to take back.
+
+    Of several filters Qt asks the last installed first: this one is made after a `KeyClaim` of the same widget.
+    """
+
+    def __init__(self, widget: QWidget, is_needed: Callable[[], bool]) -> None:
+        super().__init__(widget)
+        self._is_needed = is_needed
+        widget.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Accept Escape where it is needed."""
+        if not isinstance(event, QKeyEvent) or event.type() != QEvent.Type.ShortcutOverride:
+            return False
+        if event.key() != Qt.Key.Key_Escape or not self._is_needed():
+            return False
+        event.accept()
+        return True

@@ -13,7 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
-from widgets.key_claim import KeyClaim
+from widgets.key_claim import EscapeClaim, KeyClaim
 from widgets.orbit import Orbit, panned, turned, zoomed
 from widgets.theme import current_theme, theme_notifier
 
@@ -56,6 +56,7 @@ class OrbitArea(QWidget):
         self._pressed_at = self._last_at = QPointF()
         self._shows_focus = True
         self._claim = KeyClaim(self, _KEYS)
+        self._escape = EscapeClaim(self, self._is_dragging_handle)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -201,7 +202,7 @@ class OrbitArea(QWidget):
             self._change(zoomed(self._orbit, factor, 0.0, 0.0, self._space_area().height()))
         elif key == Qt.Key.Key_Home:
             self._change(self._home)
-        elif key == Qt.Key.Key_Escape and self._handle is not None and self._has_moved:
+        elif key == Qt.Key.Key_Escape and self._is_dragging_handle():
             self._end_drag(is_taken_back=True)
         else:
             super().keyPressEvent(event)
@@ -232,6 +233,9 @@ class OrbitArea(QWidget):
         if orbit != self._orbit:
             self.set_orbit(orbit)
             self.view_changed.emit(orbit)
+
+    def _is_dragging_handle(self) -> bool:
+        return self._handle is not None and self._has_moved
 
     def _end_drag(self, is_taken_back: bool) -> None:
         handle, had_moved = self._handle, self._has_moved

@@ -87,6 +87,8 @@ class SceneView(OrbitArea):
     """Vertex and its new place: fractions of the picture's width and height, y up."""
     vertex_drag_finished = Signal(int)
     """Vertex."""
+    vertex_drag_taken_back = Signal(int)
+    """Vertex; the drag ended and is to be as if it had not been."""
     size_changed = Signal()
     """The picture should have another size: see :meth:`picture_size`."""
     size_chosen = Signal(str)
@@ -326,9 +328,7 @@ class SceneView(OrbitArea):
         self.vertex_dragged.emit(handle, x, y)
 
     def _handle_dropped(self, handle: int, is_taken_back: bool) -> None:
-        if is_taken_back:
-            self.vertex_dragged.emit(handle, *self._origin)
-        self.vertex_drag_finished.emit(handle)
+        (self.vertex_drag_taken_back if is_taken_back else self.vertex_drag_finished).emit(handle)
 
     def _clicked(self, position: QPointF) -> None:
         area = self._space_area()
