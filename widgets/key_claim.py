@@ -10,6 +10,11 @@ _NO_MOVE = (Qt.FocusReason.ActiveWindowFocusReason, Qt.FocusReason.PopupFocusRea
 """Focus that comes back rather than moves."""
 
 
+def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:
+    """Return whether the keyboard gave the focus; where it comes back from a menu or another window, ``before``."""
+    return before if event.reason() in _NO_MOVE else event.reason() != Qt.FocusReason.MouseFocusReason
+
+
 class KeyClaim(QObject):
     """Keeps keys of a widget from window-wide shortcuts while the keyboard has brought the focus there.
 
@@ -25,11 +30,7 @@ class KeyClaim(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Accept claimed keys, and leave every other key to the shortcuts of the window."""
         if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
-            if event.reason() not in (
-                Qt.FocusReason.ActiveWindowFocusReason,
-                Qt.FocusReason.PopupFocusReason,
-            ):
-                self._is_by_keyboard = event.reason() != Qt.FocusReason.MouseFocusReason
+            self._is_by_keyboard = is_focus_by_keyboard(event, self._is_by_keyboard)
         elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
             is_plain = not event.modifiers() & ~(
                 Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier

@@ -13,7 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
-from widgets.key_claim import EscapeClaim, KeyClaim
+from widgets.key_claim import EscapeClaim, KeyClaim, is_focus_by_keyboard
 from widgets.orbit import Orbit, panned, turned, zoomed
 from widgets.theme import current_theme, theme_notifier
 
@@ -54,6 +54,8 @@ class OrbitArea(QWidget):
         self._is_moving_space = False
         self._has_moved = False
         self._pressed_at = self._last_at = QPointF()
+        self._pressed_handle: int | None = None
+        """The handle at the last press."""
         self._shows_focus = True
         self._claim = KeyClaim(self, _KEYS)
         self._escape = EscapeClaim(self, self._is_dragging_handle)
@@ -118,7 +120,8 @@ class OrbitArea(QWidget):
         self._has_moved = False
         is_shifted = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
         self._is_moving_space = button == Qt.MouseButton.MiddleButton or is_shifted
-        self._set_handle(None if self._is_moving_space else self._handle_near(event.position()))
+        self._pressed_handle = self._handle_near(event.position())
+        self._set_handle(None if self._is_moving_space else self._pressed_handle)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Turn, move, or drag the handle that was taken."""
@@ -153,8 +156,11 @@ class OrbitArea(QWidget):
         self._set_handle(self._handle_near(event.position()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Show the whole space again, from the present direction."""
-        if event.button() == Qt.MouseButton.LeftButton and self._handle_near(event.position()) is None:
+        """Show the whole space again, from the present direction, unless a handle was clicked.
+
+        The first click may have brought a handle there, by choosing a triangle: what it found counts.
+        """
+        if event.button() == Qt.MouseButton.LeftButton and self._pressed_handle is None:
             self.fit()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
@@ -209,7 +215,7 @@ class OrbitArea(QWidget):
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = event.reason() != Qt.FocusReason.MouseFocusReason
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
         super().focusInEvent(event)
         self.update()
 
