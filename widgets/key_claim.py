@@ -6,12 +6,16 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QWidget
 
-_NO_MOVE = (Qt.FocusReason.ActiveWindowFocusReason, Qt.FocusReason.PopupFocusReason)
-"""Focus that comes back rather than moves."""
+_NO_MOVE = (
+    Qt.FocusReason.ActiveWindowFocusReason,
+    Qt.FocusReason.PopupFocusReason,
+    Qt.FocusReason.OtherFocusReason,
+)
+"""Focus that comes back, or that the program gives, as when the view that had it is put away for another."""
 
 
 def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:
-    """Return whether the keyboard gave the focus; where it comes back from a menu or another window, ``before``."""
+    """Return whether the keyboard gave the focus; where the user gave none, ``before``."""
     return before if event.reason() in _NO_MOVE else event.reason() != Qt.FocusReason.MouseFocusReason
 
 
@@ -24,7 +28,7 @@ class KeyClaim(QObject):
     def __init__(self, widget: QWidget, keys: Collection[Qt.Key]) -> None:
         super().__init__(widget)
         self._keys = frozenset(keys)
-        self._is_by_keyboard = True
+        self._is_by_keyboard = False
         widget.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -56,7 +56,7 @@ class OrbitArea(QWidget):
         self._pressed_at = self._last_at = QPointF()
         self._pressed_handle: int | None = None
         """The handle at the last press."""
-        self._shows_focus = True
+        self._shows_focus = False
         self._claim = KeyClaim(self, _KEYS)
         self._escape = EscapeClaim(self, self._is_dragging_handle)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -71,7 +71,7 @@ class TextureView(QWidget):
         """Logical pixels per texel; None: the whole texture."""
         self._is_on_footprint = False
         self._dragged_from: QPointF | None = None
-        self._shows_focus = True
+        self._shows_focus = False
         self.empty_text = "Nothing to show yet"
         self._claim = KeyClaim(self, _KEYS)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -127,3 +128,19 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
         found.append(window.preferences.theme)
     assert found == ["dark", "light"]
     apply_theme(application, LIGHT)
+
+
+def test_after_a_click_and_another_view_the_arrows_go_on_stepping(window: MainWindow, qtbot: QtBot) -> None:
+    window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)
+    place = window.page.grid.placement().cells_rect(20, 20).center().toPoint()
+    qtbot.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place)
+    window.session.go_to(0)
+    qtbot.keyClick(window.windowHandle(), Qt.Key.Key_V)
+    assert window.page.current_view() == "scene"
+    view = window.focusWidget()
+    assert view.accessibleName() == "3D scene"
+    orbit = view.orbit()
+    qtbot.keyClick(window.windowHandle(), Qt.Key.Key_Right)
+    assert window.session.cursor.position > 0
+    assert view.orbit() == orbit
