@@ -141,7 +141,9 @@ class PixelGrid(GridDisplay):
             return
         if self._drag is _Drag.PAN:
             self._change_view(panned(self.placement(), self._view, delta))
-        else:
+        elif (
+            self.buffer() is not None
+        ):  # Else there are no pixels to place it by, until there is a picture again.
             self._drag_vertex(position, bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:

@@ -134,6 +134,21 @@ def test_escape_takes_a_drag_back(grid: PixelGrid) -> None:
     assert finished == []
 
 
+def test_a_vertex_is_not_moved_while_there_are_no_pixels(grid: PixelGrid, qtbot) -> None:
+    grid.show_geometry(TRIANGLE)
+    buffer = grid.buffer()
+    QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 8.0, 13.0))
+    end = at(grid, 12.0, 9.0)
+    QTest.mouseMove(grid, at(grid, 10.0, 9.0))
+    grid.show_buffer(None)
+    with qtbot.assertNotEmitted(grid.vertex_dragged):
+        QTest.mouseMove(grid, at(grid, 0.5, 0.5))
+    grid.show_buffer(buffer)
+    with qtbot.waitSignal(grid.vertex_dragged) as told:
+        QTest.mouseMove(grid, end)
+    assert told.args == [2, pytest.approx(12.0), pytest.approx(9.0)]
+
+
 def test_a_click_on_a_vertex_is_a_click_on_its_pixel(grid: PixelGrid, qtbot) -> None:
     grid.show_geometry(TRIANGLE)
     with qtbot.assertNotEmitted(grid.vertex_drag_started), qtbot.waitSignal(grid.pixel_clicked) as clicked:
