@@ -98,6 +98,10 @@ class OrbitArea(QWidget):
     def _clicked(self, position: QPointF) -> None:
         """Take a click that moved nothing."""
 
+    def _orbit_at(self, position: QPointF) -> Orbit:
+        """Return the orbit to magnify about a position: the present one, its target perhaps as far as what is there."""
+        return self._orbit
+
     def _space_area(self) -> QRectF:
         """Return the part of the widget that shows the space."""
         return QRectF(self.rect())
@@ -172,7 +176,8 @@ class OrbitArea(QWidget):
         area = self._space_area()
         offset = event.position() - area.center()
         factor = _WHEEL_FACTOR**notches
-        self._change(zoomed(self._orbit, factor, offset.x(), offset.y(), area.height()))
+        before = self._orbit_at(event.position())
+        self._change(zoomed(before, factor, offset.x(), offset.y(), area.height()))
         event.accept()
 
     def leaveEvent(self, event: QEvent) -> None:

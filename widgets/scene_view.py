@@ -25,8 +25,10 @@ from widgets.frame_corner import FrameCorner, SizeChoice
 from widgets.image import display_image
 from widgets.ink import faded, ink_color
 from widgets.label_places import LabelPlaces
+from widgets.orbit import Orbit
 from widgets.orbit_area import GRAB_RADIUS, OrbitArea
 from widgets.picture_area import picture_area
+from widgets.sight import Sight
 from widgets.space_paint import paint_label, paint_spot
 from widgets.theme import Theme, current_theme
 
@@ -70,6 +72,8 @@ class ScenePicture:
     labels: tuple[tuple[float, float, str, str], ...] = ()
     """Fraction across, fraction up, text, ink."""
     caption: str = ""
+    sight: Sight | None = None
+    """Where the wheel goes; None: to the target of the orbit."""
 
     def __post_init__(self) -> None:
         if self.pixels.ndim != 3 or self.pixels.shape[2] != 4 or 0 in self.pixels.shape:
@@ -315,6 +319,13 @@ class SceneView(OrbitArea):
                 if distance <= reach:
                     best, reach = handle.index, distance
         return best
+
+    def _orbit_at(self, position: QPointF) -> Orbit:
+        if self._picture is None or self._picture.sight is None:
+            return self.orbit()
+        area = self._space_area()
+        x, y = (position.x() - area.left()) / area.width(), (area.bottom() - position.y()) / area.height()
+        return self._picture.sight.focused(self.orbit(), x, y)
 
     def _handle_taken(self, handle: int) -> None:
         handles = self._picture.handles if self._picture is not None else ()

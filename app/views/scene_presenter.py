@@ -230,7 +230,8 @@ class ScenePresenter(QObject):
             if 0 <= x <= 1 and 0 <= y <= 1
         )
         marks = pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
-        self._view.show_picture(ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption()))
+        picture = ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption(), drawn.sight)
+        self._view.show_picture(picture)
 
     # Figures.
 
