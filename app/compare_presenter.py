@@ -11,6 +11,7 @@ from app.grid_records import geometry_of
 from app.scene_presenter import settings_records
 from app.session import Session
 from app.tracing import QUICK_SECONDS
+from app.vertex_drags import VertexDrags
 from app.workers import Job, Progress
 from core import Frame, Settings
 from core.methods import table
@@ -44,6 +45,8 @@ class ComparePresenter(QObject):
         self._job = Job(self)
         self._job.succeeded.connect(self._show)
         self._job.failed.connect(self._refuse)
+        self._drags = VertexDrags(session, view.linked.grids, self._no_triangle, "drag in A | B", self)
+        self._drags.refused.connect(self.edit_refused)
         session.document_changed.connect(self.refresh)
         session.pin_changed.connect(self.refresh_pointing)
         session.hover_changed.connect(self.refresh_pointing)
@@ -103,6 +106,11 @@ class ComparePresenter(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         self._view.show_refusal(f"B cannot be drawn: {error}")
+
+    @staticmethod
+    def _no_triangle() -> int | None:
+        """Return that only the document's own triangle has handles here."""
+        return None
 
     def stop(self) -> None:
         """End drawing in the background."""

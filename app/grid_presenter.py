@@ -13,12 +13,11 @@ from app.grid_records import (
     edge_overlay,
     geometry_of,
     mask_overlays,
-    outlined_triangles,
     span_overlay,
 )
 from app.sample_records import sample_dots
-from app.scene_edits import move_corner
 from app.session import Session
+from app.vertex_drags import VertexDrags
 from core.arrays import Integers
 from core.steps import Level
 from widgets.buffer_strip import BufferStrip
@@ -62,7 +61,8 @@ class GridPresenter(QObject):
         self._chosen: dict[str, str] = {}
         self._own_ranges: dict[str, tuple[float, float]] = {}
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
-        self._drags = 0
+        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, "drag", self)
+        self._drags.refused.connect(self.edit_refused)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_pointing)
@@ -75,8 +75,6 @@ class GridPresenter(QObject):
         grid.view_changed.connect(strip.set_view)
         strip.view_changed.connect(grid.set_view)
         strip.buffer_chosen.connect(self._choose_buffer)
-        grid.vertex_dragged.connect(self._drag)
-        grid.vertex_drag_finished.connect(self._end_drag)
         legend.overlays_changed.connect(self._choose_overlays)
         ranges.range_changed.connect(self._choose_range)
         ranges.range_reset.connect(self._reset_range)
@@ -127,6 +125,9 @@ class GridPresenter(QObject):
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
         self._hide_results(buffers, main)
+
+    def _stepped_triangle(self) -> int:
+        return self._focus
 
     def _focus_on(self, triangle: int) -> None:
         """Give a triangle coloured edges and handles, where the document has none in focus."""
@@ -263,22 +264,3 @@ class GridPresenter(QObject):
         if is_kept:
             self._own_ranges.clear()
         self.refresh_step()
-
-    @Slot(int, float, float)
-    def _drag(self, vertex: int, x: float, y: float) -> None:
-        document = self._session.document
-        raster = self._session.trace.source.raster
-        first_column, first_row, _, _ = raster.bounds
-        wanted = document.triangle if document.triangle is not None else self._focus
-        triangle = int(outlined_triangles(self._session.trace, wanted)[vertex // 3])
-        size = document.traced_scene.size
-        try:
-            scene = move_corner(document.scene, triangle, vertex % 3, (x + first_column, y + first_row), size)
-            self._session.edit(replace(document, scene=scene), f"drag {self._drags}")
-        except ValueError as error:
-            self.edit_refused.emit(f"The vertex was not moved: {error}")
-
-    @Slot(int)
-    def _end_drag(self, vertex: int) -> None:
-        self._drags += 1
-        self._session.end_gesture()

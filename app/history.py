@@ -50,6 +50,10 @@ class History(Generic[State]):
         del self._states[:excess], self._keys[:excess]
         self._at = len(self._states) - 1
 
+    def is_within(self, gesture: str) -> bool:
+        """Return whether the present value was put in by a gesture that goes on."""
+        return self._keys[self._at] == gesture
+
     def seal(self) -> None:
         """End a gesture: later values with its key are new ones."""
         self._keys[self._at] = ""

@@ -128,7 +128,7 @@ class MainWindow(QMainWindow):
             "show_keys": self.overlays.toggle_keys,
             "undo": self.session.undo,
             "redo": self.session.redo,
-            "fit_region": self.edits.fit_region,
+            "fit_region": self.fit_to_triangle,
             "toggle_shared": self.edits.toggle_shared,
             "focus_all": self.edits.focus_all,
             "toggle_cleared": self.edits.toggle_cleared,
@@ -197,6 +197,12 @@ class MainWindow(QMainWindow):
             self.messages.clear()
         else:
             self.pages.current.dismiss()
+
+    def fit_to_triangle(self) -> None:
+        """Fit the raster to the triangle in focus, and the 3D view too where that is shown."""
+        self.edits.fit_region()
+        if self.page.current_view() == "scene":
+            self.page.views.look_at_focus()
 
     def toggle_predict(self) -> None:
         """Ask before showing, or stop asking."""

@@ -141,6 +141,12 @@ class Session(QObject):
         """Say that the next edit is one of its own."""
         self._history.seal()
 
+    def take_back(self, gesture: str) -> None:
+        """End a gesture as if it had not been; redo does it after all."""
+        self.tracing.cancel()
+        if self._history.is_within(gesture):
+            self.undo()
+
     def set_setting(self, family: str, value: str | int) -> None:
         """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
         settings: Settings = replace(self.document.settings, **{family: value})  # type: ignore[arg-type]

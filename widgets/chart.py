@@ -10,6 +10,7 @@ from widgets.caption_paint import paint_empty
 from widgets.chart_canvas import ChartCanvas
 from widgets.chart_records import ChartEmpty, ChartMark, ChartPicture
 from widgets.ink import faded
+from widgets.key_claim import is_focus_by_keyboard
 from widgets.label_places import LabelPlaces
 from widgets.series_marks import series_color
 from widgets.theme import current_theme, text_font
@@ -164,7 +165,7 @@ class Chart(ChartCanvas):
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Show the ring if the focus came by a key."""
-        self._shows_focus = event.reason() != Qt.FocusReason.MouseFocusReason
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
         super().focusInEvent(event)
         self.viewport().update()
 

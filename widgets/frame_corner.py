@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
@@ -9,6 +10,7 @@ from PySide6.QtGui import (
     QActionGroup,
     QColor,
     QFontMetrics,
+    QFontMetricsF,
     QKeyEvent,
     QPainter,
     QPaintEvent,
@@ -102,8 +104,10 @@ class FrameCorner(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """Return room for the line and the arrow."""
-        metrics = QFontMetrics(text_font(current_theme(), current_theme().small_px))
-        return QSize(metrics.horizontalAdvance(self.text()) + 2 * _MARGIN + _ARROW, metrics.height() + 4)
+        metrics = QFontMetricsF(text_font(current_theme(), current_theme().small_px))
+        # Text is elided by its exact width, which may be more than the whole pixels that it is said to take.
+        text = ceil(metrics.horizontalAdvance(self.text())) + 1
+        return QSize(text + 2 * _MARGIN + _ARROW, ceil(metrics.height()) + 4)
 
     def event(self, event: QEvent) -> bool:
         """Light up under the mouse."""

@@ -1,13 +1,22 @@
 """Who gets a key: a pane that Tab reached keeps the few it needs, a clicked one leaves stepping alone."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QWidget
 
-_NO_MOVE = (Qt.FocusReason.ActiveWindowFocusReason, Qt.FocusReason.PopupFocusReason)
-"""Focus that comes back rather than moves."""
+_NO_MOVE = (
+    Qt.FocusReason.ActiveWindowFocusReason,
+    Qt.FocusReason.PopupFocusReason,
+    Qt.FocusReason.OtherFocusReason,
+)
+"""Focus that comes back, or that the program gives, as when the view that had it is put away for another."""
+
+
+def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:
+    """Return whether the keyboard gave the focus; where the user gave none, ``before``."""
+    return before if event.reason() in _NO_MOVE else event.reason() != Qt.FocusReason.MouseFocusReason
 
 
 class KeyClaim(QObject):
@@ -19,17 +28,13 @@ class KeyClaim(QObject):
     def __init__(self, widget: QWidget, keys: Collection[Qt.Key]) -> None:
         super().__init__(widget)
         self._keys = frozenset(keys)
-        self._is_by_keyboard = True
+        self._is_by_keyboard = False
         widget.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Accept claimed keys, and leave every other key to the shortcuts of the window."""
         if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
-            if event.reason() not in (
-                Qt.FocusReason.ActiveWindowFocusReason,
-                Qt.FocusReason.PopupFocusReason,
-            ):
-                self._is_by_keyboard = event.reason() != Qt.FocusReason.MouseFocusReason
+            self._is_by_keyboard = is_focus_by_keyboard(event, self._is_by_keyboard)
         elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
             is_plain = not event.modifiers() & ~(
                 Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
@@ -38,3 +43,24 @@ class KeyClaim(QObject):
             event.setAccepted(is_claimed)
             return True
         return False
+
+
+class EscapeClaim(QObject):
+    """Keeps Escape of a widget from window-wide shortcuts while the widget has something to take back.
+
+    Of several filters Qt asks the last installed first: this one is made after a `KeyClaim` of the same widget.
+    """
+
+    def __init__(self, widget: QWidget, is_needed: Callable[[], bool]) -> None:
+        super().__init__(widget)
+        self._is_needed = is_needed
+        widget.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Accept Escape where it is needed."""
+        if not isinstance(event, QKeyEvent) or event.type() != QEvent.Type.ShortcutOverride:
+            return False
+        if event.key() != Qt.Key.Key_Escape or not self._is_needed():
+            return False
+        event.accept()
+        return True

@@ -64,11 +64,22 @@ def panned(orbit: Orbit, right: float, down: float, height: float) -> Orbit:
 
 def zoomed(orbit: Orbit, factor: float, right: float, down: float, height: float) -> Orbit:
     """Return the orbit magnified by ``factor``; what is so far from the middle keeps its place."""
-    finest = max(EXTENT_LIMITS[0], FINEST * max(abs(value) for value in orbit.target))
-    extent = min(max(orbit.extent / factor, finest), EXTENT_LIMITS[1])
+    extent = min(max(orbit.extent / factor, _finest(orbit)), EXTENT_LIMITS[1])
     unit = 2 * (orbit.extent - extent) / max(height, 1.0)
     axes = orbit.axes()
     moved = _with_target(orbit, np.array(orbit.target) + (right * axes[0] - down * axes[1]) * unit)
+    return replace(moved, extent=extent)
+
+
+def refocused(orbit: Orbit, distance: float, field_of_view: float) -> Orbit:
+    """Return the orbit from the same eye, its target so far away; what is seen stays the same.
+
+    A distance that is not positive, or too small or large to look from, changes nothing.
+    """
+    extent = distance * tan(field_of_view / 2)
+    if not _finest(orbit) < extent < EXTENT_LIMITS[1]:
+        return orbit
+    moved = _with_target(orbit, orbit.eye(field_of_view) - distance * orbit.axes()[2])
     return replace(moved, extent=extent)
 
 
@@ -93,6 +104,11 @@ def framed(orbit: Orbit, points: NDArray[np.float64], aspect: float = 1.0, margi
     half = (high - low) / 2 * margin
     extent = max(float(half[1]), float(half[0]) / max(aspect, 0.1), EXTENT_LIMITS[0])
     return _with_target(replace(orbit, extent=extent), ((low + high) / 2) @ axes)
+
+
+def _finest(orbit: Orbit) -> float:
+    """Return the smallest extent that there may be near a target."""
+    return max(EXTENT_LIMITS[0], FINEST * max(abs(value) for value in orbit.target))
 
 
 def _with_target(orbit: Orbit, target: NDArray[np.float64]) -> Orbit:

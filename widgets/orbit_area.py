@@ -13,7 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
-from widgets.key_claim import KeyClaim
+from widgets.key_claim import EscapeClaim, KeyClaim, is_focus_by_keyboard
 from widgets.orbit import Orbit, panned, turned, zoomed
 from widgets.theme import current_theme, theme_notifier
 
@@ -54,8 +54,11 @@ class OrbitArea(QWidget):
         self._is_moving_space = False
         self._has_moved = False
         self._pressed_at = self._last_at = QPointF()
-        self._shows_focus = True
+        self._pressed_handle: int | None = None
+        """The handle at the last press."""
+        self._shows_focus = False
         self._claim = KeyClaim(self, _KEYS)
+        self._escape = EscapeClaim(self, self._is_dragging_handle)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -95,6 +98,10 @@ class OrbitArea(QWidget):
     def _clicked(self, position: QPointF) -> None:
         """Take a click that moved nothing."""
 
+    def _orbit_at(self, position: QPointF) -> Orbit:
+        """Return the orbit to magnify about a position: the present one, its target perhaps as far as what is there."""
+        return self._orbit
+
     def _space_area(self) -> QRectF:
         """Return the part of the widget that shows the space."""
         return QRectF(self.rect())
@@ -117,7 +124,8 @@ class OrbitArea(QWidget):
         self._has_moved = False
         is_shifted = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
         self._is_moving_space = button == Qt.MouseButton.MiddleButton or is_shifted
-        self._set_handle(None if self._is_moving_space else self._handle_near(event.position()))
+        self._pressed_handle = self._handle_near(event.position())
+        self._set_handle(None if self._is_moving_space else self._pressed_handle)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Turn, move, or drag the handle that was taken."""
@@ -152,8 +160,11 @@ class OrbitArea(QWidget):
         self._set_handle(self._handle_near(event.position()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Show the whole space again, from the present direction."""
-        if event.button() == Qt.MouseButton.LeftButton and self._handle_near(event.position()) is None:
+        """Show the whole space again, from the present direction, unless a handle was clicked.
+
+        The first click may have brought a handle there, by choosing a triangle: what it found counts.
+        """
+        if event.button() == Qt.MouseButton.LeftButton and self._pressed_handle is None:
             self.fit()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
@@ -165,7 +176,8 @@ class OrbitArea(QWidget):
         area = self._space_area()
         offset = event.position() - area.center()
         factor = _WHEEL_FACTOR**notches
-        self._change(zoomed(self._orbit, factor, offset.x(), offset.y(), area.height()))
+        before = self._orbit_at(event.position())
+        self._change(zoomed(before, factor, offset.x(), offset.y(), area.height()))
         event.accept()
 
     def leaveEvent(self, event: QEvent) -> None:
@@ -201,14 +213,14 @@ class OrbitArea(QWidget):
             self._change(zoomed(self._orbit, factor, 0.0, 0.0, self._space_area().height()))
         elif key == Qt.Key.Key_Home:
             self._change(self._home)
-        elif key == Qt.Key.Key_Escape and self._handle is not None and self._has_moved:
+        elif key == Qt.Key.Key_Escape and self._is_dragging_handle():
             self._end_drag(is_taken_back=True)
         else:
             super().keyPressEvent(event)
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = event.reason() != Qt.FocusReason.MouseFocusReason
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
         super().focusInEvent(event)
         self.update()
 
@@ -232,6 +244,9 @@ class OrbitArea(QWidget):
         if orbit != self._orbit:
             self.set_orbit(orbit)
             self.view_changed.emit(orbit)
+
+    def _is_dragging_handle(self) -> bool:
+        return self._handle is not None and self._has_moved
 
     def _end_drag(self, is_taken_back: bool) -> None:
         handle, had_moved = self._handle, self._has_moved

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QApplication, QToolTip, QWidget
 from widgets.grid_display import GridDisplay
 from widgets.grid_geometry import vertex_near
 from widgets.grid_view import FIT, GridView, panned, zoomed
+from widgets.key_claim import EscapeClaim
 
 _WHEEL_FACTOR = 1.25
 """Magnification of one notch of the wheel."""
@@ -57,6 +58,8 @@ class PixelGrid(GridDisplay):
     """Vertex and its new window position (y up)."""
     vertex_drag_finished = Signal(int)
     """Vertex."""
+    vertex_drag_taken_back = Signal(int)
+    """Vertex; the drag ended and is to be as if it had not been."""
     view_changed = Signal(object)
     """The new :class:`~widgets.grid_view.GridView` after the user zoomed or panned."""
 
@@ -71,6 +74,7 @@ class PixelGrid(GridDisplay):
         self._has_moved = False
         self._has_space = False
         self._has_brush = False
+        self._escape = EscapeClaim(self, self._is_dragging_vertex)
         self.setMouseTracking(True)
 
     def set_brush(self, has_brush: bool) -> None:
@@ -137,7 +141,9 @@ class PixelGrid(GridDisplay):
             return
         if self._drag is _Drag.PAN:
             self._change_view(panned(self.placement(), self._view, delta))
-        else:
+        elif (
+            self.buffer() is not None
+        ):  # Else there are no pixels to place it by, until there is a picture again.
             self._drag_vertex(position, bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -180,7 +186,7 @@ class PixelGrid(GridDisplay):
         if event.key() == Qt.Key.Key_Space and not event.modifiers():
             self._has_space = True
             self._update_cursor()
-        elif event.key() == Qt.Key.Key_Escape and self._drag is _Drag.VERTEX:
+        elif event.key() == Qt.Key.Key_Escape and self._is_dragging_vertex():
             self._end_drag(take_back=True)
         elif event.matches(QKeySequence.StandardKey.Copy):
             pixel = self._pin or self._pointed
@@ -289,13 +295,14 @@ class PixelGrid(GridDisplay):
             x, y = floor(2 * x + 0.5) / 2, floor(2 * y + 0.5) / 2
         self.vertex_dragged.emit(self._vertex, x, y)
 
+    def _is_dragging_vertex(self) -> bool:
+        return self._drag is _Drag.VERTEX and self._has_moved
+
     def _end_drag(self, take_back: bool) -> None:
         """End a drag before the button is let go."""
         drag, self._drag = self._drag, _Drag.NONE
         if drag is _Drag.VERTEX and self._has_moved and self._vertex is not None:
-            if take_back:
-                self.vertex_dragged.emit(self._vertex, *self._vertex_origin)
-            self.vertex_drag_finished.emit(self._vertex)
+            (self.vertex_drag_taken_back if take_back else self.vertex_drag_finished).emit(self._vertex)
         self._has_moved = False
         self._update_cursor()
 

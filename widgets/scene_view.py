@@ -25,8 +25,10 @@ from widgets.frame_corner import FrameCorner, SizeChoice
 from widgets.image import display_image
 from widgets.ink import faded, ink_color
 from widgets.label_places import LabelPlaces
+from widgets.orbit import Orbit
 from widgets.orbit_area import GRAB_RADIUS, OrbitArea
 from widgets.picture_area import picture_area
+from widgets.sight import Sight
 from widgets.space_paint import paint_label, paint_spot
 from widgets.theme import Theme, current_theme
 
@@ -70,6 +72,8 @@ class ScenePicture:
     labels: tuple[tuple[float, float, str, str], ...] = ()
     """Fraction across, fraction up, text, ink."""
     caption: str = ""
+    sight: Sight | None = None
+    """Where the wheel goes; None: to the target of the orbit."""
 
     def __post_init__(self) -> None:
         if self.pixels.ndim != 3 or self.pixels.shape[2] != 4 or 0 in self.pixels.shape:
@@ -87,6 +91,8 @@ class SceneView(OrbitArea):
     """Vertex and its new place: fractions of the picture's width and height, y up."""
     vertex_drag_finished = Signal(int)
     """Vertex."""
+    vertex_drag_taken_back = Signal(int)
+    """Vertex; the drag ended and is to be as if it had not been."""
     size_changed = Signal()
     """The picture should have another size: see :meth:`picture_size`."""
     size_chosen = Signal(str)
@@ -314,6 +320,13 @@ class SceneView(OrbitArea):
                     best, reach = handle.index, distance
         return best
 
+    def _orbit_at(self, position: QPointF) -> Orbit:
+        if self._picture is None or self._picture.sight is None:
+            return self.orbit()
+        area = self._space_area()
+        x, y = (position.x() - area.left()) / area.width(), (area.bottom() - position.y()) / area.height()
+        return self._picture.sight.focused(self.orbit(), x, y)
+
     def _handle_taken(self, handle: int) -> None:
         handles = self._picture.handles if self._picture is not None else ()
         self._origin = next(((h.x, h.y) for h in handles if h.index == handle), (0.5, 0.5))
@@ -326,9 +339,7 @@ class SceneView(OrbitArea):
         self.vertex_dragged.emit(handle, x, y)
 
     def _handle_dropped(self, handle: int, is_taken_back: bool) -> None:
-        if is_taken_back:
-            self.vertex_dragged.emit(handle, *self._origin)
-        self.vertex_drag_finished.emit(handle)
+        (self.vertex_drag_taken_back if is_taken_back else self.vertex_drag_finished).emit(handle)
 
     def _clicked(self, position: QPointF) -> None:
         area = self._space_area()

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 from widgets.caption_paint import caption_height, paint_caption, paint_empty
 from widgets.grid_buffer import GridBuffer
 from widgets.image import buffer_image
-from widgets.key_claim import KeyClaim
+from widgets.key_claim import KeyClaim, is_focus_by_keyboard
 from widgets.texture_paint import TexturePlacement, outside_image, paint_texture
 from widgets.texture_picture import TexturePicture
 from widgets.theme import current_theme, theme_notifier
@@ -71,7 +71,7 @@ class TextureView(QWidget):
         """Logical pixels per texel; None: the whole texture."""
         self._is_on_footprint = False
         self._dragged_from: QPointF | None = None
-        self._shows_focus = True
+        self._shows_focus = False
         self.empty_text = "Nothing to show yet"
         self._claim = KeyClaim(self, _KEYS)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -209,7 +209,7 @@ class TextureView(QWidget):
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = event.reason() != Qt.FocusReason.MouseFocusReason
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
         super().focusInEvent(event)
         self.update()
 

@@ -21,7 +21,11 @@ from core.scene import AnyScene, Scene
 from core.trace import scene_triangle_count
 from widgets.ink import ink_color
 from widgets.orbit import Orbit
+from widgets.sight import Sight
 from widgets.theme import Theme
+
+SIGHT_COLUMNS, SIGHT_ROWS = 96, 64
+"""Places at which the distance of what is seen is kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,7 @@ class DrawnScene:
     """(H, W, 4) uint8 sRGB, row 0 at the bottom, with lines."""
     shot: SceneShot
     figures: FrameFigures
+    sight: Sight
 
 
 def view_settings(scene: AnyScene, settings: Settings, are_backs_hidden: bool = False) -> Settings:
@@ -81,16 +86,29 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     )
     camera = viewing_camera(shot.space, shot.orbit)
     found = find_line_pixels(lines, viewing_matrix(camera, shot.size), shot.size)
-    picture = workers.draw(viewed, settings, depth_at=found.depth_at, out=pixels)
+    depth_at = np.concatenate([found.depth_at, sight_places(shot.size).ravel()])
+    picture = workers.draw(viewed, settings, depth_at=depth_at, out=pixels)
     sharing = workers.sharing
     assert picture.depth is not None
     colors = [ink_color(line.ink, shot.theme) for line in lines]
-    paint_lines(pixels, found, _inverse_w(camera, picture.depth), lines, colors)
+    of_lines, of_sight = np.split(picture.depth, [len(found.depth_at)])
+    paint_lines(pixels, found, _inverse_w(camera, of_lines), lines, colors)
+    distance = np.where(of_sight < SCALE, 1 / _inverse_w(camera, of_sight), np.nan)
+    sight = Sight(shot.orbit, camera.field_of_view, distance.reshape(sight_places(shot.size).shape))
     count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
     figures = FrameFigures(
         shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden
     )
-    return DrawnScene(pixels, shot, figures)
+    return DrawnScene(pixels, shot, figures, sight)
+
+
+def sight_places(size: tuple[int, int]) -> Integers:
+    """Return (R, C) int64 places within a picture of (width, height): the middles of R by C equal parts of it."""
+    width, height = size
+    columns, rows = min(SIGHT_COLUMNS, width), min(SIGHT_ROWS, height)
+    column = (2 * np.arange(columns) + 1) * width // (2 * columns)
+    row = (2 * np.arange(rows) + 1) * height // (2 * rows)
+    return row[:, None] * width + column
 
 
 def triangle_seen(shot: SceneShot, column: int, row: int) -> int:

@@ -87,6 +87,7 @@ class ScenePresenter(QObject):
         view.picked.connect(self._pick)
         view.vertex_dragged.connect(self._drag)
         view.vertex_drag_finished.connect(self._end_drag)
+        view.vertex_drag_taken_back.connect(self._take_drag_back)
         theme_notifier().theme_changed.connect(self._theme_changed)
 
     def refresh(self) -> None:
@@ -229,7 +230,8 @@ class ScenePresenter(QObject):
             if 0 <= x <= 1 and 0 <= y <= 1
         )
         marks = pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
-        self._view.show_picture(ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption()))
+        picture = ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption(), drawn.sight)
+        self._view.show_picture(picture)
 
     # Figures.
 
@@ -332,12 +334,21 @@ class ScenePresenter(QObject):
             self.refused.emit(str(error))
             return
         scene = replace(moved, size=document.scene.size)
-        self._session.edit(replace(document, scene=scene), f"drag in space {self._drags}")
+        self._session.edit(replace(document, scene=scene), self._gesture)
 
     @Slot(int)
     def _end_drag(self, index: int) -> None:
         self._drags += 1
         self._session.end_gesture()
+
+    @Slot(int)
+    def _take_drag_back(self, index: int) -> None:
+        self._session.take_back(self._gesture)
+        self._drags += 1
+
+    @property
+    def _gesture(self) -> str:
+        return f"drag in space {self._drags}"
 
 
 def _place_of(document: Document) -> tuple[str, str, int, bool]:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
@@ -101,3 +101,25 @@ def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -
     window.page.compare_view.setting_chosen.emit("fill", "brute-force")
     assert window.page.compare_view.summary.text() == "B is being drawn …"
     qtbot.waitUntil(lambda: "0 of" in window.page.compare_view.summary.text(), timeout=20000)
+
+
+def test_a_vertex_is_dragged_in_any_of_the_pictures(window: MainWindow) -> None:
+    session = window.session
+    session.open(replace(session.document, triangle=0))
+    window.page.show_view("compare")
+    document = session.document
+    for grid in window.page.compare_view.grids:
+        start = grid.placement().to_widget(*window.page.grids.geometry.vertices[0]).toPoint()
+        QTest.mousePress(grid, Qt.MouseButton.LeftButton, pos=start)
+        for step in range(1, 6):
+            QTest.mouseMove(grid, start + QPoint(3 * step, 2 * step))
+        assert session.document is not document
+        assert "pixels differ" in window.page.compare_view.summary.text()
+        QTest.mouseRelease(grid, Qt.MouseButton.LeftButton, pos=start + QPoint(15, 10))
+        session.undo()
+        assert session.document is document
+    QTest.mousePress(grid, Qt.MouseButton.LeftButton, pos=start)
+    QTest.mouseMove(grid, start + QPoint(15, 10))
+    assert session.document is not document
+    QTest.keyClick(grid, Qt.Key.Key_Escape)
+    assert session.document is document

@@ -30,6 +30,15 @@ def test_one_gesture_is_undone_together() -> None:
     assert history.undo() == 0
 
 
+def test_a_gesture_is_known_until_it_ends() -> None:
+    history = History(0)
+    history.put(1, "drag 0")
+    assert history.is_within("drag 0")
+    assert not history.is_within("drag 1")
+    history.seal()
+    assert not history.is_within("drag 0")
+
+
 def test_a_gesture_after_undo_starts_anew() -> None:
     history = History(0)
     history.put(1, "drag")

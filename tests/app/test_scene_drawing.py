@@ -13,7 +13,7 @@ from app.document import open_document
 from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
 from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines, visible_part
-from app.views.scene_picture import SceneShot, draw_scene, triangle_seen
+from app.views.scene_picture import SceneShot, draw_scene, sight_places, triangle_seen
 from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
@@ -212,6 +212,26 @@ def test_a_thinned_scene_tells_the_triangles_of_the_document():
     assert triangle_seen(shot, column, row) == numbers[primitive[row, column]]
     row, column = np.argwhere(primitive < 0)[0].tolist()
     assert triangle_seen(shot, column, row) == -1
+
+
+@pytest.mark.parametrize("size", [(160, 120), (10, 7)])
+def test_distances_of_a_picture_are_those_of_what_is_seen(size):
+    shot = shot_of("torus", size)
+    found = draw_scene(shot, BandWorkers(1), HiddenBacks()).sight.distance
+    camera = viewing_camera(shot.space, shot.orbit)
+    viewed, _ = viewed_scene(shot.space, shot.scene, camera, size, np.zeros(4))
+    inverse_w = render(viewed, Settings(depth="inverse-w")).depth.reshape(-1)[sight_places(size)]
+    seen = inverse_w > 0
+    assert seen.any()
+    assert np.array_equal(np.isfinite(found), seen)
+    assert np.allclose(found[seen], 1 / inverse_w[seen], rtol=1e-4)
+
+
+def test_places_of_distances_are_spread_over_the_picture():
+    assert sight_places((4, 3)).tolist() == np.arange(12).reshape(3, 4).tolist()
+    row, column = np.divmod(sight_places((960, 640)), 960)
+    assert np.array_equal(column[0], 5 + 10 * np.arange(96))
+    assert np.array_equal(row[:, 0], 5 + 10 * np.arange(64))
 
 
 IN_ONE_PROCESS = Sharing()

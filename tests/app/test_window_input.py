@@ -210,6 +210,26 @@ def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> 
     assert window.session.pin is None
 
 
+def test_escape_takes_a_drag_back_and_leaves_the_pin(window: MainWindow) -> None:
+    grid, session = window.page.grid, window.session
+    session.set_pin((3, 3))
+    document, geometry = session.document, window.page.grids.geometry
+    start = grid.placement().to_widget(*geometry.vertices[0]).toPoint()
+    QTest.mousePress(grid, Qt.MouseButton.LeftButton, pos=start)
+    for step in range(1, 6):
+        QTest.mouseMove(grid, start + QPoint(6 * step, -4 * step))
+    assert session.document is not document
+    # Pressed in the window, where Escape is also a shortcut.
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape)
+    assert session.document is document
+    assert not session.can_undo
+    assert session.pin == (3, 3)
+    QTest.mouseRelease(grid, Qt.MouseButton.LeftButton, pos=start + QPoint(30, -20))
+    assert session.document is document
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape)
+    assert session.pin is None
+
+
 def test_the_menu_of_a_pixel(window: MainWindow) -> None:
     menu = window.page.pixel_menu
     menu.fill(20, 20)

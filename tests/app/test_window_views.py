@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.document import open_document
+from app.document import focus_on, open_document
 from app.main_window import MainWindow
 from app.scene_edits import clip_of_window
 from core import STAGES, ClipScene, Settings
@@ -127,3 +128,34 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
         found.append(window.preferences.theme)
     assert found == ["dark", "light"]
     apply_theme(application, LIGHT)
+
+
+def test_after_a_click_and_another_view_the_arrows_go_on_stepping(window: MainWindow, qtbot: QtBot) -> None:
+    window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)
+    place = window.page.grid.placement().cells_rect(20, 20).center().toPoint()
+    qtbot.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place)
+    window.session.go_to(0)
+    qtbot.keyClick(window.windowHandle(), Qt.Key.Key_V)
+    assert window.page.current_view() == "scene"
+    view = window.focusWidget()
+    assert view.accessibleName() == "3D scene"
+    orbit = view.orbit()
+    qtbot.keyClick(window.windowHandle(), Qt.Key.Key_Right)
+    assert window.session.cursor.position > 0
+    assert view.orbit() == orbit
+
+
+def test_fitting_to_the_triangle_magnifies_it_in_the_3d_view_that_is_shown(window: MainWindow) -> None:
+    scene = window.page.views.scene_presenter
+    view = next(widget for name, _, widget in window.page.views.widgets if name == "scene")
+    window.session.open(focus_on(open_document(built_in_scene("torus").make(), "Torus"), 700))
+    window.page.show_view("scene")
+    whole = view.orbit()
+    window.page.show_view("pixels")
+    window.run_action("fit_region")
+    assert view.orbit() == whole
+    window.page.show_view("scene")
+    window.run_action("fit_region")
+    assert view.orbit().extent < whole.extent / 5
+    assert np.allclose(view.orbit().target, scene.space.corners(700).mean(axis=0))

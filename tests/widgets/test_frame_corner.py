@@ -40,6 +40,15 @@ def test_it_is_as_wide_as_its_line_and_never_wider_than_its_room(corner):
     assert not corner.grab().isNull()
 
 
+def test_a_line_that_has_room_is_not_cut(corner):
+    for figures in ("37 frames/s", "4.1 frames/s", "1,204 ms", "51.2 ms", "600 × 306", "1 triangle"):
+        corner.show_figures(f"{figures} · 6,320 triangles")
+        width = corner.width() - 20  # without the arrow
+        as_it_is = corner.grab().toImage().copy(4, 4, width - 4, corner.height() - 8)
+        corner.resize(corner.width() + 50, corner.height())
+        assert corner.grab().toImage().copy(4, 4, width - 4, corner.height() - 8) == as_it_is
+
+
 def test_how_the_picture_was_drawn_is_said_under_the_mouse(corner):
     plain = corner.toolTip()
     corner.show_details("Drawn by 2 processes.")

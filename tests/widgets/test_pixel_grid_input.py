@@ -122,17 +122,31 @@ def test_shift_rounds_a_dragged_vertex(grid: PixelGrid) -> None:
 
 def test_escape_takes_a_drag_back(grid: PixelGrid) -> None:
     grid.show_geometry(TRIANGLE)
-    places: list[tuple[int, float, float]] = []
+    taken_back: list[int] = []
     finished: list[int] = []
-    grid.vertex_dragged.connect(lambda *args: places.append(args))
+    grid.vertex_drag_taken_back.connect(taken_back.append)
     grid.vertex_drag_finished.connect(finished.append)
     QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 8.0, 13.0))
     QTest.mouseMove(grid, at(grid, 12.0, 9.0))
     QTest.keyClick(grid, Qt.Key.Key_Escape)
-    assert places[-1] == (2, 8.0, 13.0)
-    assert finished == [2]
+    assert taken_back == [2]
     QTest.mouseRelease(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 12.0, 9.0))
-    assert finished == [2]
+    assert finished == []
+
+
+def test_a_vertex_is_not_moved_while_there_are_no_pixels(grid: PixelGrid, qtbot) -> None:
+    grid.show_geometry(TRIANGLE)
+    buffer = grid.buffer()
+    QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 8.0, 13.0))
+    end = at(grid, 12.0, 9.0)
+    QTest.mouseMove(grid, at(grid, 10.0, 9.0))
+    grid.show_buffer(None)
+    with qtbot.assertNotEmitted(grid.vertex_dragged):
+        QTest.mouseMove(grid, at(grid, 0.5, 0.5))
+    grid.show_buffer(buffer)
+    with qtbot.waitSignal(grid.vertex_dragged) as told:
+        QTest.mouseMove(grid, end)
+    assert told.args == [2, pytest.approx(12.0), pytest.approx(9.0)]
 
 
 def test_a_click_on_a_vertex_is_a_click_on_its_pixel(grid: PixelGrid, qtbot) -> None:

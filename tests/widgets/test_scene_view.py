@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -63,6 +65,40 @@ def test_a_handle_is_dragged_in_fractions(view, qtbot):
         QTest.mouseMove(view, QPoint(243, 118))
         QTest.mouseRelease(view, LEFT, NONE, QPoint(243, 118))
     assert told[-1] == (2, pytest.approx(0.6), pytest.approx(0.6))
+
+
+def test_a_double_click_fits_though_its_first_click_brought_a_handle(view):
+    view.show_picture(picture_of(4, 3))
+    view.picked.connect(lambda *_: view.show_picture(picture_of(4, 3, handles=(SceneHandle(0, 0.5, 0.5),))))
+    view.set_orbit(turned(view.orbit(), 30, 0))
+    view.set_orbit(replace(view.orbit(), extent=0.25))
+    QTest.mouseClick(view, LEFT, NONE, QPoint(200, 150))
+    QTest.mouseDClick(view, LEFT, NONE, QPoint(200, 150))
+    assert view.orbit().extent == 1
+    view.set_orbit(replace(view.orbit(), extent=0.25))
+    QTest.mouseClick(view, LEFT, NONE, QPoint(200, 150))
+    QTest.mouseDClick(view, LEFT, NONE, QPoint(200, 150))
+    assert view.orbit().extent == 0.25
+
+
+@pytest.mark.parametrize("reason", [Qt.FocusReason.PopupFocusReason, Qt.FocusReason.ActiveWindowFocusReason])
+def test_focus_that_comes_back_after_a_click_has_no_ring(view, qtbot, reason):
+    view.activateWindow()
+    qtbot.waitUntil(view.isActiveWindow)
+    view.show_picture(picture_of(4, 3))
+    view.clearFocus()
+    view.setFocus(Qt.FocusReason.MouseFocusReason)
+    clicked = view.grab().toImage()
+    view.clearFocus()
+    view.setFocus(reason)
+    assert view.grab().toImage() == clicked
+    view.clearFocus()
+    view.setFocus(Qt.FocusReason.TabFocusReason)
+    ringed = view.grab().toImage()
+    assert ringed != clicked
+    view.clearFocus()
+    view.setFocus(reason)
+    assert view.grab().toImage() == ringed
 
 
 def test_the_caption_takes_its_room_from_the_picture(view, qtbot):
