@@ -58,6 +58,13 @@ class CornerValues:
         """(P, 3, K) float64."""
         return self.rows.take(self.index.T, axis=0)
 
+    def trimmed(self) -> "CornerValues":
+        """Return the same values without the rows of other triangles, where these are few among many."""
+        if self.index.size > len(self.rows) // 8:
+            return self
+        used, index = np.unique(self.index, return_inverse=True)
+        return CornerValues(self.rows.take(used, axis=0), self.layout, index.reshape(self.index.shape))
+
 
 @dataclass(frozen=True, eq=False)
 class IndexedPrimitives:

@@ -17,7 +17,7 @@ class FragmentColors:
         self._job = job
         self.count = 0
         """Fragments that have been coloured so far."""
-        values, settings = job.geometry.primitives.values, job.settings
+        values, settings = job.geometry.primitives.values.trimmed(), job.settings
         how = settings.interpolation, settings.provoking, settings.correction_interval
         with job.timed("interpolate"):
             self._interpolator = Interpolator(job.geometry.planes, values, *how)
