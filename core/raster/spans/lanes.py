@@ -151,7 +151,7 @@ def _from_lowest_corner(
     np.minimum(y0, y1, out=stacked_y[3])
     np.less(y2, stacked_y[3], out=third)
     stacked_y[3] = y0
-    np.copyto(lowest, 2, where=third)
+    np.maximum(lowest, third.view(np.int8) << 1, out=lowest)
     lane_lowest = lowest.take(order)
     place = arena("place", count, dtype=np.int64)
     np.multiply(lane_lowest, total, out=place, dtype=np.int64)
