@@ -16,8 +16,9 @@ from core.framebuffer.nearest import BLOCK, NearestFragments
 from core.picture.job import Job
 from core.picture.lit.corner_places import corner_places
 from core.picture.lit.light_visible import Lit, color_doubtful
-from core.picture.lit.one_color import LitNormals, lit_mesh, lit_normals
-from core.picture.lit.textured import LitTexture, lit_texture
+from core.picture.lit.one_color import LitNormals, have_few_unlike, lit_mesh, normals_of
+from core.picture.lit.textured import LitTexture, texture_of
+from core.picture.lit.vertex_facts import vertex_facts
 from core.picture.record import Coloring
 from core.scene import Scene
 
@@ -101,13 +102,15 @@ def lit_meshes(job: Job) -> LitMeshes | None:
     for place, number in enumerate(drawn.tolist()):
         chosen = np.flatnonzero(part == place)
         jobs.append((job.part(chosen, number), chosen))
-    if not all(lit_mesh(of_mesh) for of_mesh, _ in jobs):
+    lit = [mesh for of_mesh, _ in jobs if (mesh := lit_mesh(of_mesh))]
+    facts = [vertex_facts(job.geometry, number) for number in range(len(scene.meshes))]
+    if len(lit) < len(jobs) or not have_few_unlike(job, facts):
         return None
     places = corner_places(job.geometry)
     local, parts = np.empty(len(primitives), np.int64), []
-    for of_mesh, chosen in jobs:
+    for mesh, (of_mesh, chosen) in zip(lit, jobs, strict=True):
         at = places.take(chosen)
-        colors = lit_normals(of_mesh, at) or lit_texture(of_mesh, at)
+        colors = normals_of(of_mesh, mesh, at) or texture_of(of_mesh, mesh, at)
         if colors is None:
             return None
         local[chosen] = np.arange(len(chosen))

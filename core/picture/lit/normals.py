@@ -15,8 +15,6 @@ from core.picture.lit.planes import Plane, evaluate, plane_through
 from core.picture.lit.vertex_facts import VertexFacts, are_unlike
 from core.scene import Camera
 
-MOST_UNLIKE = 0.25
-"""Part of a mesh's triangles that may have unlike normals: these are coloured in another way."""
 FORWARD = np.array([[0.0], [0.0], [1.0]])
 """Any direction."""
 STEEPEST = 2.0**40
@@ -47,16 +45,12 @@ def normal_planes(
     is_unlike : (P,) bool
         Where they point anywhere: the normals at the corners are too different, see `are_unlike`.
 
-    ``None`` is returned where they are so in more than `MOST_UNLIKE` of the mesh's triangles, or a plane is too steep.
+    ``None`` is returned where a plane is too steep.
     """
-    # Of the whole mesh, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
-    is_whole = job.geometry.clipped is None
-    if is_whole and facts.unlike_share > MOST_UNLIKE:
-        return None
     normal = facts.values.normals_seen_by(camera)
     corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
     is_unlike = np.zeros(len(places.is_doubtful), bool)
-    if not is_whole or facts.unlike_share > 0:
+    if job.geometry.clipped is not None or facts.unlike_count:
         is_unlike = are_unlike(corners)
         for corner in corners:
             corner[:, is_unlike] = FORWARD

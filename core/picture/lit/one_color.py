@@ -6,6 +6,7 @@ and linear light becomes bytes through a table.
 Used where the bytes stay within `TOLERANCE` of those of ``render`` before both are rounded: see ``light_errors``.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -26,6 +27,8 @@ from core.scene import DirectionalLight, Mesh, Scene
 
 TOLERANCE = 1.0
 """Bytes that a colour may be away from the exact one before both are rounded."""
+MOST_UNLIKE = 0.25
+"""Part of the triangles that may have unlike normals."""
 IN_FRONT = 0.75
 """Part of the triangles that have a place in the window, at least."""
 
@@ -55,17 +58,20 @@ class LitNormals:
         return self.albedo
 
 
-def lit_normals(job: Job, places: CornerPlaces | None = None) -> LitNormals | None:
+def lit_normals(job: Job) -> LitNormals | None:
     """Return the lit normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
-    ``places`` are those of the corners, where they are known.
-
-    They are those of one mesh of one colour without a texture, lit from far away, all of it in front of the eye.
+    They are those of one mesh of one colour without a texture, lit from far away, nearly all of it in front of the eye.
     """
     lit = lit_mesh(job)
-    if lit is None or lit.mesh.texture is not None:
+    if lit is None or lit.mesh.texture is not None or not have_few_unlike(job, [lit.facts]):
         return None
-    planes = lit_planes(job, lit, places or corner_places(job.geometry))
+    return normals_of(job, lit, corner_places(job.geometry))
+
+
+def normals_of(job: Job, lit: "LitMesh", places: CornerPlaces) -> LitNormals | None:
+    """Return the lit normals of a mesh whose corners are at ``places``; ``None``: it has a texture, or as above."""
+    planes = None if lit.mesh.texture is not None else lit_planes(job, lit, places)
     return LitNormals(planes, lit.color) if planes else None
 
 
@@ -98,6 +104,17 @@ def lit_mesh(job: Job) -> LitMesh | None:
         return None
     lights = tuple(light for light in scene.lights if isinstance(light, DirectionalLight))
     return LitMesh(mesh, lights, light, facts, facts.color)
+
+
+def have_few_unlike(job: Job, meshes: Sequence[VertexFacts]) -> bool:
+    """Tell whether so few triangles of all ``meshes`` of a scene have unlike normals that these may be coloured twice.
+
+    Of whole meshes, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
+    """
+    if job.geometry.clipped is not None:
+        return True
+    unlike = sum(mesh.unlike_count for mesh in meshes)
+    return unlike <= MOST_UNLIKE * sum(mesh.triangle_count for mesh in meshes)
 
 
 def _is_mostly_in_front(geometry: Geometry) -> bool:

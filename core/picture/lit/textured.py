@@ -26,7 +26,7 @@ from core.picture.job import Job
 from core.picture.lit.corner_places import CornerPlaces, corner_places
 from core.picture.lit.light_errors import STEEPEST
 from core.picture.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
-from core.picture.lit.one_color import LitMesh, lit_mesh, lit_planes
+from core.picture.lit.one_color import LitMesh, have_few_unlike, lit_mesh, lit_planes
 from core.picture.lit.planes import Plane, evaluate, plane_through, rounding
 from core.picture.lit.vertex_facts import Color
 from core.picture.record import Coloring
@@ -76,20 +76,24 @@ class LitTexture:
         ]
 
 
-def lit_texture(job: Job, places: CornerPlaces | None = None) -> LitTexture | None:
+def lit_texture(job: Job) -> LitTexture | None:
     """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
-
-    ``places`` are those of the corners, where they are known.
 
     They are what ``one_color`` draws, with a texture that is looked up bilinearly.
     """
-    mesh = lit_mesh(job) if job.settings.texture_filter == "bilinear" else None
-    texture = mesh.mesh.texture if mesh else None
-    if mesh is None or texture is None or not is_plain(texture, job.settings.wrap):
+    mesh = lit_mesh(job)
+    if mesh is None or mesh.mesh.texture is None or not have_few_unlike(job, [mesh.facts]):
+        return None
+    return texture_of(job, mesh, corner_places(job.geometry))
+
+
+def texture_of(job: Job, mesh: LitMesh, places: CornerPlaces) -> LitTexture | None:
+    """Return the lit texture of a mesh whose corners are at ``places``; ``None``: it has none, or as above."""
+    texture, settings = mesh.mesh.texture, job.settings
+    if texture is None or settings.texture_filter != "bilinear" or not is_plain(texture, settings.wrap):
         return None
     if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
-    places = places or corner_places(job.geometry)
     position = _texel_positions(job.geometry, mesh, texture)
     error = _texture_bytes(mesh, position_error(places, position))
     planes = lit_planes(job, mesh, places, error)

@@ -65,10 +65,16 @@ class VertexFacts:
         red, green, blue = (np.float32(part) for part in colors[0, :3])
         return (red,) if red == green == blue else (red, green, blue)
 
+    @property
+    def triangle_count(self) -> int:
+        """How many triangles the mesh has."""
+        return len(self._corner[0])
+
     @cached_property
-    def unlike_share(self) -> float:
-        """Part of the triangles that have two normals less alike than `ALIKE`."""
-        return float(are_unlike([self.values.normals.take(index, axis=1) for index in self._corner]).mean())
+    def unlike_count(self) -> int:
+        """How many of them have two normals less alike than `ALIKE`."""
+        corners = [self.values.normals.take(index, axis=1) for index in self._corner]
+        return int(np.count_nonzero(are_unlike(corners)))
 
     @cached_property
     def farthest_uv(self) -> float:

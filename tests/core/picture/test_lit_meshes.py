@@ -66,6 +66,29 @@ MESHES = {
 }
 
 
+def box_of_eight_vertices() -> Mesh:
+    """A box whose faces share their vertices: the normals at the ends of every diagonal are unlike."""
+    corners = (
+        np.stack(np.meshgrid([-1.0, 1.0], [-1.0, 1.0], [-1.0, 1.0], indexing="ij"), -1).reshape(8, 3) * 0.5
+    )
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = [(a, b, c) for p, q, r, s in quads for a, b, c in ((p, q, r), (p, r, s))]
+    return Mesh(corners, np.array(triangles), corners / np.linalg.norm(corners, axis=1, keepdims=True))
+
+
+def test_one_mesh_of_unlike_normals_among_many_triangles_forbids_nothing() -> None:
+    """Nor does it in a part of the picture that shows it alone."""
+    scene = scene_of((colored(sphere(), 0.8, 0.5, 0.3), at(box_of_eight_vertices(), 1.2, 0.4, 0.5)))
+    assert_close(scene, "srgb")
+    whole = draw_picture(scene, PHONG).pixels
+    for region in ((140, 0, 60, 150), (0, 0, 60, 150)):
+        part = draw_picture(scene, PHONG, region=region)
+        assert part.route.allowed == "meshes"
+        assert np.array_equal(part.pixels, whole[:, region[0] : region[0] + region[2]])
+    alone = draw_picture(scene_of((box_of_eight_vertices(),)), PHONG)
+    assert alone.route.color == "deferred"
+
+
 def scene_of(meshes: tuple[Mesh, ...], lights=LIGHTS, camera: Camera = CAMERA, size=(200, 150)) -> Scene:
     return Scene(meshes, camera, lights, size, np.array([0.1, 0.2, 0.3, 1.0]))
 
