@@ -128,5 +128,5 @@ def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
 def _texture_bytes(mesh: LitMesh, texels: float) -> float:
     """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
     material, lights = mesh.light.material, mesh.light.lights
-    strength = material.ambient + material.diffuse * sum(max(*color, 0.0) for _, color in lights)
+    strength = material.ambient + material.diffuse * sum(max(color) for _, color in lights)
     return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))

@@ -60,9 +60,9 @@ class VertexFacts:
 
     @cached_property
     def color(self) -> Color | None:
-        """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, or are not opaque."""
+        """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, are below 0, or not opaque."""
         colors = self.values.rows[self._rows, self.values.layout["color"]]
-        if not len(colors) or (colors != colors[:1]).any() or colors[0, 3] != 1:
+        if not len(colors) or (colors != colors[:1]).any() or colors[0].min() < 0 or colors[0, 3] != 1:
             return None
         red, green, blue = (np.float32(part) for part in colors[0, :3])
         return (red,) if red == green == blue else (red, green, blue)
