@@ -46,8 +46,7 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
     geometry, raster = job.geometry, job.raster
     first_column, first_row, end_column, end_row = raster.bounds
     columns = end_column - first_column
-    expected = float(np.abs(geometry.doubled_area[geometry.is_projected]).sum()) / 2
-    rows = max(int((end_row - first_row) * STRIP_FRAGMENTS / max(expected, 1)), 1)
+    rows = strip_height(np.abs(geometry.doubled_area[geometry.is_projected]) / 2, raster.shape)
     fragments = passed = visible = 0
     for row in range(first_row, end_row, rows):
         region = (first_column, row, columns, min(rows, end_row - row))
@@ -59,6 +58,16 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
         fragments, passed, visible = fragments + found[0], passed + found[1], visible + found[2]
     walked = int(np.count_nonzero(geometry.is_projected))
     return Blended(Split(walked, 0, len(geometry.primitives) - walked, fragments), passed, visible)
+
+
+def strip_height(areas: Floats, shape: tuple[int, int]) -> int:
+    """Return how many rows of a picture of ``shape`` (rows, columns) are a strip, for triangles of areas (P,) pixels.
+
+    However far a triangle reaches beyond the picture, it has no more fragments than that has pixels.
+    """
+    rows, columns = shape
+    expected = float(np.minimum(areas, rows * columns).sum())
+    return max(int(rows * STRIP_FRAGMENTS / max(expected, 1)), 1)
 
 
 def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
