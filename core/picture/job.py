@@ -27,6 +27,8 @@ Words = NDArray[np.uint32]
 
 BLOCK = 1 << 15
 """Pixels that are worked on together: their numbers stay in the processor's cache."""
+ROWS = 1 << 15
+"""Rows of large triangles that are found together: each takes some hundred bytes."""
 
 
 def blocks(count: int) -> Iterator[slice]:
@@ -107,16 +109,16 @@ class Job:
         return set_up_lanes(x, y, area, self.raster, self.owners, self.arena)
 
     def rows_of_each(self, chosen: Integers) -> Iterator[tuple[int, TriangleRows]]:
-        """Yield every ``chosen`` (C,) primitive, a large one, with its rows."""
-        if not len(chosen):
-            return
-        x, y, area = (
-            of.take(chosen, axis=-1)
-            for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
-        )
-        yield from zip(
-            chosen.tolist(), rows_of_triangles(x, y, area, self.raster, self.owners, self.arena), strict=True
-        )
+        """Yield every ``chosen`` (C,) primitive, a large one, with its rows: found for many at once, not for all."""
+        at_once = max(ROWS // max(self.raster.shape[0], 1), 1)
+        for first in range(0, len(chosen), at_once):
+            part = chosen[first : first + at_once]
+            x, y, area = (
+                of.take(part, axis=-1)
+                for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
+            )
+            rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
+            yield from zip(part.tolist(), rows, strict=True)
 
 
 def encode(color: Floats | Singles, encoding: str) -> Words:
