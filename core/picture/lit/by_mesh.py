@@ -23,7 +23,7 @@ from core.scene import Scene
 
 MOST = 64
 """Meshes: of more, setting up each of them takes longer than light by the plain rules."""
-AT_ONCE = 4 * BLOCK
+AT_ONCE = 2 * BLOCK
 """Pixels that are sorted by mesh together, so that a mesh has many of them and little memory is taken."""
 
 
@@ -33,8 +33,6 @@ class MeshPart:
 
     job: Job
     colors: LitNormals | LitTexture
-    chosen: Integers
-    """(C,) int64, their numbers in the picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,16 +51,14 @@ class LitMeshes:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        none = np.empty(0, np.int64)
-        seen_count, doubtful = 0, [(none, none)]
+        seen_count, doubtful = 0, [np.empty(0, np.int64)]
         for first in range(0, len(nearest.keys), AT_ONCE):
             seen = nearest.seen_in(slice(first, first + AT_ONCE))
             for part, place, local in self._by_part(*seen):
                 lit = part.colors.light_seen(part.job, _blocks(place, local))
                 seen_count += lit.seen_count
-                doubtful.append((lit.place, part.chosen.take(lit.primitive)))
-        place, primitive = (np.concatenate(of_parts) for of_parts in zip(*doubtful, strict=True))
-        return color_doubtful(job, Lit(seen_count, place, primitive))
+                doubtful.append(lit.place)
+        return color_doubtful(job, nearest, Lit(seen_count, np.concatenate(doubtful)))
 
     def _by_part(self, place: Integers, primitive: Integers) -> Iterator[tuple[MeshPart, Integers, Integers]]:
         """Yield the parts that are seen at places (V,), with those of each, and their primitives there."""
@@ -110,5 +106,5 @@ def lit_meshes(job: Job) -> LitMeshes | None:
         if colors is None:
             return None
         local[chosen] = np.arange(len(chosen))
-        parts.append(MeshPart(of_mesh, colors, chosen))
+        parts.append(MeshPart(of_mesh, colors))
     return LitMeshes(parts, part, local)

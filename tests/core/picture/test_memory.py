@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import Camera, ClipScene, DirectionalLight, Scene, Settings, draw_picture
+from core import Camera, ClipScene, DirectionalLight, Mesh, Scene, Settings, draw_picture
 from core.raster.spans.arena import Arena
 from core.scene import AnyScene
 from lessons.shapes import sphere
@@ -66,3 +66,19 @@ def test_memory_of_large_triangles() -> None:
     assert drawn.route.split.big == count
     limit = PER_PIXEL["none"] * side * side + PER_TRIANGLE * count + FIXED
     assert held(*scenes, Settings(depth="fixed-38")) <= limit
+
+
+def test_memory_of_a_floor_that_reaches_behind_the_eye() -> None:
+    """It is coloured by the plain rules, some pixels at a time."""
+    mesh, corners = sphere(columns=64, rows=32), [(-9, -9), (-9, 9), (9, 9), (9, -9)]
+    floor = Mesh(np.array([[x, -0.8, z] for x, z in corners]), np.array([[0, 1, 2], [0, 2, 3]]))
+    lights = (DirectionalLight(np.array([0.4, -0.8, -0.7])),)
+    first, second = (
+        Scene((mesh, floor), Camera(np.array([x, 0.8, 2.8]), np.zeros(3)), lights, (1600, 1200))
+        for x in (1.0, 1.1)
+    )
+    drawn = draw_picture(first, Settings(depth="fixed-38"))
+    assert drawn.route.color == "meshes"
+    assert drawn.route.visible > 1_000_000
+    limit = PER_PIXEL["none"] * 1600 * 1200 + PER_TRIANGLE * len(mesh.triangles) + FIXED
+    assert held(first, second, Settings(depth="fixed-38")) <= limit
