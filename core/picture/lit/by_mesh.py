@@ -23,7 +23,7 @@ from core.scene import Scene
 
 MOST = 64
 """Meshes: of more, setting up each of them takes longer than light by the plain rules."""
-AT_ONCE = 2 * BLOCK
+AT_ONCE = 4 * BLOCK
 """Pixels that are sorted by mesh together, so that a mesh has many of them and little memory is taken."""
 
 
