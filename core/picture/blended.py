@@ -18,7 +18,6 @@ from core.methods import table
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, blocks
 from core.picture.record import Split
-from core.picture.visible import chunks
 from core.pipeline import covered, fragment_depth
 from core.raster.coverage import Fragments
 from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
@@ -117,9 +116,7 @@ def _fragments(job: Job) -> tuple[Integers, Integers]:
     count = len(geometry.primitives)
     none = np.empty(0, np.int64)
     pixels, primitives = [none], [none]
-    for first, end in chunks(count):
-        with job.timed("bin"):
-            lanes = job.lanes(first, end, geometry.is_projected)
+    for first, end, lanes in job.walks(geometry.is_projected):
         with job.timed("raster"):
             rows = rows_in_order(lanes, end - first, raster, job.owners, job.arena)
             pixel, primitive = pixels_of_rows(rows, raster)

@@ -13,7 +13,6 @@ from core.picture.byte_words import unpack
 from core.picture.job import Job, Words
 from core.picture.palette import PaletteColors
 from core.picture.textured import TextureColors
-from core.picture.visible import chunks
 from core.raster.schedule import Raster
 from core.raster.spans.bands import BIG_AREA, TriangleRows, strips
 from core.raster.spans.packed import each_pass, word_spans
@@ -52,9 +51,7 @@ def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) ->
     fragments = 0
     with job.timed("interpolate"):
         planes = colors.packed()
-    for first, end in chunks(len(job.geometry.primitives)):
-        with job.timed("bin"):
-            lanes = job.lanes(first, end, chosen)
+    for first, end, lanes in job.walks(chosen):
         with job.timed("raster"):
             spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
             fragments += spans.pixel_count

@@ -10,6 +10,7 @@ from core import Camera, ClipScene, DirectionalLight, Mesh, Scene, Settings, dra
 from core.raster.spans.arena import Arena
 from core.scene import AnyScene
 from lessons.shapes import sphere
+from tests.core.picture.references import exact_bytes
 
 PER_PIXEL, PER_TRIANGLE, FIXED = {"none": 24, "msaa-4": 40}, 900, 24_000_000
 
@@ -66,6 +67,21 @@ def test_memory_of_large_triangles() -> None:
     assert drawn.route.split.big == count
     limit = PER_PIXEL["none"] * side * side + PER_TRIANGLE * count + FIXED
     assert held(*scenes, Settings(depth="fixed-38")) <= limit
+
+
+def test_memory_of_tall_triangles() -> None:
+    """They walk together as many as have not too many rows."""
+    count, side, generator = 3000, 640, np.random.default_rng(1)
+    clip = np.ones((count, 3, 4))
+    clip[:, :, 0] = generator.uniform(-1, 1, (count, 1)) + generator.uniform(-0.02, 0.02, (count, 3))
+    clip[:, :, 1] = [-1, 1, 0]
+    clip[:, :, 2] = generator.uniform(-0.9, 0.9, (count, 3))
+    colors = np.concatenate([generator.random((count, 3)), np.ones((count, 1))], axis=1)
+    scenes = [ClipScene(clip, np.repeat(colors[:, None], 3, axis=1), (side, side)) for _ in range(2)]
+    chosen = Settings(depth="fixed-38")
+    assert np.array_equal(draw_picture(scenes[0], chosen).pixels, exact_bytes(scenes[0], chosen, "srgb"))
+    limit = PER_PIXEL["none"] * side * side + PER_TRIANGLE * count + FIXED
+    assert held(*scenes, chosen) <= limit
 
 
 def test_memory_of_a_floor_that_reaches_behind_the_eye() -> None:
