@@ -31,9 +31,11 @@ ASIDE = np.array([0.48, 0.36, 0.8])
 """Direction from which rays are cast: along no face or edge that models often have."""
 RAYS = 128
 """Rays across the scene, in both directions."""
-THINNEST = 2.0**-8
-"""Part of the scene's size. Where less of a ray lies within a negative number, rounding may have put two faces that
-meet at an edge in the wrong order."""
+SNAPPING = 2.0**-8
+"""Pixels that snapping moves a corner along an axis, at most, with room to spare: so far beside a face a ray may meet
+it."""
+ROUNDING = 1e-9
+"""Of depths from 0 to 1."""
 
 
 def welded(positions: Floats, triangles: Integers) -> Integers:
@@ -78,12 +80,14 @@ def is_solid(scene: Scene) -> bool:
     raster = make_raster((RAYS, RAYS), "half", (0, 0, RAYS, RAYS))
     aside = replace(scene, camera=_camera_aside(scene), size=(RAYS, RAYS))
     geometry = process_geometry(aside, Settings(), {stage: StageCount() for stage in STAGES}, raster=raster)
-    ray, depth, facing = _faces_on_rays(geometry, raster)
+    ray, depth, doubt, facing = _faces_on_rays(geometry, raster)
     order = np.lexsort((depth, ray))
-    return len(ray) > 0 and bool(is_never_negative(ray[order], depth[order], facing[order]).all())
+    return len(ray) > 0 and bool(
+        is_never_negative(ray[order], depth[order], doubt[order], facing[order]).all()
+    )
 
 
-def is_never_negative(ray: Integers, depth: Floats, facing: Integers) -> Flags:
+def is_never_negative(ray: Integers, depth: Floats, doubt: Floats, facing: Integers) -> Flags:
     """Return behind which faces (F,) on rays the winding number is 0 or more; behind the last one it has to be 0.
 
     Parameters
@@ -92,6 +96,8 @@ def is_never_negative(ray: Integers, depth: Floats, facing: Integers) -> Flags:
         The ray of every face, not decreasing.
     depth : (F,) float64
         Where on its ray a face is, from 0 to 1, not decreasing along a ray.
+    doubt : (F,) float64
+        By how much the depth may be off: two faces that meet at an edge may so stand in the wrong order.
     facing : (F,) int64
         1: seen from the front; -1: from the back.
     """
@@ -99,8 +105,8 @@ def is_never_negative(ray: Integers, depth: Floats, facing: Integers) -> Flags:
     number = np.cumsum(facing)
     before = np.append(0, number[is_last][:-1])
     number -= np.repeat(before, np.diff(np.append(-1, np.flatnonzero(is_last))))
-    length = np.append(depth[1:] - depth[:-1], 0.0)
-    return np.where(is_last, number == 0, (number >= 0) | (length < THINNEST))
+    is_in_doubt: Flags = np.append(depth[1:] - depth[:-1] <= doubt[1:] + doubt[:-1], False)
+    return np.where(is_last, number == 0, (number >= 0) | is_in_doubt)
 
 
 def _camera_aside(scene: Scene) -> Camera:
@@ -120,8 +126,8 @@ def _camera_aside(scene: Scene) -> Camera:
     )
 
 
-def _faces_on_rays(geometry: Geometry, raster: Raster) -> tuple[Integers, Floats, Integers]:
-    """Return ray, depth and facing (F,) of all faces on rays through pixel centres, see `is_never_negative`."""
+def _faces_on_rays(geometry: Geometry, raster: Raster) -> tuple[Integers, Floats, Floats, Integers]:
+    """Return ray, depth, doubt and facing (F,) of faces on rays through pixel centres, see `is_never_negative`."""
     arena, owners = Arena(), tie_owners(geometry.settings.fill_rule)
     lanes = set_up_lanes(geometry.window_x, geometry.window_y, geometry.doubled_area, raster, owners, arena)
     rows = rows_in_order(lanes, len(geometry.primitives), raster, owners, arena)
@@ -129,4 +135,7 @@ def _faces_on_rays(geometry: Geometry, raster: Raster) -> tuple[Integers, Floats
     corners = geometry.depth.take(primitive, axis=1)
     on_plane = plane_value(geometry.depth_plane, primitive, *raster.centers(*raster.position(ray)))
     depth = np.clip(on_plane, corners.min(axis=0), corners.max(axis=0))
-    return ray, depth, np.sign(geometry.doubled_area).astype(np.int64).take(primitive)
+    across, up, _ = geometry.depth_plane
+    doubt = (np.abs(across) + np.abs(up)) * SNAPPING + ROUNDING
+    facing = np.sign(geometry.doubled_area).astype(np.int64)
+    return ray, depth, doubt.take(primitive), facing.take(primitive)

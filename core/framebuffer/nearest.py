@@ -77,17 +77,20 @@ class NearestFragments:
 
     def seen_in(self, part: slice) -> tuple[Integers, Integers]:
         """Return the places, within ``part``, that something is seen at (V,), and the primitive there (V,)."""
-        keys = self.keys[part]
-        place = np.flatnonzero(keys != self._cleared)
-        seen = keys.take(place)
+        place = np.flatnonzero(self.keys[part] != self._cleared)
         place += part.start or 0
+        return place, self.primitive_at(place)
+
+    def primitive_at(self, place: Integers) -> Integers:
+        """Return the primitive that is seen at places (V,) where something is."""
+        seen = self.keys.take(place)
         if self._uses_depth_test:
             seen &= (1 << self.primitive_bits) - 1
             seen -= 1
         else:
             seen >>= self._format.nearness_bits
             np.subtract(self._last, seen, out=seen)
-        return place, seen
+        return seen
 
     def number_in(self, part: slice, number: Integers) -> Integers:
         """Write the primitive plus one that is seen in ``part`` of the buffer (F,), 0 for none, and return it."""

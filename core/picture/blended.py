@@ -18,7 +18,6 @@ from core.methods import table
 from core.picture.fragment_colors import FragmentColors
 from core.picture.job import Job, blocks
 from core.picture.record import Split
-from core.picture.visible import chunks
 from core.pipeline import covered, fragment_depth
 from core.raster.coverage import Fragments
 from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
@@ -46,8 +45,7 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
     geometry, raster = job.geometry, job.raster
     first_column, first_row, end_column, end_row = raster.bounds
     columns = end_column - first_column
-    expected = float(np.abs(geometry.doubled_area[geometry.is_projected]).sum()) / 2
-    rows = max(int((end_row - first_row) * STRIP_FRAGMENTS / max(expected, 1)), 1)
+    rows = strip_height(np.abs(geometry.doubled_area[geometry.is_projected]) / 2, raster.shape)
     fragments = passed = visible = 0
     for row in range(first_row, end_row, rows):
         region = (first_column, row, columns, min(rows, end_row - row))
@@ -59,6 +57,16 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
         fragments, passed, visible = fragments + found[0], passed + found[1], visible + found[2]
     walked = int(np.count_nonzero(geometry.is_projected))
     return Blended(Split(walked, 0, len(geometry.primitives) - walked, fragments), passed, visible)
+
+
+def strip_height(areas: Floats, shape: tuple[int, int]) -> int:
+    """Return how many rows of a picture of ``shape`` (rows, columns) are a strip, for triangles of areas (P,) pixels.
+
+    However far a triangle reaches beyond the picture, it has no more fragments than that has pixels.
+    """
+    rows, columns = shape
+    expected = float(np.minimum(areas, rows * columns).sum())
+    return max(int(rows * STRIP_FRAGMENTS / max(expected, 1)), 1)
 
 
 def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
@@ -108,9 +116,7 @@ def _fragments(job: Job) -> tuple[Integers, Integers]:
     count = len(geometry.primitives)
     none = np.empty(0, np.int64)
     pixels, primitives = [none], [none]
-    for first, end in chunks(count):
-        with job.timed("bin"):
-            lanes = job.lanes(first, end, geometry.is_projected)
+    for first, end, lanes in job.walks(geometry.is_projected):
         with job.timed("raster"):
             rows = rows_in_order(lanes, end - first, raster, job.owners, job.arena)
             pixel, primitive = pixels_of_rows(rows, raster)

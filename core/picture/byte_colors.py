@@ -8,6 +8,7 @@ colours are those of the unsnapped triangle and may leave the range of its corne
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -65,6 +66,10 @@ class ByteColors:
 
     def packed(self) -> IntegerPlanes:
         """Return the words of all triangles."""
+        return self._planes
+
+    @cached_property
+    def _planes(self) -> IntegerPlanes:
         fields = [
             FieldPlane((value + 0.5) * 2.0**bits, across * 2.0**bits, up * 2.0**bits, shift)
             for value, across, up, (shift, bits) in zip(
@@ -74,27 +79,15 @@ class ByteColors:
         return integer_planes(self.x, self.y, self.center, fields)
 
     def block(self, job: Job, triangle: int, strip: Strip) -> Words:
-        """Return the pixels (R, C) uint32 of one triangle at all pixels of a strip.
-
-        Notes
-        -----
-        What a row starts with and what is added along it are rounded by themselves, so the error does not grow with
-        the distance from the corner.
-        """
-        rows, steps = strip.inside, strip.steps
-        x = job.raster.along(rows.origin) - self.x[triangle]
-        y = job.raster.along(rows.row) - self.y[triangle]
-        step = steps.number
-        ramp, of_row = np.zeros(len(step), np.int64), np.zeros(len(rows), np.int64)
-        for channel, (shift, bits) in enumerate(FIELDS):
-            unit = 2.0**bits
-            across = self.across[channel, triangle] * unit
-            ramp += np.rint(step * across).astype(np.int64) << shift
-            start = y * (self.up[channel, triangle] * unit) + (self.corner[channel, triangle] + 0.5) * unit
-            of_row += np.rint(x * across + start).astype(np.int64) << shift
+        """Return the pixels (R, C) uint32 of one triangle at all pixels of a strip: the very bytes of `look_up`."""
+        rows, steps, planes = strip.inside, strip.steps, self._planes
+        across = planes.across[triangle]
+        of_row = planes.origin[triangle] + (rows.origin * across + rows.row * planes.up[triangle])
         shape = (len(rows), steps.width)
         word = np.add(
-            steps.spread(ramp), of_row[:, None], out=job.arena("color_block", *shape, dtype=np.int64)
+            steps.spread(steps.number * across),
+            of_row[:, None],
+            out=job.arena("color_block", *shape, dtype=np.int64),
         )
         return unpack(word.reshape(-1), job.arena).reshape(word.shape)
 

@@ -27,6 +27,12 @@ Words = NDArray[np.uint32]
 
 BLOCK = 1 << 15
 """Pixels that are worked on together: their numbers stay in the processor's cache."""
+TOGETHER = 1 << 14
+"""Triangles that walk together: their rows stay in the processor's cache."""
+MOST_ROWS = 1 << 18
+"""Rows of them: each takes some hundred bytes, and tall triangles have many."""
+ROWS = 1 << 15
+"""Rows of large triangles that are found together: each takes some hundred bytes."""
 
 
 def blocks(count: int) -> Iterator[slice]:
@@ -97,8 +103,25 @@ class Job:
         """Return the bytes of linear colours (F, 4), a word each."""
         return encode(color, self.encoding)
 
-    def lanes(self, first: int, end: int, chosen: Flags | None = None) -> Lanes:
-        """Put the ``chosen`` (P,) ones, or all, of primitives ``first`` to ``end`` side by side."""
+    def walks(self, chosen: Flags | None = None) -> Iterator[tuple[int, int, Lanes]]:
+        """Yield first and end of primitives that walk together, and the ``chosen`` (P,) ones, or all, side by side."""
+        count = len(self.geometry.primitives)
+        for first in range(0, count, TOGETHER):
+            yield from self._walks(first, min(first + TOGETHER, count), chosen)
+
+    def _walks(self, first: int, end: int, chosen: Flags | None) -> Iterator[tuple[int, int, Lanes]]:
+        """Yield primitives ``first`` to ``end`` in as many parts as they have too many rows for one."""
+        with self.timed("bin"):
+            lanes = self._lanes(first, end, chosen)
+        row_count = sum(lanes.taller)
+        if row_count <= MOST_ROWS or end - first == 1:
+            yield first, end, lanes
+            return
+        part = max((end - first) * MOST_ROWS // row_count, 1)
+        for start in range(first, end, part):
+            yield from self._walks(start, min(start + part, end), chosen)
+
+    def _lanes(self, first: int, end: int, chosen: Flags | None) -> Lanes:
         at = slice(first, end)
         area = self.geometry.doubled_area[at]
         if chosen is not None:
@@ -107,16 +130,16 @@ class Job:
         return set_up_lanes(x, y, area, self.raster, self.owners, self.arena)
 
     def rows_of_each(self, chosen: Integers) -> Iterator[tuple[int, TriangleRows]]:
-        """Yield every ``chosen`` (C,) primitive, a large one, with its rows."""
-        if not len(chosen):
-            return
-        x, y, area = (
-            of.take(chosen, axis=-1)
-            for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
-        )
-        yield from zip(
-            chosen.tolist(), rows_of_triangles(x, y, area, self.raster, self.owners, self.arena), strict=True
-        )
+        """Yield every ``chosen`` (C,) primitive, a large one, with its rows: found for many at once, not for all."""
+        at_once = max(ROWS // max(self.raster.shape[0], 1), 1)
+        for first in range(0, len(chosen), at_once):
+            part = chosen[first : first + at_once]
+            x, y, area = (
+                of.take(part, axis=-1)
+                for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
+            )
+            rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
+            yield from zip(part.tolist(), rows, strict=True)
 
 
 def encode(color: Floats | Singles, encoding: str) -> Words:

@@ -12,8 +12,8 @@ from core.picture.byte_colors import ByteColors
 from core.picture.byte_words import unpack
 from core.picture.job import Job, Words
 from core.picture.palette import PaletteColors
+from core.picture.record import Split
 from core.picture.textured import TextureColors
-from core.picture.visible import chunks
 from core.raster.schedule import Raster
 from core.raster.spans.bands import BIG_AREA, TriangleRows, strips
 from core.raster.spans.packed import each_pass, word_spans
@@ -21,8 +21,8 @@ from core.raster.spans.packed import each_pass, word_spans
 LayerColors = PaletteColors | ByteColors | TextureColors
 
 
-def draw_layer(job: Job, colors: LayerColors) -> int | None:
-    """Draw all primitives over the background; return how many fragments there are, ``None`` if they overlap.
+def draw_layer(job: Job, colors: LayerColors) -> Split | None:
+    """Draw all primitives over the background; return which way they went, ``None`` if they overlap.
 
     All corners are projected, and every fragment would pass the depth test; no pixel that ``colors`` give is 0.
     """
@@ -36,13 +36,14 @@ def draw_layer(job: Job, colors: LayerColors) -> int | None:
     else:
         is_big = np.abs(geometry.doubled_area) > 2 * BIG_AREA
         fragments = _write_small(job, colors, ~is_big)
-    fragments += _write_big(job, colors, np.flatnonzero(is_big))
+    big = np.flatnonzero(is_big)
+    fragments += _write_big(job, colors, big)
     if is_checked:
         with job.timed("resolve"):
             if int(np.count_nonzero(pixels)) != fragments:
                 return None
             np.copyto(pixels, job.background, where=pixels == 0)
-    return fragments
+    return Split(len(is_big) - len(big), len(big), 0, fragments)
 
 
 def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) -> int:
@@ -52,9 +53,7 @@ def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) ->
     fragments = 0
     with job.timed("interpolate"):
         planes = colors.packed()
-    for first, end in chunks(len(job.geometry.primitives)):
-        with job.timed("bin"):
-            lanes = job.lanes(first, end, chosen)
+    for first, end, lanes in job.walks(chosen):
         with job.timed("raster"):
             spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
             fragments += spans.pixel_count

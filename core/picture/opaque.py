@@ -11,7 +11,7 @@ from core.arrays import Integers, Singles, read_only
 from core.framebuffer.nearest import NearestFragments
 from core.picture.job import Job
 from core.picture.palette import PaletteColors, palette
-from core.picture.record import Route, Split
+from core.picture.record import Route
 from core.picture.visible import find_visible
 from core.scene import AnyScene, ClipScene, Mesh
 
@@ -75,11 +75,11 @@ def _draw_layer(job: Job, colors: "PaletteColors | SmoothColors | None") -> Rout
         return None
     from core.picture.layer import draw_layer
 
-    fragments = draw_layer(job, of_layer)
-    if fragments is None:
+    split = draw_layer(job, of_layer)
+    if split is None:
         _overlaps[_key(job.scene)] = True
         return None
-    return Route("layer", of_layer.name, Split(len(job.geometry.primitives), 0, 0, fragments), fragments)
+    return Route("layer", of_layer.name, split, split.fragments)
 
 
 def _may_be_one_layer(job: Job) -> bool:

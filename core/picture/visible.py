@@ -6,8 +6,6 @@ plane cuts, 1/w and its logarithm, no depth test) are looked at fragment by frag
 them keep the least word, so the order does not matter and every fill sees the same triangle at the same pixel.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from core.arrays import Flags, Integers
@@ -20,8 +18,6 @@ from core.raster.spans.bands import BIG_AREA, bands, draw_band_words
 from core.raster.spans.packed import draw_words, word_block, word_spans
 from core.raster.spans.plane_words import DepthPlanes, draw_plane_words, plane_spans
 
-CHUNK = 1 << 14
-"""Triangles that walk together: their rows stay in the processor's cache."""
 Planes = IntegerPlanes | DepthPlanes
 
 
@@ -64,19 +60,11 @@ def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Fl
     return planes, geometry.is_projected & geometry.is_in_range & planes.is_finite
 
 
-def chunks(count: int) -> Iterator[tuple[int, int]]:
-    """Yield first and end of parts of ``count`` triangles that walk together."""
-    for first in range(0, count, CHUNK):
-        yield first, min(first + CHUNK, count)
-
-
 def _walk(job: Job, words: Integers, planes: Planes, chosen: Flags) -> int:
     """Draw the ``chosen`` (P,) triangles along their spans; return how many fragments there were."""
     raster, arena = job.raster, job.arena
     fragments = 0
-    for first, end in chunks(len(job.geometry.primitives)):
-        with job.timed("bin"):
-            lanes = job.lanes(first, end, chosen)
+    for first, end, lanes in job.walks(chosen):
         part = planes.part(first, end)
         if isinstance(part, IntegerPlanes):
             with job.timed("raster"):

@@ -19,6 +19,10 @@ def box(size: float = 1.0, center: tuple[float, float, float] = (0.0, 0.0, 0.0))
     return Mesh(corners + np.array(center), np.array(triangles))
 
 
+def plate(thickness: float, center: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Mesh:
+    return replace(box(), positions=box().positions * [1.0, thickness, 1.0] + center)
+
+
 def turned(mesh: Mesh) -> Mesh:
     return replace(mesh, triangles=mesh.triangles[:, ::-1].copy(), normals=None)
 
@@ -70,6 +74,8 @@ SOLID = {
     "two boxes that overlap": lambda: (box(), box(1.0, (0.7, 0.6, 0.5))),
     "a box with a hollow": lambda: (joined(box(), turned(box(0.5))),),
     "a mirrored box that is turned": lambda: (mirrored(turned(box())),),
+    "a thin plate": lambda: (plate(0.003),),
+    "a thin plate turned inside out within a box": lambda: (box(2.0), turned(plate(0.003))),
     "a prism": lambda: (prism(SQUARE),),
     "a prism that goes around twice": lambda: (prism(TWICE_AROUND),),
 }
@@ -81,6 +87,9 @@ OPEN_OR_TURNED = {
     "a box beside one turned inside out": lambda: (box(), turned(box(0.5, (3.0, 0.0, 0.0)))),
     "one mesh of both": lambda: (joined(box(), turned(box(0.5, (3.0, 0.0, 0.0)))),),
     "a surface that passes through itself and turns over": lambda: (prism(LYING_EIGHT),),
+    "a thin plate turned inside out": lambda: (turned(plate(0.003)),),
+    "a very thin one beside a box": lambda: (box(), turned(plate(0.0005, (3.0, 0.0, 0.0)))),
+    "a box without size": lambda: (box(0.0),),
     "nothing but a hollow": lambda: (turned(box()), turned(box(0.4))),
 }
 
@@ -122,6 +131,6 @@ def test_winding_numbers_along_rays():
     ray = np.array([0, 0, 0, 0, 3, 3, 5, 5, 5])
     depth = np.array([0.1, 0.2, 0.7, 0.9, 0.4, 0.5, 0.1, 0.1001, 0.2])
     facing = np.array([1, 1, -1, -1, -1, 1, -1, 1, 1])
-    found = is_never_negative(ray, depth, facing)
+    found = is_never_negative(ray, depth, np.full(9, 0.0001), facing)
     #       enters twice, leaves twice   |  a back first | in the wrong order by rounding; does not end outside
     assert found.tolist() == [True] * 4 + [False, True] + [True, True, False]

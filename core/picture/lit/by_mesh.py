@@ -24,6 +24,8 @@ from core.scene import Scene
 
 MOST = 64
 """Meshes: of more, setting up each of them takes longer than light by the plain rules."""
+AT_ONCE = 4 * BLOCK
+"""Pixels that are sorted by mesh together, so that a mesh has many of them and little memory is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +34,6 @@ class MeshPart:
 
     job: Job
     colors: LitNormals | LitTexture
-    chosen: Integers
-    """(C,) int64, their numbers in the picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,29 +52,24 @@ class LitMeshes:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        none = np.empty(0, np.int64)
-        seen_count, doubtful = 0, [(none, none)]
-        for part, seen in zip(self.parts, self._seen_by_part(nearest), strict=True):
-            lit = part.colors.light_seen(part.job, _blocks(*seen))
-            seen_count += lit.seen_count
-            doubtful.append((lit.place, part.chosen.take(lit.primitive)))
-        place, primitive = (np.concatenate(of_parts) for of_parts in zip(*doubtful, strict=True))
-        return color_doubtful(job, Lit(seen_count, place, primitive))
+        seen_count, doubtful = 0, [np.empty(0, np.int64)]
+        for first in range(0, len(nearest.keys), AT_ONCE):
+            seen = nearest.seen_in(slice(first, first + AT_ONCE))
+            for part, place, local in self._by_part(*seen):
+                lit = part.colors.light_seen(part.job, _blocks(place, local))
+                seen_count += lit.seen_count
+                doubtful.append(lit.place)
+        return color_doubtful(job, nearest, Lit(seen_count, np.concatenate(doubtful)))
 
-    def _seen_by_part(self, nearest: NearestFragments) -> list[tuple[Integers, Integers]]:
-        """Return for every part the places that it is seen at (V,), and its primitives there (V,)."""
-        none = np.empty(0, np.int64)
-        found = [([none], [none]) for _ in self.parts]
-        for place, primitive in nearest.seen():
-            part = self.part.take(primitive)
-            order = part.argsort(kind="stable")
-            place, local = place.take(order), self.local.take(primitive.take(order))
-            ends = np.searchsorted(part.take(order), np.arange(len(self.parts) + 1)).tolist()
-            for (places, locals_), (first, end) in zip(found, pairwise(ends), strict=True):
-                if first < end:
-                    places.append(place[first:end])
-                    locals_.append(local[first:end])
-        return [(np.concatenate(places), np.concatenate(locals_)) for places, locals_ in found]
+    def _by_part(self, place: Integers, primitive: Integers) -> Iterator[tuple[MeshPart, Integers, Integers]]:
+        """Yield the parts that are seen at places (V,), with those of each, and their primitives there."""
+        number = self.part.take(primitive)
+        order = number.argsort(kind="stable")
+        place, local = place.take(order), self.local.take(primitive.take(order))
+        ends = np.searchsorted(number.take(order), np.arange(len(self.parts) + 1)).tolist()
+        for part, (first, end) in zip(self.parts, pairwise(ends), strict=True):
+            if first < end:
+                yield part, place[first:end], local[first:end]
 
 
 def _blocks(place: Integers, primitive: Integers) -> Iterator[tuple[Integers, Integers]]:
@@ -114,5 +109,5 @@ def lit_meshes(job: Job) -> LitMeshes | None:
         if colors is None:
             return None
         local[chosen] = np.arange(len(chosen))
-        parts.append(MeshPart(of_mesh, colors, chosen))
+        parts.append(MeshPart(of_mesh, colors))
     return LitMeshes(parts, part, local)

@@ -60,7 +60,7 @@ def light_error(
     brightest : float
         Greatest albedo there is.
     """
-    strengths = [max(float(light.color.max()), 0.0) for light in lights]
+    strengths = [float(light.color.max()) for light in lights]
     diffuse = material.diffuse * turn * sum(strengths)
     error = _diffuse_bytes(diffuse, material.ambient, brightest, encoding)
     for strength in strengths:

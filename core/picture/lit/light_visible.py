@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from core.arrays import Flags, Integers, Singles
+from core.framebuffer.nearest import NearestFragments
 from core.picture.fragment_colors import FragmentColors
-from core.picture.job import Job
+from core.picture.job import Job, blocks
 from core.picture.lit.normals import NormalPlanes, unit_normals
 from core.picture.lit.pixel_light import PixelLight, lit_pixels
 
@@ -31,9 +32,7 @@ class Lit(NamedTuple):
     seen_count: int
     """Pixels that something is seen at."""
     place: Integers
-    """(D,) int64, those whose colour is in doubt."""
-    primitive: Integers
-    """(D,) int64, what is seen there."""
+    """(D,) int64, those whose colour is in doubt, maybe twice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +50,7 @@ class LitPlanes:
     def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
         seen_count = 0
-        none = np.empty(0, np.int64)
-        doubtful = [(none, none)]
+        doubtful = [np.empty(0, np.int64)]
         for place, primitive in seen:
             seen_count += len(place)
             column, row = job.raster.position(place)
@@ -61,17 +59,20 @@ class LitPlanes:
             diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
             job.pixels[place] = lit_pixels(job, color, diffuse, specular)
             in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_doubtful.take(primitive))])
-            if len(in_doubt):
-                doubtful.append((place.take(in_doubt), primitive.take(in_doubt)))
-        place, primitive = (np.concatenate(of_blocks) for of_blocks in zip(*doubtful, strict=True))
-        return Lit(seen_count, place, primitive)
+            doubtful.append(place.take(in_doubt))
+        return Lit(seen_count, np.concatenate(doubtful))
 
 
-def color_doubtful(job: Job, lit: Lit) -> int:
+def color_doubtful(job: Job, nearest: NearestFragments, lit: Lit) -> int:
     """Colour pixels in doubt as ``render`` has them, and return how many pixels are lit."""
     if len(lit.place):
         # Only the primitives that are shown there are set up.
-        shown, local = np.unique(lit.primitive, return_inverse=True)
-        colors = FragmentColors(job.part(shown))
-        job.pixels[lit.place] = job.encode(colors.at(local, *job.raster.position(lit.place)))
+        is_shown = np.zeros(len(job.geometry.primitives), bool)
+        for part in blocks(len(lit.place)):
+            is_shown[nearest.primitive_at(lit.place[part])] = True
+        colors, number = FragmentColors(job.part(np.flatnonzero(is_shown))), np.cumsum(is_shown) - 1
+        for part in blocks(len(lit.place)):
+            place = lit.place[part]
+            local = number.take(nearest.primitive_at(place))
+            job.pixels[place] = job.encode(colors.at(local, *job.raster.position(place)))
     return lit.seen_count

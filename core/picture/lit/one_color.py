@@ -47,7 +47,7 @@ class LitNormals:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return color_doubtful(job, self.light_seen(job, nearest.seen()))
+        return color_doubtful(job, nearest, self.light_seen(job, nearest.seen()))
 
     def light_seen(self, job: Job, seen: Seen) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels."""

@@ -135,10 +135,10 @@ def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: floa
 
 
 def pixel_light(scene: Scene, mesh: Mesh) -> PixelLight | None:
-    """Return what lights a mesh of a scene, or ``None`` where a light is not far away."""
+    """Return what lights a mesh of a scene, or ``None`` where a light is not far away, or takes light away."""
     rotation = world_to_camera(scene.camera)[:3, :3]
     lights = [_far_light(light, rotation) for light in scene.lights if isinstance(light, DirectionalLight)]
-    if len(lights) < len(scene.lights):
+    if len(lights) < len(scene.lights) or any(min(color) < 0 for _, color in lights):
         return None
     return PixelLight(mesh.material, tuple(lights), scene.camera)
 

@@ -50,7 +50,7 @@ class LitTexture:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return color_doubtful(job, self.light_seen(job, nearest.seen()))
+        return color_doubtful(job, nearest, self.light_seen(job, nearest.seen()))
 
     def light_seen(self, job: Job, seen: Seen) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels."""
@@ -132,5 +132,5 @@ def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
 def _texture_bytes(mesh: LitMesh, texels: float) -> float:
     """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
     material, lights = mesh.light.material, mesh.light.lights
-    strength = material.ambient + material.diffuse * sum(max(*color, 0.0) for _, color in lights)
+    strength = material.ambient + material.diffuse * sum(max(color) for _, color in lights)
     return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))

@@ -34,9 +34,11 @@ class VertexValues:
 
     def normals_seen_by(self, camera: Camera) -> Floats:
         """Return the `normals` (3, M) in the space of a camera; those of the last one are kept."""
-        if self._seen is None or self._seen[0] is not camera:
-            self._seen = camera, world_to_camera(camera)[:3, :3] @ self.normals
-        return self._seen[1]
+        seen = self._seen
+        if seen is None or seen[0] is not camera:
+            # Another thread may keep those of another camera the next moment.
+            self._seen = seen = camera, world_to_camera(camera)[:3, :3] @ self.normals
+        return seen[1]
 
     @cached_property
     def uv(self) -> Floats:
@@ -58,9 +60,9 @@ class VertexFacts:
 
     @cached_property
     def color(self) -> Color | None:
-        """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, or are not opaque."""
+        """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, are below 0, or not opaque."""
         colors = self.values.rows[self._rows, self.values.layout["color"]]
-        if not len(colors) or (colors != colors[:1]).any() or colors[0, 3] != 1:
+        if not len(colors) or (colors != colors[:1]).any() or colors[0].min() < 0 or colors[0, 3] != 1:
             return None
         red, green, blue = (np.float32(part) for part in colors[0, :3])
         return (red,) if red == green == blue else (red, green, blue)
@@ -86,20 +88,23 @@ _last: list[VertexValues] = []
 
 
 def vertex_facts(geometry: Geometry, mesh_number: int) -> VertexFacts:
-    """Return what is known of values at the vertices of a mesh, or of all pieces; what was found last is kept."""
+    """Return what is known of values at the vertices of a mesh; what was found last is kept.
+
+    Where triangles are clipped it is that of the ones that are drawn, which are others in the next picture.
+    """
     of_corners = geometry.primitives.values
     values = next((known for known in _last if known.rows is of_corners.rows), None)
     if values is None:
         values = VertexValues(of_corners.rows, of_corners.layout)
         # Another thread may keep others the next moment.
         _last[:] = [values]
+    if geometry.clipped is not None:
+        return VertexFacts(values, of_corners.index)
     if mesh_number not in values.of_mesh:
-        corner = of_corners.index
-        if geometry.clipped is None:
-            assembled = geometry.assembled
-            corner = geometry.vertices.corner_rows.take(assembled.triangle, axis=1)
-            if assembled.mesh.any():
-                corner = corner[:, assembled.mesh == mesh_number]
+        assembled = geometry.assembled
+        corner = geometry.vertices.corner_rows.take(assembled.triangle, axis=1)
+        if assembled.mesh.any():
+            corner = corner[:, assembled.mesh == mesh_number]
         values.of_mesh[mesh_number] = VertexFacts(values, corner)
     return values.of_mesh[mesh_number]
 

@@ -278,11 +278,15 @@ class BandWorkers:
 
 
 def _why_not_divided(order: Order) -> str:
-    """Return why memory is not given to bands, else an empty text: what does not fit is refused for the whole."""
-    out = order.out
-    if out is None or (out.shape == order.shape and out.dtype == np.uint8 and out.flags.c_contiguous):
-        return ""
-    return "the memory does not fit the picture"
+    """Return why bands get no part of it, else an empty text: what does not fit is refused for the whole picture."""
+    out, depth_at = order.out, order.depth_at
+    if out is not None and not (
+        out.shape == order.shape and out.dtype == np.uint8 and out.flags.c_contiguous
+    ):
+        return "the memory does not fit the picture"
+    if depth_at is not None and not order.is_in(0, order.shape[0]).all():
+        return "depth is asked for outside of the picture"
+    return ""
 
 
 def _close_all(workers: list[Worker]) -> None:

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, Texture, draw_picture
 from core.methods import table
+from core.picture.blended import strip_height
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window
@@ -46,6 +47,14 @@ def test_transparent_triangles(
     assert np.array_equal(draw_picture(scene, by_spans(chosen)).pixels, expected)
     part = draw_picture(scene, by_spans(chosen), region=(13, 7, 21, 30)).pixels
     assert np.array_equal(part, expected[7:37, 13:34])
+
+
+def test_triangles_beyond_the_picture_ask_for_no_narrower_strips() -> None:
+    shape = (480, 640)
+    assert strip_height(np.full(3, 1e9), shape) == strip_height(np.full(3, 480 * 640), shape) == 68
+    assert strip_height(np.full(9000, 10.0), shape) > 480
+    assert strip_height(np.full(9000, 1e9), shape) == 1
+    assert strip_height(np.zeros(0), shape) > 480
 
 
 @pytest.mark.parametrize("region", [(0, 0, 0, 0), (61, 47, 3, 3), (5, 5, 0, 4), (5, 5, 4, 0)])

@@ -199,3 +199,22 @@ def test_the_bound_of_all_triangles_decides_as_those_that_are_drawn_do() -> None
         assert np.array_equal(again.pixels, alone.pixels)
         draw_picture(turned, chosen)
         assert 0 < byte_colors._last[0][2].most_product < 1
+
+
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_large_triangle_has_the_same_bytes_where_nothing_overlaps_as_where_something_does(
+    seed: int, encoding: str
+) -> None:
+    size, generator = (400, 300), np.random.default_rng(seed)
+    corners = [[(3, 2), (395, 10), (20, 290)], [(300, 280), (390, 280), (350, 200)]]
+    clip = clip_of_window(np.array([*corners, corners[1]]), size, 1.0, 0.0)
+    levels = generator.uniform(80, 200, (3, 1, 3)) + generator.uniform(-6, 6, (3, 3, 3))
+    scene = ClipScene(clip, linear_of_bytes(levels, encoding), size)
+    whole = draw_picture(scene, SPANS, encoding=encoding)
+    part = draw_picture(scene, SPANS, encoding=encoding, region=(0, 0, 400, 150))
+    assert [(picture.route.visibility, picture.route.color) for picture in (whole, part)] == [
+        ("words", "bytes"),
+        ("layer", "bytes"),
+    ]
+    assert np.array_equal(part.pixels, whole.pixels[:150])

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Settings, draw_picture, render
 from core.methods import table
+from core.picture import Split
 from lessons.shapes import cube, knot, sphere, torus
 from tests.core.picture.numbered import assert_same, numbered, numbers
 from tests.core.picture.references import exact_bytes
@@ -145,3 +146,12 @@ def test_background_shows_where_nothing_is() -> None:
         scene = ClipScene(clip, np.tile(color, (2, 3, 1)), SIZE, None, background)
         picture = draw_picture(scene, Settings(fill="spans"))
         assert np.array_equal(picture.pixels, exact_bytes(scene, Settings(), "srgb")), picture.route
+
+
+def test_large_triangles_of_a_layer_are_counted_as_drawn_in_bands() -> None:
+    clip = clip_of_window(
+        [[(0, 0), (400, 0), (0, 300)], [(390, 290), (395, 290), (390, 295)]], (400, 300), 1.0, 0.0
+    )
+    picture = draw_picture(ClipScene(clip, size=(400, 300)))
+    assert picture.route.visibility == "layer"
+    assert picture.route.split == Split(1, 1, 0, picture.route.visible)

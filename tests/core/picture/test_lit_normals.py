@@ -134,6 +134,10 @@ def of_many_colors() -> Mesh:
     return replace(mesh, colors=colors)
 
 
+def of_color(*color: float) -> Mesh:
+    return replace(sphere(), colors=np.tile([*color, 1.0], (len(sphere().positions), 1)))
+
+
 @pytest.mark.parametrize(
     "scene",
     [
@@ -142,8 +146,20 @@ def of_many_colors() -> Mesh:
         scene_of(of_many_colors()),
         scene_of(sphere(), lights=(PointLight(np.array([2.0, 2.0, 2.0])),)),
         scene_of(replace(sphere(), material=Material(0.0, 0.5, 1.0, 10000.0))),
+        scene_of(of_color(-0.5, -0.5, -0.5)),
+        scene_of(of_color(0.4, -0.8, 0.2)),
+        scene_of(sphere(), lights=(*LIGHTS, DirectionalLight(np.array([0.9, -0.3, 0.7]), -np.ones(3)))),
     ],
-    ids=["unlike normals", "no normals", "colours", "point light", "sharp highlight"],
+    ids=[
+        "unlike normals",
+        "no normals",
+        "colours",
+        "point light",
+        "sharp highlight",
+        "all below 0",
+        "one below 0",
+        "a light that takes light away",
+    ],
 )
 def test_otherwise_attributes_and_light_come_from_every_pixel(scene: Scene) -> None:
     picture = drawn(scene, "srgb")

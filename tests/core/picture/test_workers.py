@@ -122,6 +122,13 @@ def test_memory_that_does_not_fit_is_refused_for_the_whole_picture(workers: Band
     assert workers.pids == pids
 
 
+def test_depth_outside_of_the_picture_is_refused_as_by_one_process(workers: BandWorkers) -> None:
+    scene = ball()
+    for places, wrong in (([0, 96 * 80], "0 to 7680"), ([-3, 5], "-3 to 5")):
+        with pytest.raises(ValueError, match=f"got {wrong}"):
+            workers.draw(scene, SPANS, depth_at=np.array(places))
+
+
 def test_three_processes_draw_the_bytes_of_one() -> None:
     scene = ball(size=(70, 50))
     with BandWorkers(3, always=True) as workers:
