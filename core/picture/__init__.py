@@ -15,8 +15,9 @@ Small triangles walk along spans, those of more than 32,768 pixels go in bands, 
 cannot be projected, triangles cut by the near or far plane, 1/w or its logarithm) is
 looked at fragment by fragment.
 
-Memory: at most 24 bytes a pixel (40 with four samples), 900 bytes a triangle and 24 MB, of which the words (8 bytes a
-pixel) and the spans of 16,384 triangles stay in an `Arena` from picture to picture (tested).
+Memory: at most 24 bytes a pixel (40 with four samples), 900 bytes a triangle and 24 MB (26 where some are looked at
+fragment by fragment), of which the words (8 bytes a pixel) and the spans of 16,384 triangles stay in an `Arena` from
+picture to picture (tested).
 """
 
 from core.picture.draw import draw_picture
