@@ -134,11 +134,12 @@ class Job:
         at_once = max(ROWS // max(self.raster.shape[0], 1), 1)
         for first in range(0, len(chosen), at_once):
             part = chosen[first : first + at_once]
-            x, y, area = (
-                of.take(part, axis=-1)
-                for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
-            )
-            rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
+            with self.timed("bin"):
+                x, y, area = (
+                    of.take(part, axis=-1)
+                    for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
+                )
+                rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
             yield from zip(part.tolist(), rows, strict=True)
 
 

@@ -2,9 +2,10 @@
 
 from typing import get_args
 
+import numpy as np
 import pytest
 
-from core import STAGES, Settings, render
+from core import STAGES, ClipScene, Settings, render
 from core.picture import draw_picture
 from core.picture.record import Coloring, Visibility
 from core.picture.workers import BandWorkers
@@ -56,3 +57,13 @@ def test_workers_take_multisampled_pictures() -> None:
     with BandWorkers(1) as workers:
         picture = workers.draw(scene, SETTINGS["multisampled"])
     assert picture.route.visibility == "multisampled"
+
+
+@pytest.mark.parametrize(("count", "visibility"), [(1, "layer"), (20, "words")])
+def test_the_rows_of_large_triangles_take_time_of_the_stage_bin(count: int, visibility: str) -> None:
+    corners = np.array([[[-1.0, -1, 0, 1], [1, -1, 0, 1], [0, 1, 0, 1]]] * count)
+    scene = ClipScene(corners, np.ones((count, 3, 4)), (500, 500))
+    picture = draw_picture(scene, Settings(depth="fixed-38"))
+    assert picture.route.visibility == visibility
+    assert picture.route.split.big == count
+    assert picture.statistics["bin"].seconds > 0
