@@ -12,6 +12,21 @@ class FileWriteError(OSError):
     """A file cannot be written; the message is one sentence that names it."""
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and those above it, where they are not there yet.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        reason = (problem.strerror or str(problem)).lower()
+        raise FileWriteError(f"{folder} cannot be made: {reason}") from problem
+
+
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     """Open a file beside ``path`` for binary writing, and move it there when the block is done.

@@ -12,7 +12,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QStandardPaths, Signal, Slot
 
-from app.file_writing import FileWriteError, whole_file
+from app.file_writing import FileWriteError, make_folder, whole_file
 from app.preferences import FOLDER_VARIABLE
 from app.workers import Desk, Progress
 
@@ -113,11 +113,7 @@ def write_result(folder: Path, name: str, content: bytes) -> None:
     """
     if len(content) > LARGEST:
         raise FileWriteError(f"{name} is larger than {LARGEST >> 20} MiB")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        reason = (problem.strerror or str(problem)).lower()
-        raise FileWriteError(f"{folder} cannot be made: {reason}") from problem
+    make_folder(folder)
     with whole_file(folder / name) as file:
         file.write(content)
     remove_oldest(folder, LARGEST_TOGETHER)

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QStandardPaths
 
 from app.field_problems import field_problem
-from app.file_writing import FileWriteError, whole_file
+from app.file_writing import FileWriteError, make_folder, whole_file
 from core.frame import STAGES
 
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
@@ -114,10 +114,6 @@ def save_preferences(preferences: Preferences) -> None:
         If that is not possible; the message is one sentence.
     """
     folder = preferences_folder()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        reason = (problem.strerror or str(problem)).lower()
-        raise FileWriteError(f"{folder} cannot be made: {reason}") from problem
+    make_folder(folder)
     with whole_file(folder / FILE_NAME) as file:
         file.write(preferences.model_dump_json(indent=1).encode() + b"\n")
