@@ -86,15 +86,16 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     )
     camera = viewing_camera(shot.space, shot.orbit)
     found = find_line_pixels(lines, viewing_matrix(camera, shot.size), shot.size)
-    depth_at = np.concatenate([found.depth_at, sight_places(shot.size).ravel()])
+    at_lines, at_sight = found.depth_at, sight_places(shot.size)
+    depth_at = np.concatenate([at_lines, at_sight.ravel()])
     picture = workers.draw(viewed, settings, depth_at=depth_at, out=pixels)
     sharing = workers.sharing
     assert picture.depth is not None
     colors = [ink_color(line.ink, shot.theme) for line in lines]
-    of_lines, of_sight = np.split(picture.depth, [len(found.depth_at)])
+    of_lines, of_sight = np.split(picture.depth, [len(at_lines)])
     paint_lines(pixels, found, _inverse_w(camera, of_lines), lines, colors)
     distance = np.where(of_sight < SCALE, 1 / _inverse_w(camera, of_sight), np.nan)
-    sight = Sight(shot.orbit, camera.field_of_view, distance.reshape(sight_places(shot.size).shape))
+    sight = Sight(shot.orbit, camera.field_of_view, distance.reshape(at_sight.shape))
     count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
     figures = FrameFigures(
         shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden

@@ -12,11 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Integers
-from core.framebuffer.nearest import BLOCK, NearestFragments
-from core.picture.job import Job
+from core.framebuffer.nearest import NearestFragments
+from core.picture.job import BLOCK, Job, blocks
 from core.picture.lit.corner_places import corner_places
 from core.picture.lit.light_visible import Lit, color_doubtful
-from core.picture.lit.one_color import LitNormals, have_few_unlike, lit_mesh, normals_of
+from core.picture.lit.one_color import (
+    LitNormals,
+    even_mesh,
+    have_few_unlike,
+    is_mostly_in_front,
+    normals_of,
+)
 from core.picture.lit.textured import LitTexture, texture_of
 from core.picture.lit.vertex_facts import vertex_facts
 from core.picture.record import Coloring
@@ -56,7 +62,8 @@ class LitMeshes:
         for first in range(0, len(nearest.keys), AT_ONCE):
             seen = nearest.seen_in(slice(first, first + AT_ONCE))
             for part, place, local in self._by_part(*seen):
-                lit = part.colors.light_seen(part.job, _blocks(place, local))
+                seen_of_part = ((place[at], local[at]) for at in blocks(len(place)))
+                lit = part.colors.light_seen(part.job, seen_of_part)
                 seen_count += lit.seen_count
                 doubtful.append(lit.place)
         return color_doubtful(job, nearest, Lit(seen_count, np.concatenate(doubtful)))
@@ -72,12 +79,6 @@ class LitMeshes:
                 yield part, place[first:end], local[first:end]
 
 
-def _blocks(place: Integers, primitive: Integers) -> Iterator[tuple[Integers, Integers]]:
-    """Yield places and primitives (V,), up to `BLOCK` at a time."""
-    for first in range(0, len(place), BLOCK):
-        yield place[first : first + BLOCK], primitive[first : first + BLOCK]
-
-
 def lit_meshes(job: Job) -> LitMeshes | None:
     """Return the meshes of a scene of several, or ``None`` where one of them allows no cheaper colours.
 
@@ -89,6 +90,8 @@ def lit_meshes(job: Job) -> LitMeshes | None:
     # What is interpolated is found once for all of them.
     if job.settings.shading != "phong" or not len(primitives.values.rows):
         return None
+    if not is_mostly_in_front(job.geometry):
+        return None
     drawn = np.flatnonzero(np.bincount(primitives.mesh, minlength=len(scene.meshes)))
     part_of_mesh = np.zeros(len(scene.meshes), np.uint8)
     part_of_mesh[drawn] = np.arange(len(drawn))
@@ -97,7 +100,7 @@ def lit_meshes(job: Job) -> LitMeshes | None:
     for place, number in enumerate(drawn.tolist()):
         chosen = np.flatnonzero(part == place)
         jobs.append((job.part(chosen, number), chosen))
-    lit = [mesh for of_mesh, _ in jobs if (mesh := lit_mesh(of_mesh))]
+    lit = [mesh for of_mesh, _ in jobs if (mesh := even_mesh(of_mesh))]
     facts = [vertex_facts(job.geometry, number) for number in range(len(scene.meshes))]
     if len(lit) < len(jobs) or not have_few_unlike(job, facts):
         return None

@@ -8,15 +8,14 @@ whose greatest value is that at cos^(5n/12). The encoding is concave: what the p
 never off by more in a sum.
 """
 
-from collections.abc import Sequence
 from math import sqrt
 
 import numpy as np
 
 from core.picture.lit.corner_places import CornerPlaces
+from core.picture.lit.pixel_light import PixelLight
 from core.picture.lit.planes import rounding
 from core.picture.lit.vertex_facts import ALIKE
-from core.scene import DirectionalLight, Material
 
 STEEPEST = 255 * 12.92
 """Bytes that sRGB rises by per unit of light, at most."""
@@ -46,8 +45,7 @@ def normal_error(places: CornerPlaces) -> float:
 
 def light_error(
     turn: float,
-    material: Material,
-    lights: Sequence[DirectionalLight],
+    light: PixelLight,
     brightest: float,
     encoding: str,
 ) -> float:
@@ -60,7 +58,7 @@ def light_error(
     brightest : float
         Greatest albedo there is.
     """
-    strengths = [float(light.color.max()) for light in lights]
+    material, strengths = light.material, [max(color) for _, color in light.lights]
     diffuse = material.diffuse * turn * sum(strengths)
     error = _diffuse_bytes(diffuse, material.ambient, brightest, encoding)
     for strength in strengths:

@@ -23,7 +23,7 @@ from core.picture.lit.normals import normal_planes
 from core.picture.lit.pixel_light import PixelLight, pixel_light
 from core.picture.lit.vertex_facts import Color, VertexFacts, vertex_facts
 from core.picture.record import Coloring
-from core.scene import DirectionalLight, Mesh, Scene
+from core.scene import Mesh, Scene
 
 TOLERANCE = 1.0
 """Bytes that a colour may be away from the exact one before both are rounded."""
@@ -80,7 +80,6 @@ class LitMesh:
     """A mesh whose pixels differ in nothing but their normals, and maybe in what a texture shows there."""
 
     mesh: Mesh
-    lights: tuple[DirectionalLight, ...]
     light: PixelLight
     facts: VertexFacts
     color: Color
@@ -90,20 +89,25 @@ class LitMesh:
 def lit_mesh(job: Job) -> LitMesh | None:
     """Return the mesh that all primitives are of, or ``None`` where something else differs from pixel to pixel.
 
-    It is opaque, of one colour, shaded by Phong's method, lit from far away, nearly all of it in front of the eye.
+    It is an `even_mesh` of a scene that is nearly all in front of the eye.
     """
-    scene, geometry, settings, number = job.scene, job.geometry, job.settings, job.only_mesh
+    mesh = even_mesh(job)
+    return mesh if mesh and is_mostly_in_front(job.geometry) else None
+
+
+def even_mesh(job: Job) -> LitMesh | None:
+    """Return the mesh that all primitives are of: opaque, of one colour, lit from far away, shaded as Phong does."""
+    scene, settings, number = job.scene, job.settings, job.only_mesh
     if number is None or not isinstance(scene, Scene) or settings.shading != "phong":
         return None
-    if settings.interpolation != "perspective" or not _is_mostly_in_front(geometry):
+    if settings.interpolation != "perspective":
         return None
     mesh = scene.meshes[number]
     light = pixel_light(scene, mesh)
-    facts = vertex_facts(geometry, number)
+    facts = vertex_facts(job.geometry, number)
     if light is None or facts.color is None:
         return None
-    lights = tuple(light for light in scene.lights if isinstance(light, DirectionalLight))
-    return LitMesh(mesh, lights, light, facts, facts.color)
+    return LitMesh(mesh, light, facts, facts.color)
 
 
 def have_few_unlike(job: Job, meshes: Sequence[VertexFacts]) -> bool:
@@ -117,7 +121,7 @@ def have_few_unlike(job: Job, meshes: Sequence[VertexFacts]) -> bool:
     return unlike <= MOST_UNLIKE * sum(mesh.triangle_count for mesh in meshes)
 
 
-def _is_mostly_in_front(geometry: Geometry) -> bool:
+def is_mostly_in_front(geometry: Geometry) -> bool:
     """Tell whether so few triangles have corners without a place in the window that they may be coloured twice.
 
     Of all that are not culled, so that what holds for the picture holds for all bands of it.
@@ -141,7 +145,7 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
         Bytes that what the light is multiplied with may be off.
     """
     turn, brightest = normal_error(places), float(max(mesh.color))
-    error = light_error(turn, mesh.light.material, mesh.lights, brightest, job.encoding) + texture_error
+    error = light_error(turn, mesh.light, brightest, job.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
     found = normal_planes(job, mesh.light.camera, mesh.facts, places)
