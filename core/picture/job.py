@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,8 +92,7 @@ class Job:
     @cached_property
     def background(self) -> np.uint32:
         """The pixel that nothing is seen at."""
-        word: np.uint32 = self.encode(self.scene.background[None])[0]
-        return word
+        return _word_of(self.scene.background.tobytes(), self.encoding)
 
     def timed(self, stage: str) -> AbstractContextManager[StageCount]:
         """Add the time of the block to a stage."""
@@ -141,6 +140,13 @@ class Job:
                 )
                 rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
             yield from zip(part.tolist(), rows, strict=True)
+
+
+@lru_cache(maxsize=4)
+def _word_of(color: bytes, encoding: str) -> np.uint32:
+    """Return the bytes of one linear colour, four float64 numbers: most pictures have the background of the last."""
+    word: np.uint32 = encode(np.frombuffer(color)[None], encoding)[0]
+    return word
 
 
 def encode(color: Floats | Singles, encoding: str) -> Words:

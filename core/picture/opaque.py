@@ -104,8 +104,9 @@ def _key(scene: AnyScene) -> Mesh | ClipScene:
 def _draw_visible(job: Job, colors: "PaletteColors | SmoothColors | None") -> tuple[NearestFragments, Route]:
     """Find what is seen, then colour it."""
     nearest, split = find_visible(job)
-    with job.timed("resolve"):
-        job.pixels.fill(job.background)
+    if not isinstance(colors, PaletteColors):  # which writes the background as one of its colours
+        with job.timed("resolve"):
+            job.pixels.fill(job.background)
     if colors is None:
         from core.picture.deferred import shade_visible
 

@@ -78,14 +78,14 @@ class PaletteColors:
         return IntegerPlanes(pack_level(self.words), level, level)
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
-        """Write the colour of the triangle seen at every pixel; return how many are seen.
+        """Write the colour of the triangle seen at every pixel, or of the background; return how many are seen.
 
         Notes
         -----
         The low bits of a word are the number of the triangle plus one, and 0 where nothing was drawn: an index as it
-        is into a table that begins with the background, which the picture holds.
+        is into a table that begins with the background.
         """
-        table = np.concatenate([job.pixels[:1], self.words])
+        table = np.concatenate([[job.background], self.words])
         seen_count = 0
         for first in range(0, len(job.pixels), BLOCK):
             part = slice(first, first + BLOCK)

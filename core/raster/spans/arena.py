@@ -5,6 +5,7 @@ new pages for the next array. When such a block is freed the limit grows to its 
 nearly that size, never written to, is taken and freed here. Sorting 110,000 bytes then takes 0.23 ms, not 0.82.
 """
 
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -22,25 +23,22 @@ class Arena:
     Notes
     -----
     A fresh array of more than about a megabyte is given by the system page by page, at three to four times the
-    cost of the work that is done in it. Whoever asks again under the same name gets the same memory, contents
+    cost of the work that is done in it. Whoever asks again for the same name and type gets the same memory, contents
     undefined; so two arrays that live at the same time need two names, and an arena serves one picture at a time.
     """
 
     def __init__(self) -> None:
-        self._pieces: dict[str, NDArray[np.uint8]] = {}
+        self._pieces: dict[tuple[str, DTypeLike], NDArray[Any]] = {}
 
     def __call__(self, name: str, *shape: int, dtype: DTypeLike = np.float64) -> NDArray[Any]:
         """Return an uninitialised array of ``shape``."""
-        kind = np.dtype(dtype)
-        count = kind.itemsize
-        for length in shape:
-            count *= length
-        piece = self._pieces.get(name)
+        count = shape[0] if len(shape) == 1 else prod(shape)
+        piece = self._pieces.get((name, dtype))
         if piece is None or len(piece) < count:
-            piece = self._pieces[name] = np.empty(count + count // 4 + 64, np.uint8)
-        return piece[:count].view(kind).reshape(shape)
+            piece = self._pieces[name, dtype] = np.empty(count + count // 4 + 16, dtype)
+        return piece[:count] if len(shape) == 1 else piece[:count].reshape(shape)
 
     @property
     def byte_count(self) -> int:
         """Bytes held."""
-        return sum(len(piece) for piece in self._pieces.values())
+        return sum(piece.nbytes for piece in self._pieces.values())

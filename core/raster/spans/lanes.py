@@ -32,7 +32,8 @@ GUARD = 2.0**-35
 SUBPIXEL_GUARD = 2.0**-10
 """The same for the rows of corners, which are multiples of 2^-8."""
 NOWHERE = 1e15
-"""Crossing of an edge that bounds no row."""
+"""Size of the numerator of an edge that bounds no row: over any dy, and after any number of steps, its crossing is
+2^32 columns away."""
 
 
 @dataclass(frozen=True)
@@ -130,37 +131,32 @@ def set_up_lanes(
     return Lanes(order, taller, lane_first, numerator, step, reciprocal, not is_within)
 
 
+_TURNED = np.array([[0, 1, 2, 0, 1, 2], [1, 2, 0, 2, 0, 1], [2, 0, 1, 1, 2, 0]])
+"""Corner (0 to 2) that comes first, second, third if corner 0, 1, 2 is the lowest, and the same of clockwise ones."""
+
+
 def _from_lowest_corner(
     x: Floats, y: Floats, doubled_area: Floats, order: Integers, arena: Arena
 ) -> tuple[Floats, Floats]:
     """Return x and y (3, L) of the corners of ``order`` (L,), counter-clockwise from the lowest one."""
     total, count = x.shape[1], len(order)
-    stacked_x, stacked_y = arena("stacked_x", 5, total), arena("stacked_y", 5, total)
-    stacked_x[:3], stacked_y[:3] = x, y
-    clockwise = np.flatnonzero(doubled_area < 0)
-    if len(clockwise):
-        for stacked, given in ((stacked_x, x), (stacked_y, y)):
-            stacked[1][clockwise] = given[2].take(clockwise)
-            stacked[2][clockwise] = given[1].take(clockwise)
-    stacked_x[3:], stacked_y[3:] = stacked_x[:2], stacked_y[:2]
+    y0, y1, y2 = y
+    turn, flag = arena("turn", total, dtype=np.int8), arena("flag", total, dtype=np.bool_)
+    np.less(y1, y0, out=turn, casting="unsafe")
+    np.less(y2, np.minimum(y0, y1, out=arena("lower", total)), out=flag)
+    np.maximum(turn, flag.view(np.int8) << 1, out=turn)
+    np.less(doubled_area, 0, out=flag)
+    turn += flag.view(np.int8) * np.int8(3)
+    turn = turn.take(order)
 
-    # Corner k of a triangle whose lowest corner is n stands in row n + k.
-    y0, y1, y2 = stacked_y[:3]
-    lowest, third = arena("lowest", total, dtype=np.int8), arena("third_is_lowest", total, dtype=np.bool_)
-    np.less(y1, y0, out=lowest, casting="unsafe")
-    np.minimum(y0, y1, out=stacked_y[3])
-    np.less(y2, stacked_y[3], out=third)
-    stacked_y[3] = y0
-    np.maximum(lowest, third.view(np.int8) << 1, out=lowest)
-    lane_lowest = lowest.take(order)
     place = arena("place", count, dtype=np.int64)
-    np.multiply(lane_lowest, total, out=place, dtype=np.int64)
-    place += order
     turned_x, turned_y = arena("turned_x", 3, count), arena("turned_y", 3, count)
-    for corner in range(3):
-        stacked_x.reshape(-1).take(place, out=turned_x[corner], mode="clip")
-        stacked_y.reshape(-1).take(place, out=turned_y[corner], mode="clip")
-        place += total
+    flat_x, flat_y = x.reshape(-1), y.reshape(-1)
+    for corner, first_place in enumerate(_TURNED * total):
+        first_place.take(turn, out=place, mode="clip")
+        place += order
+        flat_x.take(place, out=turned_x[corner], mode="clip")
+        flat_y.take(place, out=turned_y[corner], mode="clip")
     return turned_x, turned_y
 
 
@@ -188,16 +184,18 @@ def _edges(
         numerator[side] *= dy
         np.multiply(above_start, step[side], out=part)
         numerator[side] += part
-        level = np.flatnonzero(dy == 0)
+        level = (dy == 0).nonzero()[0]
         dy[level] = 1
         np.divide(1.0, dy, out=reciprocal[side])
         numerator[side][level] = -NOWHERE if side == LEFT else NOWHERE
-        step[side][level] = 0
 
-    # The middle edge where it goes down: on the left.
-    numerator[MIDDLE_LEFT], step[MIDDLE_LEFT], reciprocal[MIDDLE_LEFT] = -NOWHERE, 0, 1
-    down = np.flatnonzero(reciprocal[MIDDLE_RIGHT] < 0)
-    for values, nowhere in ((numerator, NOWHERE), (step, 0), (reciprocal, 1)):
-        values[MIDDLE_LEFT][down] = values[MIDDLE_RIGHT].take(down)
-        values[MIDDLE_RIGHT][down] = nowhere
+    # The middle edge is on the left where it goes down; as 1 / dy is negative there, -NOWHERE is far on the other side.
+    step[MIDDLE_LEFT], reciprocal[MIDDLE_LEFT] = step[MIDDLE_RIGHT], reciprocal[MIDDLE_RIGHT]
+    goes_down = np.less(reciprocal[MIDDLE_RIGHT], 0, out=part)
+    np.multiply(numerator[MIDDLE_RIGHT], goes_down, out=numerator[MIDDLE_LEFT])
+    numerator[MIDDLE_RIGHT] -= numerator[MIDDLE_LEFT]
+    goes_down *= NOWHERE
+    numerator[MIDDLE_RIGHT] -= goes_down
+    goes_down -= NOWHERE
+    numerator[MIDDLE_LEFT] += goes_down
     return numerator, step, reciprocal
