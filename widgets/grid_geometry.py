@@ -15,6 +15,8 @@ HANDLE_RADIUS = 5.0
 """Radius of a vertex handle in logical pixels."""
 _GRAB_RADIUS = 11.0
 """How near the pointer must come to a vertex to take it."""
+_LEAST_HANDLE = 0.4
+"""Handles on a tiny triangle are that part of their size, so that they hide less of it."""
 HALO_WIDTH = 2.4
 HALO_OPACITY = 0.5
 """Of what sets thin outlines off from the cells."""
@@ -151,20 +153,31 @@ def paint_focus(
         )
         painter.drawLine(line)
     painter.setClipRect(placement.viewport)
-    for place in range(3):
-        position = vertex_place(geometry, placement, corners[place])
-        if position is not None and not small:
-            grown = (scale - 1) * HANDLE_RADIUS + (1.5 if corners[place] == held else 0.0)
+    if not small:
+        scale *= handle_part(placement, geometry)
+        for place in range(3):
+            position = vertex_place(geometry, placement, corners[place])
+            if position is None:
+                continue
+            radius = HANDLE_RADIUS * scale + (1.5 if corners[place] == held else 0.0)
             painter.setPen(QPen(QColor("#ffffff"), 1.8))
             painter.setBrush(QColor(theme.vertex[place]))
-            painter.drawEllipse(position, HANDLE_RADIUS + grown, HANDLE_RADIUS + grown)
+            painter.drawEllipse(position, radius, radius)
             painter.setPen(QPen(QColor("#000000"), 0.8))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawEllipse(position, HANDLE_RADIUS + grown + 1.2, HANDLE_RADIUS + grown + 1.2)
-    if not small:
+            painter.drawEllipse(position, radius + 1.2, radius + 1.2)
         _paint_snapped(painter, placement, geometry, corners, scale)
         _paint_names(painter, placement, geometry, theme)
     painter.restore()
+
+
+def handle_part(placement: GridPlacement, geometry: GridGeometry) -> float:
+    """Return the part of their size that the handles of the triangle in focus have: all of it where there is room."""
+    corners = geometry.vertices[list(geometry.focus_vertices)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * placement.cell
+    shortest = np.nan_to_num(sides, nan=np.inf).min()
+    return float(np.clip(shortest / (4 * HANDLE_RADIUS), _LEAST_HANDLE, 1.0))
 
 
 def _paint_snapped(

@@ -135,6 +135,7 @@ class PixelGrid(GridDisplay):
             self._has_moved = True
             delta = position - self._pressed_at
             if self._drag is _Drag.VERTEX:
+                self._set_pointed(None)  # the pixel where the drag began is not the one under the pointer
                 self.vertex_drag_started.emit(self._vertex)
             self._update_cursor()
         if not self._has_moved:

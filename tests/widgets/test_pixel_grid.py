@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication
 
 from tests.widgets.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
 from widgets.grid_buffer import GridBuffer
-from widgets.grid_geometry import GridGeometry
+from widgets.grid_geometry import GridGeometry, handle_part
 from widgets.grid_overlay import Mark, MaskOverlay
 from widgets.grid_paint import ruler_labels
 from widgets.grid_view import FIT, GridView
@@ -323,3 +323,18 @@ def test_a_grid_goes_away_cleanly(qtbot) -> None:
     QApplication.processEvents()
     gc.collect()
     assert gone() is None
+
+
+@pytest.mark.parametrize(
+    ("corners", "part"),
+    [
+        ([[2.0, 2.0], [20.0, 3.0], [8.0, 13.0]], 1.0),
+        ([[2.0, 2.0], [2.4, 2.0], [8.0, 13.0]], 0.62),
+        ([[2.0, 2.0], [2.0, 2.0], [8.0, 13.0]], 0.4),
+        ([[2.0, 2.0], [np.nan, np.nan], [np.inf, 13.0]], 1.0),
+    ],
+)
+def test_handles_are_smaller_on_a_tiny_triangle(grid: PixelGrid, corners, part: float) -> None:
+    assert grid.placement().cell == 31
+    geometry = GridGeometry(np.array(corners), np.array([[0, 1, 2]]))
+    assert handle_part(grid.placement(), geometry) == pytest.approx(part)

@@ -106,6 +106,17 @@ def test_a_vertex_is_dragged(grid: PixelGrid, qtbot) -> None:
     assert (x, y) == pytest.approx((22.0, 6.0), abs=0.05)
 
 
+def test_no_pixel_is_pointed_at_while_a_vertex_is_dragged(grid: PixelGrid, qtbot) -> None:
+    grid.show_geometry(TRIANGLE)
+    QTest.mouseMove(grid, at(grid, 20.0, 3.0))
+    QTest.mousePress(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 20.0, 3.0))
+    with qtbot.waitSignal(grid.pixel_left), qtbot.assertNotEmitted(grid.pixel_hovered):
+        QTest.mouseMove(grid, at(grid, 22.0, 6.0))
+    with qtbot.waitSignal(grid.pixel_hovered) as pointed:
+        QTest.mouseRelease(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 22.5, 6.5))
+    assert pointed.args == [22, 6]
+
+
 def test_shift_rounds_a_dragged_vertex(grid: PixelGrid) -> None:
     grid.show_geometry(TRIANGLE)
     places: list[tuple[float, float]] = []
