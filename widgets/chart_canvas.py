@@ -1,6 +1,7 @@
 """The ground of a chart: two logarithmic axes, series of marks and lines, all in the colours of the theme."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from math import lcm
 
 import numpy as np
@@ -35,6 +36,8 @@ class ChartCanvas(pg.GraphicsView):
         """The ranges that show everything; others are the user's."""
         self._items: list[pg.GraphicsObject] = []
         self._places: dict[str, Floats] = {}
+        self._front = np.empty((0, 2))
+        """(C, 2) positions of the corners of the line of the front."""
         self.view = pg.ViewBox(enableMenu=False)
         self.axes = (pg.AxisItem("bottom"), pg.AxisItem("left"))
         layout = pg.GraphicsLayout()
@@ -102,6 +105,11 @@ class ChartCanvas(pg.GraphicsView):
                 found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
         return found
 
+    def front_lines(self) -> list[QRectF]:
+        """Return the rectangles in the widget that the parts of the front take."""
+        corners = [self.view.mapViewToScene(QPointF(*corner)) for corner in self._front.tolist()]
+        return [QRectF(start, stop).normalized().adjusted(-1, -1, 1, 1) for start, stop in pairwise(corners)]
+
     def plot_area(self) -> QRectF:
         """Return the rectangle between the axes, in the widget."""
         return QRectF(self.view.sceneBoundingRect())
@@ -120,6 +128,7 @@ class ChartCanvas(pg.GraphicsView):
             self.view.removeItem(item)
         self._items.clear()
         self._places.clear()
+        self._front = np.empty((0, 2))
         picture = self._picture
         for axis in self.axes:
             axis.setVisible(picture is not None)
@@ -157,6 +166,7 @@ class ChartCanvas(pg.GraphicsView):
         y = up.positions(np.array([by_key[key].y[0] for key in picture.front]))
         steps_x = np.repeat(np.append(x, across.stop), 2)[:-1]
         steps_y = np.append(up.stop, np.repeat(y, 2))
+        self._front = np.column_stack([steps_x, steps_y])
         pen = QPen(QColor(current_theme().muted_text), 1.5, Qt.PenStyle.DashLine)
         self._add(pg.PlotCurveItem(steps_x, steps_y, pen=_cosmetic(pen)))
 

@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from widgets.chart import Chart
 from widgets.chart_records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
+from widgets.label_places import LabelPlaces
 from widgets.series_marks import SHAPES, series_color, series_icon, series_shape
 from widgets.theme import DARK, LIGHT, apply_theme, contrast
 
@@ -50,6 +51,30 @@ def image_of(chart: Chart) -> QImage:
     image = QImage(chart.size(), QImage.Format.Format_RGB32)
     QWidget.render(chart, image, QPoint())
     return image
+
+
+def test_the_line_of_the_front_goes_through_its_points_and_no_name(chart: Chart, monkeypatch) -> None:
+    # Beside the last point, on its first choice of places, the line comes down.
+    chart.show_picture(ChartPicture(TIME, ERROR, (*POINTS, one("near", 4, 8e-6, 100.0)), PICTURE.front))
+    lines = chart.front_lines()
+    for key in ("fast", "middle", "exact"):
+        place = chart.place_of(key)
+        assert place is not None
+        assert sum(line.contains(place) for line in lines) == 2
+    beaten = chart.place_of("beaten")
+    assert beaten is not None
+    assert not any(line.contains(beaten) for line in lines)
+    names = []
+    find = LabelPlaces.find
+
+    def noted(places, *args):
+        names.append(find(places, *args))
+        return names[-1]
+
+    monkeypatch.setattr(LabelPlaces, "find", noted)
+    image_of(chart)
+    assert len(names) == 5
+    assert not any(name.intersects(line) for name in names for line in lines)
 
 
 def test_time_goes_right_error_goes_up_and_zero_is_below_all(chart: Chart) -> None:
