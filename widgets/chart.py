@@ -252,8 +252,10 @@ class Chart(ChartCanvas):
         for _, at in self.places():
             places.take(QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach))
         if len(picture.series) <= _FEW:
-            for line in (*self.bars(), *self.front_lines()):
-                places.take(line)
+            for bar in self.bars():
+                places.take(bar)
+            for line in self.front_lines():
+                places.avoid(line)
         first = ({self._pointed}, self._marks.keys(), set(picture.ringed), set(picture.front))
         wanted = sorted(picture.series, key=lambda s: [s.key not in keys for keys in first])
         for series in wanted:

@@ -1,4 +1,4 @@
-"""Where words go beside points: the first of eight places that is free, so that no two words overlap."""
+"""Where words go beside points: the first of the places around that is free, so that no two words overlap."""
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF
 
@@ -13,10 +13,15 @@ class LabelPlaces:
     def __init__(self, area: QRectF) -> None:
         self._area = area
         self._taken: list[QRectF] = []
+        self._avoided: list[QRectF] = []
 
     def take(self, rect: QRectF) -> None:
         """Keep a rectangle free of words."""
         self._taken.append(rect)
+
+    def avoid(self, rect: QRectF) -> None:
+        """Keep a rectangle free of words that have another place."""
+        self._avoided.append(rect)
 
     def find(
         self, point: QPointF, size: QSizeF, reach: float, further: tuple[float, ...] = FURTHER
@@ -28,16 +33,27 @@ class LabelPlaces:
         """
         if not self._area.adjusted(-1, -1, 1, 1).contains(point):
             return None
-        for times in further:
-            for across, down in _DIRECTIONS:
-                rect = QRectF(QPointF(), size)
-                rect.moveCenter(
-                    QPointF(
-                        point.x() + across * (reach * times + size.width() / 2),
-                        point.y() + down * (reach * times + size.height() / 2),
-                    )
-                )
-                if self._area.contains(rect) and not any(rect.intersects(other) for other in self._taken):
-                    self._taken.append(rect)
-                    return rect
-        return None
+        found = [
+            rect
+            for times in further
+            for direction in _DIRECTIONS
+            if self._is_free(rect := _beside(point, size, reach * times, direction))
+        ]
+        best = next((rect for rect in found if not _meets(rect, self._avoided)), found[0] if found else None)
+        if best is not None:
+            self._taken.append(best)
+        return best
+
+    def _is_free(self, rect: QRectF) -> bool:
+        return self._area.contains(rect) and not _meets(rect, self._taken)
+
+
+def _beside(point: QPointF, size: QSizeF, away: float, direction: tuple[int, int]) -> QRectF:
+    across, down = direction
+    rect = QRectF(QPointF(), size)
+    rect.moveCenter(point + QPointF(across * (away + size.width() / 2), down * (away + size.height() / 2)))
+    return rect
+
+
+def _meets(rect: QRectF, others: list[QRectF]) -> bool:
+    return any(rect.intersects(other) for other in others)
