@@ -162,13 +162,13 @@ def _most_product(job: Job, vertices: VertexBytes) -> float:
 
 
 def byte_colors(job: Job) -> ByteColors | None:
-    """Return the colours of all primitives as bytes; ``None`` where they are not those of opaque, projected corners."""
+    """Return the colours of all primitives as bytes; ``None`` where they are not those of opaque corners."""
     geometry, encoding = job.geometry, job.encoding
     values, interpolation = geometry.primitives.values, job.settings.interpolation
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
     if not is_lit_at_corners or job.has_texture:
         return None
-    if interpolation == "flat" or not geometry.is_projected.all():
+    if interpolation == "flat" or not geometry.is_projected.any():
         return None
     vertices = vertex_bytes(job)
     if not vertices.is_opaque:
@@ -182,7 +182,7 @@ def byte_colors(job: Job) -> ByteColors | None:
     spread = np.maximum(np.maximum(first, second), third)
     spread -= low
     error = drift_error(geometry)
-    is_near: Flags = np.asarray(error <= LARGEST_DRIFT)
+    is_near: Flags = np.asarray(geometry.is_projected & (error <= LARGEST_DRIFT))
     if vertices.cut_off is not None:
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":
@@ -198,6 +198,15 @@ def byte_colors(job: Job) -> ByteColors | None:
     steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
     if not steepest < STEEPEST:
         is_near &= np.maximum(np.abs(across), np.abs(up)).max(axis=0) < STEEPEST
-    others = np.flatnonzero(~is_near)
-    first[:, others] = across[:, others] = up[:, others] = 0
-    return ByteColors(first, across, up, x[0], y[0], job.raster.center, is_near)
+    return _level_where(~is_near, ByteColors(first, across, up, x[0], y[0], job.raster.center, is_near))
+
+
+def _level_where(others: Flags, colors: ByteColors) -> ByteColors:
+    """Return colours that are 0 for the ``others`` (P,), whose numbers may not be finite."""
+    chosen = np.flatnonzero(others)
+    if not len(chosen):
+        return colors
+    x, y = colors.x.copy(), colors.y.copy()
+    for values in (colors.corner, colors.across, colors.up, x, y):
+        values[..., chosen] = 0
+    return replace(colors, x=x, y=y)

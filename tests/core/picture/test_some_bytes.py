@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import ClipScene, Picture, Settings, draw_picture, render
+from core import ClipScene, Mesh, Picture, Settings, draw_picture, render
 from tests.core.picture.band_scenes import SPANS, shiny_rings, smooth_below_and_steep_above
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.strategies import clip_of_window
@@ -133,3 +133,28 @@ def test_where_no_triangle_allows_bytes_all_have_attributes_and_light() -> None:
         picture = draw_picture(scene, SPANS, encoding=encoding)
         assert picture.route.color == "some-bytes"
         np.testing.assert_array_equal(picture.pixels, exact_bytes(scene, SPANS, encoding))
+
+
+@pytest.mark.parametrize("clipping", ["homogeneous", "sutherland-hodgman"])
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+def test_a_floor_behind_the_eye_leaves_others_their_bytes(encoding: str, clipping: str) -> None:
+    corners = np.array([[-9.0, -0.9, -9.0], [-9.0, -0.9, 9.0], [9.0, -0.9, 9.0], [9.0, -0.9, -9.0]])
+    floor = Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))
+    rings, chosen = shiny_rings(), replace(SPANS, shading="gouraud", clipping=clipping)
+    scene = replace(rings, meshes=(*rings.meshes, floor))
+    picture = draw_picture(scene, chosen, encoding=encoding)
+    assert picture.route.color == "some-bytes"
+    frame = render(scene, chosen)
+    shows_floor = frame.primitive >= sum(len(mesh.triangles) for mesh in rings.meshes)
+    away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
+    away[shows_thin_triangle(scene, chosen)] = 0
+    assert away.max() == 1
+    if clipping == "homogeneous":
+        assert shows_floor.any()
+        assert away[shows_floor].max() == 0
+    alone = draw_picture(rings, chosen, encoding=encoding)
+    shows_rings = (frame.primitive >= 0) & ~shows_floor
+    np.testing.assert_array_equal(picture.pixels[shows_rings], alone.pixels[shows_rings])
+    for row in range(0, 110, 11):
+        part = draw_picture(scene, chosen, encoding=encoding, region=(0, row, 140, 11))
+        np.testing.assert_array_equal(part.pixels, picture.pixels[row : row + 11])
