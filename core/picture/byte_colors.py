@@ -2,9 +2,9 @@
 
 Corner colours are lit and encoded once a vertex, and the *bytes* are interpolated, linearly in the window. That is not
 what the pipeline says: it interpolates linear light and divides by w. How far the two are apart is bounded per
-triangle (the functions named ``error``), and only where the bound stays below one byte is this used: then no byte is
-off by more than one. What the bounds leave out are triangles hardly wider than snapping moves their corners: exact
-colours are those of the unsnapped triangle and may leave the range of its corners there, these do not.
+triangle (the functions named ``error``), and only for triangles whose bound stays below one byte is this used: then no
+byte is off by more than one. What the bounds leave out are triangles hardly wider than snapping moves their corners:
+exact colours are those of the unsnapped triangle and may leave the range of its corners there, these do not.
 """
 
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Flags, Floats, Integers
 from core.framebuffer.display import srgb
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
@@ -56,6 +56,8 @@ class ByteColors:
     """(P,) float64."""
     center: float
     """Offset of a pixel's centre."""
+    is_near: Flags
+    """(P,) bool, the triangles that may have these colours; those of the others are 0."""
     name: ClassVar[Coloring] = "bytes"
     stage = "interpolate"
 
@@ -93,13 +95,16 @@ class ByteColors:
 
     def look_up(self, job: Job, nearest: NearestFragments) -> int:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
-        planes = self.packed()
         seen_count = 0
         for place, primitive in nearest.seen():
             seen_count += len(place)
-            word = planes.at(primitive, *job.raster.position(place))
-            job.pixels[place] = unpack(word, job.arena)
+            self.write(job, place, primitive)
         return seen_count
+
+    def write(self, job: Job, place: Integers, primitive: Integers) -> None:
+        """Write the pixels at places (F,) of primitives (F,)."""
+        word = self._planes.at(primitive, *job.raster.position(place))
+        job.pixels[place] = unpack(word, job.arena)
 
 
 _last: list[tuple[Floats, str, VertexBytes]] = []
@@ -157,13 +162,13 @@ def _most_product(job: Job, vertices: VertexBytes) -> float:
 
 
 def byte_colors(job: Job) -> ByteColors | None:
-    """Return the colours of all primitives as bytes, or ``None`` where some pixel could be off by more than one."""
+    """Return the colours of all primitives as bytes; ``None`` where they are not those of opaque corners."""
     geometry, encoding = job.geometry, job.encoding
     values, interpolation = geometry.primitives.values, job.settings.interpolation
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
     if not is_lit_at_corners or job.has_texture:
         return None
-    if interpolation == "flat" or not geometry.is_projected.all():
+    if interpolation == "flat" or not geometry.is_projected.any():
         return None
     vertices = vertex_bytes(job)
     if not vertices.is_opaque:
@@ -176,24 +181,32 @@ def byte_colors(job: Job) -> ByteColors | None:
     low = np.minimum(np.minimum(first, second), third)
     spread = np.maximum(np.maximum(first, second), third)
     spread -= low
-    drift = drift_error(geometry)
-    if float(drift.max(initial=0)) > LARGEST_DRIFT:
-        return None
-    error = drift
+    error = drift_error(geometry)
+    is_near: Flags = np.asarray(geometry.is_projected & (error <= LARGEST_DRIFT))
     if vertices.cut_off is not None:
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":
         error += chord_error(low, spread)
     if interpolation != "affine":
         error += perspective_error(geometry, spread.max(axis=0))
-    if float(error.max(initial=0)) + vertices.most_product > TOLERANCE:
+    if not float(error.max(initial=0)) + vertices.most_product <= TOLERANCE:
         error += product_error(vertices, values.index, low, encoding)
-        if float(error.max(initial=0)) > TOLERANCE:
-            return None
+    is_near &= error <= TOLERANCE
 
     x, y = geometry.window_x, geometry.window_y
     across, up = window_slopes(x, y, geometry.doubled_area, first, second, third)
     steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
     if not steepest < STEEPEST:
-        return None
-    return ByteColors(first, across, up, x[0], y[0], job.raster.center)
+        is_near &= np.maximum(np.abs(across), np.abs(up)).max(axis=0) < STEEPEST
+    return _level_where(~is_near, ByteColors(first, across, up, x[0], y[0], job.raster.center, is_near))
+
+
+def _level_where(others: Flags, colors: ByteColors) -> ByteColors:
+    """Return colours that are 0 for the ``others`` (P,), whose numbers may not be finite."""
+    chosen = np.flatnonzero(others)
+    if not len(chosen):
+        return colors
+    x, y = colors.x.copy(), colors.y.copy()
+    for values in (colors.corner, colors.across, colors.up, x, y):
+        values[..., chosen] = 0
+    return replace(colors, x=x, y=y)

@@ -51,13 +51,13 @@ def perspective_error(geometry: Geometry, spread: Floats) -> Floats:
     Notes
     -----
     For a ratio r of the greatest to the least w it is (sqrt r - 1) / (sqrt r + 1) of the spread, up to all of it
-    where the ratio is infinite.
+    where the ratio is infinite; not a number where a corner is behind the eye.
     """
     w0, w1, w2 = (geometry.primitives.vertex_clip[3].take(index) for index in geometry.primitives.corner)
     ratio = np.maximum(np.maximum(w0, w1), w2)
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         ratio /= np.minimum(np.minimum(w0, w1), w2)
-    root = np.sqrt(ratio, out=ratio)
+        root = np.sqrt(ratio, out=ratio)
     return np.asarray(spread * (1 - 2 / (root + 1)))
 
 

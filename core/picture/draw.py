@@ -83,9 +83,9 @@ def draw_picture(
 
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
     `Route` has the colours ``palette`` or ``deferred``, as multisampled pictures always have; with ``bytes``,
-    ``normals``, ``lit-texture`` and ``meshes`` they are up to one away, with ``texture`` up to three; but the filter
-    ``nearest`` may take the other texel on the border between two. In a triangle that is hardly wider than snapping
-    moves it, ``bytes`` stay between those of the corners, where `render` extrapolates.
+    ``some-bytes``, ``normals``, ``lit-texture`` and ``meshes`` they are up to one away, with ``texture`` up to three;
+    but the filter ``nearest`` may take the other texel on the border between two. In a triangle that is hardly wider
+    than snapping moves it, ``bytes`` stay between those of the corners, where `render` extrapolates.
     """
     settings = settings or Settings()
     raster = make_raster(scene.size, settings.pixel_center, region)

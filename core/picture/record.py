@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from core.frame import StageCount
 
 Visibility = Literal["layer", "words", "stacks", "frame", "supersampled", "multisampled"]
-Coloring = Literal["palette", "bytes", "normals", "lit-texture", "meshes", "texture", "deferred"]
+Coloring = Literal[
+    "palette", "bytes", "some-bytes", "normals", "lit-texture", "meshes", "texture", "deferred"
+]
 
 
 @dataclass(frozen=True)
@@ -36,10 +38,10 @@ class Route:
     picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
     and what they show averaged where they differ."""
     color: Coloring
-    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``normals``: normals lit
-    once per visible pixel; ``lit-texture``: the same times a texture, read in single precision; ``meshes``: each mesh
-    in one of these two ways; ``texture``: packed texels in bands; ``deferred``: attributes and light once per visible
-    pixel, as ``render`` has them."""
+    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``some-bytes``: so where
+    that is near enough, else like ``deferred``; ``normals``: normals lit once per visible pixel; ``lit-texture``: the
+    same times a texture, read in single precision; ``meshes``: each mesh in one of these two ways; ``texture``: packed
+    texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
     split: Split | None = None
     visible: int = 0
     """Pixels that something is seen at."""

@@ -5,12 +5,15 @@ from core.picture.job import Job
 from core.picture.lit.by_mesh import LitMeshes, lit_meshes
 from core.picture.lit.one_color import LitNormals, lit_normals
 from core.picture.lit.textured import LitTexture, lit_texture
+from core.picture.some_bytes import SomeBytes
 from core.picture.textured import TextureColors, texture_colors
 
-SmoothColors = ByteColors | LitNormals | LitTexture | LitMeshes | TextureColors
+SmoothColors = ByteColors | SomeBytes | LitNormals | LitTexture | LitMeshes | TextureColors
 
 
 def smooth_colors(job: Job) -> SmoothColors | None:
     """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
-    colors = byte_colors(job) or lit_normals(job) or lit_texture(job) or lit_meshes(job)
-    return colors or texture_colors(job)
+    of_bytes = byte_colors(job)
+    if of_bytes is not None:
+        return of_bytes if of_bytes.is_near.all() else SomeBytes(of_bytes)
+    return lit_normals(job) or lit_texture(job) or lit_meshes(job) or texture_colors(job)

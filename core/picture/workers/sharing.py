@@ -69,20 +69,27 @@ def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
     -----
     Cheaper colours are right where all triangles allow them, so the whole picture has them if all of its bands do. Of
     the cheaper ones a scene has one kind at most, by what its vertices carry; one colour a triangle is the same bytes
-    whichever way it is worked out.
+    whichever way it is worked out, and which triangles have bytes is decided for each alone.
     """
     if not all(route.allowed for route in routes):
         # Parts of a supersampled picture choose for themselves.
-        return not plain_colors and len({route.color for route in routes if route.visible} - {"palette"}) <= 1
-    allowed = {route.allowed for route in routes} - {"palette"}
+        shown = {_of_all_triangles(route.color) for route in routes if route.visible}
+        return not plain_colors and len(shown - {"palette"}) <= 1
+    allowed = {_of_all_triangles(route.allowed) for route in routes} - {"palette"}
     return "deferred" in allowed if plain_colors else len(allowed) <= 1
+
+
+def _of_all_triangles(color: str) -> str:
+    """Return a way of colouring, but that of a picture whose triangles all have the same."""
+    return "bytes" if color == "some-bytes" else color
 
 
 def joined_route(routes: Sequence[Route]) -> Route:
     """Return the route of a picture out of those of its bands; a triangle in two bands went its way twice."""
     # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.
     needed = next((route for route in routes if route.visibility != "layer"), routes[0])
+    color = next((route.color for route in routes if route.color == "some-bytes"), needed.color)
     visible = sum(route.visible for route in routes)
     splits = [route.split for route in routes if route.split is not None]
     total = Split(*(sum(ways) for ways in zip(*map(astuple, splits), strict=True))) if splits else None
-    return replace(needed, split=total, visible=visible)
+    return replace(needed, color=color, split=total, visible=visible)

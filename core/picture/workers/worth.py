@@ -19,6 +19,7 @@ FRAGMENT: dict[Visibility, float] = {
 COLOR: dict[Coloring, float] = {
     "palette": 1e-9,
     "bytes": 5e-9,
+    "some-bytes": 30e-9,
     "texture": 25e-9,
     "normals": 40e-9,
     "lit-texture": 85e-9,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core import Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene, Settings, Texture
+from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
 from core.geometry.matrices import camera_axes
 from tests.core.meshes import icosphere, torus
 
@@ -82,6 +82,17 @@ def textured_rings() -> Scene:
     )
 
 
+def shiny_rings(size: tuple[int, int] = (140, 110)) -> Scene:
+    """Return two rings through each other, one with colours at its corners, under a sharp light."""
+    positions, triangles = torus(40, 20)
+    colors = np.concatenate([0.5 + 0.4 * np.sin(9 * positions), np.ones((len(positions), 1))], axis=1)
+    turned = np.array([[1.0, 0, 0, 0.7], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+    first = Mesh(positions, triangles, material=Material(0.1, 0.8, 0.6, 30.0))
+    second = Mesh(positions, triangles, colors=colors, transform=turned)
+    lights = (DirectionalLight(np.array([-1.0, -1.0, -1.0])),)
+    return replace(ball(size=size, eye=(0.6, 1.8, 2.6)), meshes=(first, second), lights=lights)
+
+
 def loose_triangles(count: int, size: tuple[int, int]) -> ClipScene:
     generator = np.random.default_rng(count)
     clip = generator.normal(0.0, 1.0, (count, 3, 4))
@@ -133,6 +144,7 @@ SCENES = {
     ),
     "rings with a texture": (textured_rings(), SPANS),
     "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
+    "shiny rings, some triangles in bytes": (shiny_rings(), replace(SPANS, shading="gouraud")),
     "two layers in one band": (textured_sheets(), replace(SPANS, cull="back", shading="unlit")),
     "wireframe": (textured_rings(), replace(SPANS, polygon_mode="wireframe")),
     "blended": (loose_triangles(60, (50, 41)), replace(SPANS, blend="over")),

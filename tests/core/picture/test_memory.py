@@ -98,3 +98,19 @@ def test_memory_of_a_floor_that_reaches_behind_the_eye() -> None:
     assert drawn.route.visible > 1_000_000
     limit = PER_PIXEL["none"] * 1600 * 1200 + PER_TRIANGLE * len(mesh.triangles) + FIXED
     assert held(first, second, Settings(depth="fixed-38")) <= limit
+
+
+@pytest.mark.parametrize("columns", [16, 64])
+def test_memory_of_triangles_that_do_not_allow_bytes(columns: int) -> None:
+    """Their pixels are coloured by the plain rules, some at a time."""
+    mesh = sphere(columns=columns, rows=columns // 2)
+    lights = (DirectionalLight(np.array([0.4, -0.8, -0.7])),)
+    first, second = (
+        Scene((mesh,), Camera(np.array([x, 0.6, 1.8]), np.zeros(3)), lights, (1600, 1200)) for x in (0.8, 0.9)
+    )
+    chosen = Settings(depth="fixed-38", shading="gouraud")
+    drawn = draw_picture(first, chosen)
+    assert drawn.route.color == "some-bytes"
+    assert drawn.route.visible > 800_000
+    limit = PER_PIXEL["none"] * 1600 * 1200 + PER_TRIANGLE * len(mesh.triangles) + FIXED
+    assert held(first, second, chosen) <= limit

@@ -34,6 +34,7 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
         assert together.statistics["raster"].outgoing == alone.statistics["raster"].outgoing
         assert together.statistics["cull"].outgoing == alone.statistics["cull"].outgoing
         assert together.route.visible == alone.route.visible
+        assert together.route.color == alone.route.color
     assert workers.sharing.process_count == 2 or "too few" in workers.sharing.reason
     assert not together.pixels.flags.writeable
 
@@ -59,6 +60,8 @@ def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_
         (["bytes", "bytes"], True, False),
         (["bytes", "deferred"], False, True),
         (["bytes", "palette"], True, False),
+        (["bytes", "some-bytes", "palette"], True, False),
+        (["some-bytes", "deferred"], False, True),
         (["palette", "palette"], True, False),
         (["palette", "deferred"], True, True),
         (["deferred", "deferred"], True, True),
