@@ -197,10 +197,10 @@ def grid(count: int = 4) -> ClipScene:
     window = (corner + np.array([[0.1, 0.1], [0.8, 0.2], [0.3, 0.9]])) * 2 / count - 1
     depth = np.broadcast_to([0.25, 1.0], window.shape)
     clip = np.concatenate([window, depth], axis=2)
-    return ClipScene(clip, np.random.default_rng(1).random((len(clip), 3, 4)), (16, 16))
+    return ClipScene(clip, np.random.default_rng(1).random((len(clip), 3, 4)), (32, 32))
 
 
-def pulled(scene: ClipScene, triangle: int, way: float = 0.125) -> ClipScene:
+def pulled(scene: ClipScene, triangle: int, way: float = 0.02) -> ClipScene:
     """Return the scene with corner 0 of a triangle moved to the right."""
     clip = np.array(scene.clip)
     clip[triangle, 0, 0] += way
