@@ -10,7 +10,7 @@ What changed is found by comparing (``unchanged``), so any edit will do: a corne
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 from weakref import ReferenceType, ref
@@ -31,32 +31,17 @@ from core.trace.unchanged import numbers_before
 
 @dataclass(frozen=True, eq=False)
 class ChangedSource(TraceSource):
-    """The primitives of ``whole`` that changed, under the numbers that they have there."""
+    """The primitives that changed, under the numbers that they have among all.
 
-    whole: TraceSource | None = None
-    chosen: Integers | None = None
-    """(C,) int64, which these are."""
+    It is given what it would compute, and not the source of all: each would keep the other in memory.
+    """
 
-    @cached_property
-    def geometry(self) -> Geometry:
-        """All traced triangles."""
-        assert self.whole is not None
-        return self.whole.geometry
-
-    @cached_property
-    def start(self) -> Frame:
-        """The buffers before the first row."""
-        assert self.whole is not None
-        return self.whole.start
-
-    @cached_property
-    def _schedule(self) -> tuple[Boxes, Runs]:
-        assert self.whole is not None
-        assert self.chosen is not None
-        is_chosen = np.zeros(len(self.geometry.primitives), bool)
-        is_chosen[self.chosen] = True
-        runs = self.whole.runs
-        return self.whole.boxes, runs.take(np.flatnonzero(is_chosen[runs.triangle]))
+    geometry: Geometry = field(kw_only=True)
+    """All traced triangles."""
+    start: Frame = field(kw_only=True)
+    """The buffers before the first row."""
+    _schedule: tuple[Boxes, Runs] = field(kw_only=True)
+    """What all may touch, and what the fill looks at of those that changed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,35 +70,35 @@ class Retrace(TraceSource):
         """The primitives that changed."""
         assert self.number_before is not None
         run = self.scene, self.settings, self.triangle, self.region, self.before
-        return ChangedSource(*run, whole=self, chosen=np.flatnonzero(self.number_before < 0))
+        runs = self.runs.take(np.flatnonzero(self.number_before[self.runs.triangle] < 0))
+        return ChangedSource(*run, geometry=self.geometry, start=self.start, _schedule=(self.boxes, runs))
 
-    def _known(self, name: str) -> Any:
-        """Return a result of the earlier source; ``None``: there is none that can be taken over."""
+    def _source_before(self) -> TraceSource | None:
+        """Return the source that results can be taken over from: hold it as long as it is asked for them."""
         earlier = None if self.earlier is None else self.earlier()
-        known = None if earlier is None else vars(earlier).get(name)
-        return None if known is None or self.number_before is None else known
+        return None if self.number_before is None else earlier
 
     @cached_property
     def _fragment_pieces(self) -> RowPieces:
-        """How fragments are put together; asked for while those of before are known."""
+        """How fragments are put together; asked for while the source before is held."""
+        earlier = self._source_before()
+        assert earlier is not None
         assert self.number_before is not None
-        before = self._known("fragments").primitive
-        return pieces_of(before, self.changed.fragments.primitive, self.number_before)
+        return pieces_of(earlier.fragments.primitive, self.changed.fragments.primitive, self.number_before)
 
     def _joined(self, name: str) -> Any:
         """Return a result for all fragments where that of before can be taken over, else ``None``."""
-        known = self._known(name)
-        if known is None:
-            return None
-        return self._fragment_pieces.join_all(known, getattr(self.changed, name))
+        earlier = self._source_before()
+        known = None if earlier is None else vars(earlier).get(name)
+        return None if known is None else self._fragment_pieces.join_all(known, getattr(self.changed, name))
 
     @cached_property
     def tests(self) -> PixelTests:
         """Every pixel that is looked at."""
-        before: PixelTests | None = self._known("tests")
-        if before is None:
+        earlier = self._source_before()
+        before: PixelTests | None = None if earlier is None else vars(earlier).get("tests")
+        if before is None or self.number_before is None:
             return super().tests
-        assert self.number_before is not None
         new = self.changed.tests
         joined = pieces_of(before.primitive, new.primitive, self.number_before).join_all(before, new)
         return replace(joined, run=expand(self.runs.lengths)[0])
@@ -133,7 +118,8 @@ class Retrace(TraceSource):
     @cached_property
     def uv_slopes(self) -> Floats | None:
         """(4, F) float64 du/dx, dv/dx, du/dy, dv/dy of the fragments; ``None``: the texture filter needs none."""
-        before: Floats | None = self._known("uv_slopes")
+        earlier = self._source_before()
+        before: Floats | None = None if earlier is None else vars(earlier).get("uv_slopes")
         new = None if before is None else self.changed.uv_slopes
         if before is None or new is None:
             return super().uv_slopes
@@ -159,11 +145,10 @@ class Retrace(TraceSource):
 
     def rows_of(self, stage: str, make: Callable[[TraceSource], StageRows]) -> StageRows:
         """Return the rows of a stage; ``make`` makes those of a source."""
-        known: dict[str, StageRows] = self._known("known_rows") or {}
-        before = known.get(stage)
-        if before is None:
+        earlier = self._source_before()
+        before = None if earlier is None else earlier.known_rows.get(stage)
+        if before is None or self.number_before is None:
             return super().rows_of(stage, make)
-        assert self.number_before is not None
         new = make(self.changed)
         pieces = pieces_of(before.columns["primitive"], new.columns["primitive"], self.number_before)
         joined = pieces.join_all(before, new)

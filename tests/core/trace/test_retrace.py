@@ -1,6 +1,5 @@
 """A trace after an edit is the trace made from nothing, bit for bit; only what changed is looked at again."""
 
-import gc
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
@@ -291,7 +290,6 @@ def test_nothing_of_the_trace_before_is_kept_or_changed():
     check_same(dict(earlier.stage("raster").columns), wanted, "columns")
     run, stage = ref(earlier.source), ref(earlier.stage("raster"))
     del earlier
-    gc.collect()
     assert run() is None
     assert stage() is None
     check_trace(after, trace(pulled(scene, 6), settings))
@@ -303,6 +301,5 @@ def test_what_is_asked_for_when_the_trace_before_is_gone_is_computed():
     after = trace(pulled(grid(), 6), earlier=earlier)
     assert isinstance(after.source, Retrace)
     del earlier
-    gc.collect()
     check_trace(after, trace(pulled(grid(), 6)))
     assert after.source.number_before is None
