@@ -18,7 +18,6 @@ from weakref import ReferenceType, ref
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
-from core.frame import Frame
 from core.geometry_stages import Geometry
 from core.raster.coverage import Fragments, PixelTests
 from core.raster.schedule import Boxes, Runs, expand
@@ -38,8 +37,6 @@ class ChangedSource(TraceSource):
 
     geometry: Geometry = field(kw_only=True)
     """All traced triangles."""
-    start: Frame = field(kw_only=True)
-    """The buffers before the first row."""
     _schedule: tuple[Boxes, Runs] = field(kw_only=True)
     """What all may touch, and what the fill looks at of those that changed."""
 
@@ -71,7 +68,7 @@ class Retrace(TraceSource):
         assert self.number_before is not None
         run = self.scene, self.settings, self.triangle, self.region, self.before
         runs = self.runs.take(np.flatnonzero(self.number_before[self.runs.triangle] < 0))
-        return ChangedSource(*run, geometry=self.geometry, start=self.start, _schedule=(self.boxes, runs))
+        return ChangedSource(*run, geometry=self.geometry, _schedule=(self.boxes, runs))
 
     def _source_before(self) -> TraceSource | None:
         """Return the source that results can be taken over from: hold it as long as it is asked for them."""
