@@ -115,9 +115,10 @@ class Document:
                 f"and {LONGEST_RUN:,} can be kept: bring one triangle into focus, or choose another fill."
             )
 
-    def make_trace(self, settings: Settings | None = None) -> Trace:
-        """Prepare the trace, under other settings if they are given."""
-        return trace(self.traced_scene, settings or self.settings, self.triangle, self.region, self.before)
+    def make_trace(self, settings: Settings | None = None, earlier: Trace | None = None) -> Trace:
+        """Prepare the trace, under other settings if they are given; see ``core.trace`` for the ``earlier`` one."""
+        run = self.traced_scene, settings or self.settings, self.triangle, self.region, self.before
+        return trace(*run, earlier=earlier)
 
 
 STEPPED = Settings(fill="bounding-box")

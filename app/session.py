@@ -166,10 +166,10 @@ class Session(QObject):
         if document is None:
             return
         if document.estimated_seconds > QUICK_SECONDS:
-            self.tracing.start(Order(document, "", stage, direction))
+            self.tracing.start(Order(document, "", stage, direction, self._trace))
             return
         self.tracing.cancel()
-        self._take_neighbour(direction, trace_now(document, stage))
+        self._take_neighbour(direction, trace_now(document, stage, self._trace))
 
     def _take_neighbour(self, direction: int, trace: Trace) -> None:
         if direction < 0:
@@ -192,11 +192,11 @@ class Session(QObject):
         stage = self._cursor.stage
         if document.estimated_seconds > QUICK_SECONDS:
             document.check_length()
-            self.tracing.start(Order(document, gesture, stage))
+            self.tracing.start(Order(document, gesture, stage, earlier=self._trace))
             return
         # An edit that is ready takes the place of one that is still being traced.
         self.tracing.cancel()
-        self._take(document, gesture, trace_now(document, stage))
+        self._take(document, gesture, trace_now(document, stage, self._trace))
 
     @Slot(object)
     def _take_traced(self, traced: Traced) -> None:
@@ -212,7 +212,8 @@ class Session(QObject):
 
     def _document_replaced(self, trace: Trace) -> None:
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
-        self._trace = trace
+        # The trace of before stays until everything shows the new one, which takes over what did not change.
+        earlier, self._trace = self._trace, trace
         count = self.stage_trace.steps.count
         position = count if was_at_end else min(self._cursor.position, count)
         self._cursor = replace(self._cursor, position=position)
@@ -222,6 +223,7 @@ class Session(QObject):
         if self._hover is not None and not self.has_pixel(self._hover):
             self._hover = None
         self.document_changed.emit()
+        del earlier
         if has_lost_pin:
             self.pin_changed.emit()
         self.history_changed.emit()

@@ -21,6 +21,8 @@ class Order:
     stage: str
     direction: int = 0
     """-1: it comes from undoing, 1: from redoing, 0: it is a new edit."""
+    earlier: Trace | None = None
+    """What is shown until then: triangles that are the same in it are not traced again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +33,10 @@ class Traced:
     trace: Trace
 
 
-def trace_now(document: Document, stage: str) -> Trace:
+def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> Trace:
     """Trace a document and one of its stages, and draw its picture, so that nothing can fail later.
+
+    Triangles that are the same in the ``earlier`` trace are not traced again.
 
     Raises
     ------
@@ -40,7 +44,7 @@ def trace_now(document: Document, stage: str) -> Trace:
         If the document has more steps than can be held, or a method does not serve the scene.
     """
     document.check_length()
-    trace = document.make_trace()
+    trace = document.make_trace(earlier=earlier)
     trace.stage(stage)
     assert trace.source.picture is not None
     return trace
@@ -75,7 +79,7 @@ class Tracing(QObject):
             return
 
         def work(progress: Progress, is_cancelled: object) -> Traced:
-            return Traced(order, trace_now(order.document, order.stage))
+            return Traced(order, trace_now(order.document, order.stage, order.earlier))
 
         self._job.start(work)
         self.busy_changed.emit(f"Tracing {order.document.title or 'the scene'}")

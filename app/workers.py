@@ -116,6 +116,10 @@ class Job(QObject):
 
     @Slot()
     def _retire(self) -> None:
+        # What a thread was given to work on goes with it; its parent would keep both.
+        for worker in self._retired:
+            if not worker.isRunning():
+                worker.deleteLater()
         self._retired = [worker for worker in self._retired if worker.isRunning()]
 
 

@@ -160,8 +160,8 @@ class Stepping:
     added: Integers
     """(R,) int64, what was added to it: ``ADDED_A`` (from the left), ``ADDED_B`` (from below), or ``EVALUATED``."""
 
-    def part(self, at: slice) -> "Stepping":
-        """Return the values of some runs (R,)."""
+    def take(self, at: Integers | slice) -> "Stepping":
+        """Return the values of the runs ``at`` (Q,)."""
         return Stepping(self.value[at], self.before[at], self.added[at])
 
 
@@ -199,7 +199,10 @@ class Runs:
 
     def part(self, first: int, end: int) -> "Runs":
         """Return runs ``first`` to ``end``, without their blocks."""
-        at = slice(first, end)
+        return self.take(slice(first, end))
+
+    def take(self, at: Integers | slice) -> "Runs":
+        """Return the runs ``at`` (Q,), without their blocks."""
         return Runs(
             self.triangle[at],
             self.row[at],
@@ -207,7 +210,8 @@ class Runs:
             self.stop[at],
             self.accepted[at],
             self.group[at],
-            stepping=None if self.stepping is None else self.stepping.part(at),
+            crossings=None if self.crossings is None else self.crossings[at],
+            stepping=None if self.stepping is None else self.stepping.take(at),
         )
 
 

@@ -54,6 +54,7 @@ def trace(
     triangle: int | None = None,
     region: tuple[int, int, int, int] | None = None,
     before: str = "earlier",
+    earlier: Trace | None = None,
 ) -> Trace:
     """Prepare the trace of a scene, or of one of its triangles.
 
@@ -67,6 +68,9 @@ def trace(
         Pixels of the image that the buffers show; the whole image by default.
     before : str
         Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``.
+    earlier : Trace, optional
+        Of the scene before an edit: what it has computed of triangles that did not change is taken over, while it is
+        kept in memory by others. The result is the same.
 
     Raises
     ------
@@ -81,6 +85,10 @@ def trace(
     from core.trace.source import TraceSource
 
     source = TraceSource(scene, settings or Settings(), triangle, region, before)
+    if earlier is not None:
+        from core.trace.retrace import after_edit
+
+        source = after_edit(source, earlier.source)
     if min(source.raster.shape) <= 0:
         width, height = scene.size
         raise ValueError(f"region must contain pixels of the {width}x{height} image, got {region}")

@@ -22,6 +22,7 @@ from core.raster.wireframe import (
 )
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
+from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 LISTINGS = {
@@ -60,10 +61,46 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
 
 def trace_interpolate(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
+    geometry, mode = source.geometry, source.settings.interpolation
+    along_lines = _is_along_lines(source)
+    rows = source.rows_of("interpolate", _rows)
+    values_of_layout = tuple(
+        Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
+    )
+    of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
+    triangle = source.triangle_of_fragment
+    kinds = (mode, f"line-{_along(mode)}") if along_lines else (mode,)
+    steps = Steps(
+        kinds=kinds,
+        kind=rows.kind,
+        operations={kind: (*OPERATIONS[kind], *values_of_layout) for kind in kinds},
+        triangle_ends=ends_of(triangle),
+        group_ends=rows.group_ends,
+    )
+    return StageTrace(
+        stage="interpolate",
+        method=f"interpolation={mode}",
+        steps=steps,
+        columns={**rows.columns, **of_layout},
+        triangle=triangle,
+        pixel=rows.pixel,
+        listings={kind: listing(LISTINGS[kind]) for kind in kinds},
+        marks=rows.marks,
+        buffers=_buffers(source),
+        extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
+    )
+
+
+def _is_along_lines(source: TraceSource) -> bool:
+    """Return whether values are interpolated along the lines of a wireframe."""
+    return isinstance(source.fragments, LineFragments) and source.settings.interpolation != "flat"
+
+
+def _rows(source: TraceSource) -> StageRows:
+    """Return the numbers of every fragment."""
     geometry, fragments = source.geometry, source.fragments
     weights, values = source.interpolated
-    mode = source.settings.interpolation
-    along_lines = isinstance(fragments, LineFragments) and mode != "flat"
+    along_lines = _is_along_lines(source)
     x, y = source.centers
     varyings = geometry.primitives.varyings[fragments.primitive]
     columns: dict[str, np.ndarray] = {
@@ -84,32 +121,14 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     if along_lines:
         columns |= _along_lines(source)
     else:
-        columns |= _between_anchors(source) if mode == "affine-n" else _over_areas(source)
-    values_of_layout = tuple(
-        Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
-    )
-    for name, part in geometry.primitives.layout.items():
-        columns[name] = values[:, part]
-    triangle = source.triangle_of_fragment
-    kinds = (mode, f"line-{_along(mode)}") if along_lines else (mode,)
-    steps = Steps(
-        kinds=kinds,
-        kind=np.full(len(fragments), int(along_lines)),
-        operations={kind: (*OPERATIONS[kind], *values_of_layout) for kind in kinds},
-        triangle_ends=ends_of(triangle),
-        group_ends=ends_of(fragments.primitive, fragments.row),
-    )
-    return StageTrace(
-        stage="interpolate",
-        method=f"interpolation={mode}",
-        steps=steps,
-        columns=columns,
-        triangle=triangle,
-        pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings={kind: listing(LISTINGS[kind]) for kind in kinds},
-        marks={"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
-        buffers=_buffers(source),
-        extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
+        is_corrected = source.settings.interpolation == "affine-n"
+        columns |= _between_anchors(source) if is_corrected else _over_areas(source)
+    return StageRows(
+        columns,
+        np.full(len(fragments), int(along_lines)),
+        is_last_of(fragments.primitive, fragments.row),
+        np.stack([fragments.column, fragments.row], axis=1),
+        {"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
     )
 
 

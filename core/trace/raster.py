@@ -1,8 +1,10 @@
 """Trace of coverage: every pixel that the fill looks at, and the spans of the fills that have them."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from core.arrays import Flags, Integers
+from core.arrays import Flags
 from core.fragments.interpolation import numerators
 from core.listing import Listing, listing
 from core.raster.edge_functions import covers
@@ -17,6 +19,7 @@ from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.row_table import RowTable, rows_of_runs
 from core.trace.source import TraceSource
 from core.trace.spans import pass_track, rows_of_spans, span_columns, span_constants, span_listings
+from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 
@@ -29,9 +32,6 @@ def trace_raster(source: TraceSource) -> StageTrace:
     if source.geometry.outlines is not None:
         return trace_lines(source)
     geometry, raster, fill = source.geometry, source.raster, source.fill
-    order = _order(source) if fill == "spans" else None
-    table = rows_of_runs(source) if order is None else rows_of_spans(source, order)
-    columns = _columns(source, table)
     constants: dict[str, float | int | str] = {
         "center": raster.center,
         "fill_rule": source.settings.fill_rule,
@@ -39,19 +39,27 @@ def trace_raster(source: TraceSource) -> StageTrace:
         "rounding": geometry.edges.numbers.rounding,
         "value_layout": geometry.edges.numbers.value_layout,
     }
-    pixel_rows = np.flatnonzero(table.test >= 0)
-    buffers = _buffers(source, pixel_rows, columns)
-    if order is not None:
-        columns |= span_columns(source, table, order)
+    order: SpanOrder | None = None
+    if fill == "spans":
+        # Where a triangle's lane stands among the others is known only of all of them.
+        order = _order(source)
+        table = rows_of_spans(source, order)
+        rows = _rows(source, table)
+        columns = {**rows.columns, **_edge_columns(rows.columns), **span_columns(source, table, order)}
         constants |= span_constants(source, order)
-        buffers = (buffers[0], pass_track(source, columns), *buffers[1:])
-    triangle = geometry.primitives.triangle[table.primitive]
+        coverage, *others = _buffers(source, rows.columns)
+        buffers = (coverage, pass_track(source, columns), *others)
+    else:
+        rows = source.rows_of("raster", _rows_of_runs)
+        columns = {**rows.columns, **_edge_columns(rows.columns)}
+        buffers = _buffers(source, rows.columns)
+    triangle = geometry.primitives.triangle[columns["primitive"]]
     steps = Steps(
         kinds=tuple(FILL_OPERATIONS),
-        kind=table.kind,
+        kind=rows.kind,
         operations=FILL_OPERATIONS,
         triangle_ends=ends_of(triangle),
-        group_ends=ends_of(table.primitive, table.group),
+        group_ends=rows.group_ends,
     )
     return StageTrace(
         stage="raster",
@@ -59,9 +67,9 @@ def trace_raster(source: TraceSource) -> StageTrace:
         steps=steps,
         columns=columns,
         triangle=triangle,
-        pixel=np.stack([columns["column"], np.where(table.test >= 0, table.row, -1)], axis=1),
+        pixel=rows.pixel,
         listings=_listings(),
-        marks=_marks(columns, table.test >= 0),
+        marks=rows.marks,
         buffers=buffers,
         extra={
             "runs": source.runs,
@@ -77,6 +85,23 @@ def trace_raster(source: TraceSource) -> StageTrace:
 def _order(source: TraceSource) -> SpanOrder:
     owners = tie_owners(source.settings.fill_rule)
     return order_of_spans(source.geometry.edges, source.raster, owners)
+
+
+def _rows_of_runs(source: TraceSource) -> StageRows:
+    """Return the rows of all fills but ``spans``."""
+    return _rows(source, rows_of_runs(source))
+
+
+def _rows(source: TraceSource, table: RowTable) -> StageRows:
+    """Return what every row of a table is about, and its numbers."""
+    columns, is_pixel = _columns(source, table), table.test >= 0
+    return StageRows(
+        columns,
+        table.kind,
+        is_last_of(table.primitive, table.group),
+        np.stack([columns["column"], np.where(is_pixel, table.row, -1)], axis=1),
+        _marks(columns, is_pixel),
+    )
 
 
 def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
@@ -123,9 +148,12 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     if source.runs.stepping is not None:
         before = of_pixel(tests.before, np.nan)
         columns |= {f"before_{k}": before[:, k] for k in range(3)}
-    for k in range(3):
-        columns[f"value_{k}"], columns[f"crossing_{k}"] = values[:, k], table.crossings[:, k]
-    return columns
+    return columns | {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
+
+
+def _edge_columns(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Return the value (R,) of each edge, which is set by a step of its own."""
+    return {f"value_{k}": columns["values"][:, k] for k in range(3)}
 
 
 def _marks(columns: dict[str, np.ndarray], is_pixel: Flags) -> dict[str, Flags]:
@@ -158,12 +186,14 @@ def _listings() -> dict[str, Listing]:
     return fills | span_listings()
 
 
-def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]) -> tuple[BufferTrack, ...]:
+def _buffers(source: TraceSource, columns: Mapping[str, np.ndarray]) -> tuple[BufferTrack, ...]:
     """Return coverage, the three edge functions, the three weights, and how often each pixel was covered."""
     shape = source.raster.shape
-    place = source.raster.index(columns["column"][rows], columns["row"][rows])
+    rows = np.flatnonzero(columns["column"] >= 0)
+    at = slice(None) if len(rows) == len(columns["column"]) else rows
+    place = source.raster.index(columns["column"][at], columns["row"][at])
     unknown = np.full(shape, np.nan)
-    covered = columns["covered"][rows]
+    covered = columns["covered"][at]
 
     # A pixel that one triangle covers stays covered when the next one misses it.
     first = np.full(shape[0] * shape[1], len(rows))
@@ -172,7 +202,7 @@ def _buffers(source: TraceSource, rows: Integers, columns: dict[str, np.ndarray]
     tracks = [BufferTrack("coverage", unknown, rows, place, by_now.astype(float), "flags")]
     for name, column in (("edge", "values"), ("weight", "weights")):
         tracks += [
-            BufferTrack(f"{name} {k}", unknown, rows, place, columns[column][rows, k], "signed")
+            BufferTrack(f"{name} {k}", unknown, rows, place, columns[column][at, k], "signed")
             for k in range(3)
         ]
     tracks.append(overdraw_track(source, rows[covered]))

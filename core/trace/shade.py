@@ -1,6 +1,6 @@
 """Trace of texturing and shading: texels, their mix, every light, and the colour of every fragment."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from core.listing import Listing, listing
 from core.scene import ClipScene, Scene, Texture
 from core.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
+from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
 from core.vertex_light import material_of, viewpoint
@@ -26,9 +27,44 @@ TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {
     "mipmap-nearest": nearest_mipmap_color,
 }
 
+KINDS = ("plain", "textured", "lit", "textured-lit")
+"""Kinds of rows: what has a texture stands at odd numbers."""
+
 
 def trace_shade(source: TraceSource) -> StageTrace:
     """Return one row for every fragment: its texels where the mesh has a texture, its light where it is lit."""
+    rows, is_lit = source.rows_of("shade", _rows), source.surface.diffuse_light is not None
+    is_textured = rows.kind % 2 > 0
+    has_normals = "normal" in source.geometry.primitives.layout
+    triangle = source.triangle_of_fragment
+    steps = Steps(
+        kinds=KINDS,
+        kind=rows.kind,
+        operations=_operations(source, has_normals),
+        triangle_ends=ends_of(triangle),
+        group_ends=rows.group_ends,
+    )
+    return StageTrace(
+        stage="shade",
+        method=f"shading={source.settings.shading}"
+        if is_lit
+        else f"texture_filter={source.settings.texture_filter}",
+        steps=steps,
+        columns=rows.columns,
+        triangle=triangle,
+        pixel=rows.pixel,
+        listings=_listings(source, has_normals),
+        marks=rows.marks,
+        buffers=_buffers(source, rows.columns, is_textured),
+        extra={
+            "textures": _textures(source),
+            "mesh": source.geometry.primitives.mesh[source.fragments.primitive],
+        },
+    )
+
+
+def _rows(source: TraceSource) -> StageRows:
+    """Return the numbers of every fragment."""
     fragments, surface = source.fragments, source.surface
     count = len(fragments)
     mesh = source.geometry.primitives.mesh[fragments.primitive]
@@ -52,7 +88,6 @@ def trace_shade(source: TraceSource) -> StageTrace:
             height, width, _ = texture.pixels.shape
             columns.setdefault("texture_size", np.zeros((count, 2), np.int64))[chosen] = width, height
             columns["uv"] = values[:, layout["uv"]]
-    is_lit = surface.diffuse_light is not None
     if surface.diffuse_light is not None and surface.specular_light is not None:
         columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
     lighting = _lighting(source, mesh)
@@ -73,29 +108,12 @@ def trace_shade(source: TraceSource) -> StageTrace:
             "n_dot_h": lighting.n_dot_h.T,
             "power": lighting.power.T,
         }
-    kinds = ("plain", "textured", "lit", "textured-lit")
-    kind = textured + 2 * np.full(count, is_lit)
-    triangle = source.triangle_of_fragment
-    steps = Steps(
-        kinds=kinds,
-        kind=kind,
-        operations=_operations(source, lighting),
-        triangle_ends=ends_of(triangle),
-        group_ends=ends_of(fragments.primitive, fragments.row),
-    )
-    return StageTrace(
-        stage="shade",
-        method=f"shading={source.settings.shading}"
-        if is_lit
-        else f"texture_filter={source.settings.texture_filter}",
-        steps=steps,
-        columns=columns,
-        triangle=triangle,
-        pixel=np.stack([fragments.column, fragments.row], axis=1),
-        listings=_listings(source, lighting),
-        marks={"covered": np.ones(count, bool), "nan": np.any(np.isnan(surface.color), axis=1)},
-        buffers=_buffers(source, columns, textured),
-        extra={"textures": _textures(source), "mesh": mesh},
+    return StageRows(
+        columns,
+        textured + 2 * np.full(count, surface.diffuse_light is not None),
+        is_last_of(fragments.primitive, fragments.row),
+        np.stack([fragments.column, fragments.row], axis=1),
+        {"covered": np.ones(count, bool), "nan": np.any(np.isnan(surface.color), axis=1)},
     )
 
 
@@ -128,7 +146,7 @@ def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
     return trace_lighting(position, values[:, layout["normal"]], eye, source.scene.lights, material, False)
 
 
-def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tuple[Operation, ...]]:
+def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
     plain = (Operation("color", "color", ("albedo", "color")),)
     texture = (
@@ -136,7 +154,7 @@ def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tup
         Operation("albedo", "color", ("albedo",)),
     )
     light: tuple[Operation, ...] = (Operation("interpolated", "color", ("diffuse_light", "specular_light")),)
-    if lighting is not None:
+    if has_normals:
         light = (
             Operation("normal", "normal", ("normal", "to_eye")),
             Operation("cosines", "cosines", ("n_dot_l", "n_dot_h")),
@@ -151,11 +169,11 @@ def _operations(source: TraceSource, lighting: Lighting | None) -> dict[str, tup
     }
 
 
-def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listing]:
+def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     """Return the texture's listing, the light's and the product's, by kind of row and operation."""
     texture_filter = source.settings.texture_filter
     texture, product = listing(TEXTURE_LISTINGS[texture_filter]), listing(shaded_color)
-    light = listing(blinn_phong) if lighting is not None else product
+    light = listing(blinn_phong) if has_normals else product
     of_operation = {
         "normal": light,
         "cosines": light,
@@ -174,7 +192,7 @@ def _listings(source: TraceSource, lighting: Lighting | None) -> dict[str, Listi
 
 
 def _buffers(
-    source: TraceSource, columns: dict[str, np.ndarray], textured: np.ndarray
+    source: TraceSource, columns: Mapping[str, np.ndarray], textured: np.ndarray
 ) -> tuple[BufferTrack, ...]:
     rows, place = np.arange(len(source.fragments)), source.place
 

@@ -1,5 +1,6 @@
 """What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,6 +25,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.surface import Surface, shade_fragments
 from core.texture_slopes import texture_slopes
+from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
 
 
@@ -186,6 +188,16 @@ class TraceSource:
         passes = np.zeros(len(stored), bool)
         before[keeps], passes[keeps] = tests.before, tests.passes
         return DepthTests(before, passes)
+
+    @cached_property
+    def known_rows(self) -> dict[str, StageRows]:
+        """The rows that stages have asked for, by name of the stage."""
+        return {}
+
+    def rows_of(self, stage: str, make: "Callable[[TraceSource], StageRows]") -> StageRows:
+        """Return the rows of a stage, which ``make`` makes of a source."""
+        self.known_rows[stage] = make(self)
+        return self.known_rows[stage]
 
     @cached_property
     def picture(self) -> Frame:

@@ -1,0 +1,143 @@
+"""Dragging a corner in the session traces its triangle again, and no trace of before stays in memory."""
+
+import gc
+from collections.abc import Iterator
+from dataclasses import replace
+from weakref import ReferenceType, ref
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.document import TEACHING_LIMIT, Document, focus_on, open_document
+from app.scene_edits import move_corner
+from app.session import Session
+from app.tracing import QUICK_SECONDS
+from core import ClipScene, Settings
+from core.trace import Trace, source
+from core.trace.retrace import Retrace
+
+SIZE = (48, 36)
+
+
+def many_triangles(count: int = 9, size: tuple[int, int] = SIZE) -> ClipScene:
+    generator = np.random.default_rng(2)
+    corners = np.ones((count, 3, 4))
+    corners[..., :3] = generator.uniform(-0.5, 0.5, (count, 1, 3)) + generator.uniform(
+        -0.4, 0.4, (count, 3, 3)
+    )
+    return ClipScene(corners, generator.random((count, 3, 4)), size)
+
+
+def dragged(document: Document, triangle: int, x: float) -> Document:
+    size = document.scene.size
+    return replace(document, scene=move_corner(document.scene, triangle, 1, (x, 17.5), size))
+
+
+@pytest.fixture
+def session(qapp: object) -> Session:
+    return Session(open_document(many_triangles(), "Triangles"))
+
+
+@pytest.fixture
+def examined(monkeypatch: pytest.MonkeyPatch) -> list[set[int]]:
+    """Return the list of sets of triangles whose pixels are examined together."""
+    found: list[set[int]] = []
+    examine = source.examine_pixels
+
+    def note_and_examine(edges, runs, raster):  # type: ignore[no-untyped-def]
+        found.append(set(runs.triangle.tolist()))
+        return examine(edges, runs, raster)
+
+    monkeypatch.setattr(source, "examine_pixels", note_and_examine)
+    return found
+
+
+def assert_traced_as_from_nothing(session: Session) -> None:
+    wanted = session.document.make_trace().stage(session.cursor.stage)
+    found = session.stage_trace
+    assert set(found.columns) == set(wanted.columns)
+    for name, column in wanted.columns.items():
+        assert found.columns[name].tobytes() == column.tobytes(), name
+    for track, other in zip(found.buffers, wanted.buffers, strict=True):
+        assert track.at(found.steps.row_count).tobytes() == other.at(wanted.steps.row_count).tobytes()
+
+
+@pytest.mark.parametrize("stage", ["raster", "interpolate", "shade", "depth", "blend"])
+def test_only_the_triangle_that_is_dragged_is_examined_again(
+    session: Session, examined: list[set[int]], stage: str
+) -> None:
+    session.set_stage(stage)
+    for x in (10.0, 10.5, 11.0):
+        examined.clear()
+        session.edit(dragged(session.document, 4, x), "drag")
+        assert examined == [{4}]
+        assert_traced_as_from_nothing(session)
+
+
+def test_undo_and_redo_examine_it_alone_too(session: Session, examined: list[set[int]]) -> None:
+    assert session.stage_trace.steps.row_count
+    session.edit(dragged(session.document, 4, 10.0))
+    for go in (session.undo, session.redo):
+        examined.clear()
+        go()
+        assert examined == [{4}]
+        assert_traced_as_from_nothing(session)
+
+
+def test_other_settings_a_focus_and_another_scene_are_traced_as_from_nothing(session: Session) -> None:
+    assert session.stage_trace.steps.row_count
+    session.set_setting("fill", "scanline")
+    assert_traced_as_from_nothing(session)
+    session.edit(focus_on(session.document, 4))
+    assert_traced_as_from_nothing(session)
+    session.edit(focus_on(session.document, None))
+    assert_traced_as_from_nothing(session)
+    session.open(open_document(many_triangles(5), "Fewer"))
+    assert_traced_as_from_nothing(session)
+
+
+def references(trace: Trace, stage: str) -> list[ReferenceType[object]]:
+    return [ref(trace), ref(trace.source), ref(trace.stage(stage))]
+
+
+def any_is_left(references: list[ReferenceType[object]]) -> bool:
+    return any(of() is not None for of in references)
+
+
+@pytest.fixture
+def uncollected() -> Iterator[None]:
+    """Go on without the collector of cycles: large traces would wait for it."""
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+def test_no_trace_of_before_stays_in_memory(session: Session, uncollected: None) -> None:
+    earlier = references(session.trace, "raster")
+    for x in (10.0, 10.5, 11.0):
+        session.edit(dragged(session.document, 4, x), "drag")
+        assert isinstance(session.trace.source, Retrace)
+        assert not any_is_left(earlier)
+        earlier = references(session.trace, "raster")
+
+
+def test_nor_does_it_after_tracing_in_the_background(
+    qtbot: QtBot, examined: list[set[int]], uncollected: None
+) -> None:
+    document = open_document(
+        many_triangles(100, TEACHING_LIMIT), "Many", settings=Settings(fill="brute-force")
+    )
+    assert document.estimated_seconds > QUICK_SECONDS
+    session = Session(document)
+    earlier = references(session.trace, "raster")
+    for x in (10.0, 10.5):
+        examined.clear()
+        wanted = dragged(session.document, 4, x)
+        session.edit(wanted, "drag")
+        qtbot.waitUntil(lambda wanted=wanted: session.document is wanted and not session.tracing.is_busy)
+        assert examined == [{4}]
+        qtbot.waitUntil(lambda earlier=earlier: not any_is_left(earlier), timeout=5000)
+        earlier = references(session.trace, "raster")
+    session.tracing.shut_down()
