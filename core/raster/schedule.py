@@ -70,8 +70,9 @@ class Raster:
         # Faster than the rest of a division.
         column = row * -columns
         column += index
-        column += first_column
-        row += first_row
+        if first_column or first_row:
+            column += first_column
+            row += first_row
         return column, row
 
 

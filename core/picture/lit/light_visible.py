@@ -49,7 +49,7 @@ class LitPlanes:
 
     def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
-        seen_count = 0
+        seen_count, has_doubtful = 0, bool(self.is_doubtful.any())
         doubtful = [np.empty(0, np.int64)]
         for place, primitive in seen:
             seen_count += len(place)
@@ -58,8 +58,9 @@ class LitPlanes:
             normal = unit_normals(self.normals, job, primitive, column, row)
             diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
             job.pixels[place] = lit_pixels(job, color, diffuse, specular)
-            in_doubt = np.concatenate([in_doubt, np.flatnonzero(self.is_doubtful.take(primitive))])
             doubtful.append(place.take(in_doubt))
+            if has_doubtful:
+                doubtful.append(place[self.is_doubtful.take(primitive)])
         return Lit(seen_count, np.concatenate(doubtful))
 
 

@@ -26,6 +26,9 @@ the angle that they are."""
 UNSEEN = 1e-5
 """Light that changes no byte by more than a thirtieth."""
 
+MOST = np.float32(2)
+"""Greater than any cosine: cutting off at both ends takes half the time of cutting off at one (NumPy 2.4)."""
+
 FarLight = tuple[Singles, tuple[float, ...]]
 """Unit direction to a light in camera space, (3,) float32, and its colour."""
 
@@ -74,7 +77,7 @@ class PixelLight:
                 found = _at_the_edge(cosine, to_eye, to_light, turn, arena)
                 doubtful.append(found[power.take(found) * material.specular * max(color) > UNSEEN])
                 power *= cosine > 0
-            np.maximum(cosine, np.float32(0), out=cosine)
+            np.clip(cosine, np.float32(0), MOST, out=cosine)
             for channel in range(channels):
                 if len(self.lights) == 1 and channel == channels - 1:
                     product = cosine
@@ -114,7 +117,7 @@ class PixelLight:
             half = arena("half", *normal.shape, dtype=np.float32)
             np.add(to_eye, to_light[:, None], out=half)
             _dot(normal, make_unit(half, arena), power, arena)
-            np.maximum(power, np.float32(1e-30), out=power)
+            np.clip(power, np.float32(1e-30), MOST, out=power)
             np.log2(power, out=power)
             power *= np.float32(self.material.shininess)
             np.exp2(power, out=power)
@@ -166,7 +169,8 @@ def lit_pixels(
     arena, count = job.arena, diffuse.shape[1]
     is_gray = len(diffuse) == len(albedo) == 1
     level = arena("level", count, dtype=np.float32)
-    index = arena("level_index", count, dtype=np.int64)
+    # Floats are cut off to 32 bits five times as fast as to 64.
+    index = arena("level_index", count, dtype=np.int32)
     pixels, byte = (arena(f"level_{name}", count, dtype=np.uint32) for name in ("pixels", "byte"))
     tables = level_words(job.encoding)
     for channel in range(1 if is_gray else 3):
@@ -175,7 +179,7 @@ def lit_pixels(
         level += specular[source]
         level *= np.float32(LEVELS - 1)
         level += np.float32(0.5)
-        np.minimum(level, np.float32(LEVELS - 1), out=level)
+        np.clip(level, np.float32(0), np.float32(LEVELS - 1), out=level)
         np.copyto(index, level, casting="unsafe")
         table = tables[3] if is_gray else tables[channel]
         table.take(index, out=pixels if channel == 0 else byte, mode="clip")
