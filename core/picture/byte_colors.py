@@ -168,7 +168,7 @@ def byte_colors(job: Job) -> ByteColors | None:
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
     if not is_lit_at_corners or job.has_texture:
         return None
-    if interpolation == "flat" or not geometry.is_projected.any():
+    if interpolation == "flat":
         return None
     vertices = vertex_bytes(job)
     if not vertices.is_opaque:

@@ -132,6 +132,19 @@ def smooth_below_and_steep_above() -> ClipScene:
     return ClipScene(clip, np.stack([colors, bright]), (60, 90))
 
 
+def behind_the_eye_below_and_smooth_above() -> ClipScene:
+    """Return a triangle that reaches behind the eye, and before its upper part one whose colours may be bytes."""
+    clip = np.array(
+        [
+            [[-1.0, -1, 0, 1], [1, -1, 0, 1], [0, 3, 0, -1]],
+            [[-1.0, 0.2, -0.9, 1], [1, 0.2, -0.9, 1], [0, 0.95, -0.9, 1]],
+        ]
+    )
+    bright = np.array([[1.0, 0, 0, 1], [0, 1, 0, 1], [0.3, 0.3, 0.3, 1]])
+    colors = np.array([[0.1, 0.1, 0.1, 1], [0.103, 0.1, 0.1, 1], [0.1, 0.104, 0.1, 1]])
+    return ClipScene(clip, np.stack([bright, colors]), (160, 120))
+
+
 SCENES = {
     "ball": (ball(), SPANS),
     "ball, one side drawn": (ball(), replace(SPANS, cull="back", shading="gouraud")),
@@ -144,6 +157,7 @@ SCENES = {
     ),
     "rings with a texture": (textured_rings(), SPANS),
     "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
+    "behind the eye below, smooth above": (behind_the_eye_below_and_smooth_above(), SPANS),
     "shiny rings, some triangles in bytes": (shiny_rings(), replace(SPANS, shading="gouraud")),
     "two layers in one band": (textured_sheets(), replace(SPANS, cull="back", shading="unlit")),
     "wireframe": (textured_rings(), replace(SPANS, polygon_mode="wireframe")),
