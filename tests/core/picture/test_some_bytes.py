@@ -146,6 +146,20 @@ def test_a_part_that_only_shows_what_reaches_behind_the_eye_allows_what_the_whol
     assert lower.route.allowed == draw_picture(scene, SPANS).route.allowed == "some-bytes"
 
 
+def test_a_see_through_triangle_leaves_others_their_bytes() -> None:
+    both = smooth_below_and_steep_above()
+    assert both.attributes is not None
+    see_through = both.attributes.copy()
+    see_through[1, 2, 3] = 0.5
+    scene = ClipScene(both.clip, see_through, both.size)
+    picture = draw_picture(scene, SPANS)
+    assert picture.route.color == "some-bytes"
+    lower = slice(0, both.size[1] // 4)
+    np.testing.assert_array_equal(picture.pixels[lower], draw_picture(both, SPANS).pixels[lower])
+    shows_it = render(scene, SPANS).primitive == 1
+    np.testing.assert_array_equal(picture.pixels[shows_it], exact_bytes(scene, SPANS, "srgb")[shows_it])
+
+
 @pytest.mark.parametrize("clipping", ["homogeneous", "sutherland-hodgman"])
 @pytest.mark.parametrize("encoding", ["srgb", "linear"])
 def test_a_floor_behind_the_eye_leaves_others_their_bytes(encoding: str, clipping: str) -> None:
