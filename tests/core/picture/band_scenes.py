@@ -159,6 +159,13 @@ def clipped_above_and_see_through_out_of_sight() -> ClipScene:
     return ClipScene(clip, np.stack([colors, colors, see_through]), (160, 120))
 
 
+def at_upper_edge() -> ClipScene:
+    """Return a triangle whose colours are bytes, and nothing below it."""
+    clip = np.array([[[-1.0, 0.8, 0, 1], [1, 0.8, 0, 1], [0, 0.95, 0, 1]]])
+    colors = np.array([[0.1, 0.1, 0.1, 1], [0.103, 0.1, 0.1, 1], [0.1, 0.104, 0.1, 1]])
+    return ClipScene(clip, colors[None], (160, 120))
+
+
 SCENES = {
     "ball": (ball(), SPANS),
     "ball, one side drawn": (ball(), replace(SPANS, cull="back", shading="gouraud")),
@@ -172,6 +179,7 @@ SCENES = {
     "rings with a texture": (textured_rings(), SPANS),
     "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
     "behind the eye below, smooth above": (behind_the_eye_below_and_smooth_above(), SPANS),
+    "smooth at the upper edge": (at_upper_edge(), SPANS),
     "clipped above, see-through out of sight": (
         clipped_above_and_see_through_out_of_sight(),
         replace(SPANS, clipping="sutherland-hodgman"),
