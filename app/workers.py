@@ -116,11 +116,12 @@ class Job(QObject):
 
     @Slot()
     def _retire(self) -> None:
+        # One that ends meanwhile is asked once, and retires when it says so itself.
+        ended = [worker for worker in self._retired if not worker.isRunning()]
+        self._retired = [worker for worker in self._retired if worker not in ended]
         # What a thread was given to work on goes with it; its parent would keep both.
-        for worker in self._retired:
-            if not worker.isRunning():
-                worker.deleteLater()
-        self._retired = [worker for worker in self._retired if worker.isRunning()]
+        for worker in ended:
+            worker.deleteLater()
 
 
 class Desk(QObject):

@@ -33,13 +33,15 @@ class LabelPlaces:
         """
         if not self._area.adjusted(-1, -1, 1, 1).contains(point):
             return None
-        found = [
+        free = (
             rect
             for times in further
             for direction in _DIRECTIONS
             if self._is_free(rect := _beside(point, size, reach * times, direction))
-        ]
-        best = next((rect for rect in found if not _meets(rect, self._avoided)), found[0] if found else None)
+        )
+        best = next(free, None)
+        if best is not None and _meets(best, self._avoided):
+            best = next((rect for rect in free if not _meets(rect, self._avoided)), best)
         if best is not None:
             self._taken.append(best)
         return best

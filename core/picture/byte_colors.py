@@ -135,7 +135,8 @@ def vertex_bytes(job: Job) -> VertexBytes:
             if np.ptp(albedo) and np.ptp(light):
                 products.append((channel, albedo, light))
     cut_off = np.abs(unbounded - linear).max(axis=0) if (unbounded != linear).any() else None
-    made = VertexBytes(encoded, products, bool((surface.color[:, 3] == 1).all()), cut_off)
+    is_opaque: Flags = surface.color[:, 3] == 1
+    made = VertexBytes(encoded, products, None if is_opaque.all() else is_opaque, cut_off)
     _last[:] = [(values.rows, encoding, made)]
     return made
 
@@ -162,17 +163,15 @@ def _most_product(job: Job, vertices: VertexBytes) -> float:
 
 
 def byte_colors(job: Job) -> ByteColors | None:
-    """Return the colours of all primitives as bytes; ``None`` where they are not those of opaque corners."""
+    """Return the colours of all primitives as bytes; ``None`` where they are not those of corners."""
     geometry, encoding = job.geometry, job.encoding
     values, interpolation = geometry.primitives.values, job.settings.interpolation
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
     if not is_lit_at_corners or job.has_texture:
         return None
-    if interpolation == "flat" or not geometry.is_projected.any():
+    if interpolation == "flat":
         return None
     vertices = vertex_bytes(job)
-    if not vertices.is_opaque:
-        return None
     count = values.index.shape[1]
     first, second, third = (np.empty((3, count)) for _ in range(3))
     for corner, index in zip((first, second, third), values.index, strict=True):
@@ -183,6 +182,8 @@ def byte_colors(job: Job) -> ByteColors | None:
     spread -= low
     error = drift_error(geometry)
     is_near: Flags = np.asarray(geometry.is_projected & (error <= LARGEST_DRIFT))
+    if vertices.is_opaque is not None:
+        is_near &= vertices.is_opaque.take(values.index).all(axis=0)
     if vertices.cut_off is not None:
         error += cut_off_error(vertices.cut_off, values.index, low, spread, encoding)
     if encoding == "srgb":

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.arrays import Flags, Floats, Integers
 from core.geometry_record import Geometry
 from core.picture.byte_words import DRIFT
 
@@ -22,7 +22,8 @@ class VertexBytes:
     """(3, M) float64, 0 to 255, a row for each channel."""
     products: list[tuple[int, Floats, Floats]]
     """Channel, albedo (M,) and light (M,): where both vary, their product is not linear."""
-    is_opaque: bool
+    is_opaque: Flags | None
+    """(M,) bool; ``None``: all are."""
     cut_off: Floats | None
     """(M,) float64, what was cut off from linear colours brighter than 1 or darker than 0; ``None``: nothing was."""
     most_product: float = np.inf

@@ -50,13 +50,13 @@ def _surroundings(scene: AnyScene) -> tuple[Any, ...]:
 
 
 def is_same(first: Any, second: Any) -> bool:
-    """Return whether two values are the same bits, looking into tuples and records; their names do not matter."""
+    """Return whether two values are the same bits, looking into tuples and records."""
     if first is second:
         return True
     if type(first) is not type(second):
         return False
-    if isinstance(first, np.ndarray):
-        return bool(same_rows(first[None], second[None]).all())
+    if isinstance(first, np.ndarray | float):
+        return bool(same_rows(np.asarray(first)[None], np.asarray(second)[None]).all())
     if isinstance(first, tuple):
         return len(first) == len(second) and all(map(is_same, first, second))
     if is_dataclass(first):

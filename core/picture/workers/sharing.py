@@ -86,9 +86,12 @@ def _of_all_triangles(color: str) -> str:
 
 def joined_route(routes: Sequence[Route]) -> Route:
     """Return the route of a picture out of those of its bands; a triangle in two bands went its way twice."""
+    # A band that shows nothing says nothing of the others.
+    shown = [route for route in routes if route.visible] or routes
     # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.
-    needed = next((route for route in routes if route.visibility != "layer"), routes[0])
-    color = next((route.color for route in routes if route.color == "some-bytes"), needed.color)
+    needed = next((route for route in shown if route.visibility != "layer"), shown[0])
+    color = next((route.color for route in shown if route.color != "palette"), needed.color)
+    color = next((route.color for route in shown if route.color == "some-bytes"), color)
     visible = sum(route.visible for route in routes)
     splits = [route.split for route in routes if route.split is not None]
     total = Split(*(sum(ways) for ways in zip(*map(astuple, splits), strict=True))) if splits else None

@@ -132,6 +132,40 @@ def smooth_below_and_steep_above() -> ClipScene:
     return ClipScene(clip, np.stack([colors, bright]), (60, 90))
 
 
+def behind_the_eye_below_and_smooth_above() -> ClipScene:
+    """Return a triangle that reaches behind the eye, and before its upper part one whose colours may be bytes."""
+    clip = np.array(
+        [
+            [[-1.0, -1, 0, 1], [1, -1, 0, 1], [0, 3, 0, -1]],
+            [[-1.0, 0.2, -0.9, 1], [1, 0.2, -0.9, 1], [0, 0.95, -0.9, 1]],
+        ]
+    )
+    bright = np.array([[1.0, 0, 0, 1], [0, 1, 0, 1], [0.3, 0.3, 0.3, 1]])
+    colors = np.array([[0.1, 0.1, 0.1, 1], [0.103, 0.1, 0.1, 1], [0.1, 0.104, 0.1, 1]])
+    return ClipScene(clip, np.stack([bright, colors]), (160, 120))
+
+
+def clipped_above_and_see_through_out_of_sight() -> ClipScene:
+    """Return two triangles whose colours may be bytes, the upper one clipped, and a see-through one behind the eye."""
+    clip = np.array(
+        [
+            [[-1.0, -1, 0, 1], [1, -1, 0, 1], [0, -0.1, 0, 1]],
+            [[-1.0, 0.2, -1.5, 1], [1, 0.2, 0.5, 1], [0, 0.95, 0.5, 1]],
+            [[-1.0, -1, 0, -1], [1, -1, 0, -1], [0, 1, 0, -1]],
+        ]
+    )
+    colors = np.array([[0.1, 0.1, 0.1, 1], [0.103, 0.1, 0.1, 1], [0.1, 0.104, 0.1, 1]])
+    see_through = colors * [1, 1, 1, 0.5]
+    return ClipScene(clip, np.stack([colors, colors, see_through]), (160, 120))
+
+
+def at_upper_edge() -> ClipScene:
+    """Return a triangle whose colours are bytes, and nothing below it."""
+    clip = np.array([[[-1.0, 0.8, 0, 1], [1, 0.8, 0, 1], [0, 0.95, 0, 1]]])
+    colors = np.array([[0.1, 0.1, 0.1, 1], [0.103, 0.1, 0.1, 1], [0.1, 0.104, 0.1, 1]])
+    return ClipScene(clip, colors[None], (160, 120))
+
+
 SCENES = {
     "ball": (ball(), SPANS),
     "ball, one side drawn": (ball(), replace(SPANS, cull="back", shading="gouraud")),
@@ -144,6 +178,12 @@ SCENES = {
     ),
     "rings with a texture": (textured_rings(), SPANS),
     "smooth below, steep above": (smooth_below_and_steep_above(), SPANS),
+    "behind the eye below, smooth above": (behind_the_eye_below_and_smooth_above(), SPANS),
+    "smooth at the upper edge": (at_upper_edge(), SPANS),
+    "clipped above, see-through out of sight": (
+        clipped_above_and_see_through_out_of_sight(),
+        replace(SPANS, clipping="sutherland-hodgman"),
+    ),
     "shiny rings, some triangles in bytes": (shiny_rings(), replace(SPANS, shading="gouraud")),
     "two layers in one band": (textured_sheets(), replace(SPANS, cull="back", shading="unlit")),
     "wireframe": (textured_rings(), replace(SPANS, polygon_mode="wireframe")),

@@ -8,7 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import ClipScene, Mesh, Picture, Settings, draw_picture, render
-from tests.core.picture.band_scenes import SPANS, shiny_rings, smooth_below_and_steep_above
+from tests.core.picture.band_scenes import (
+    SPANS,
+    behind_the_eye_below_and_smooth_above,
+    shiny_rings,
+    smooth_below_and_steep_above,
+)
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.strategies import clip_of_window
 
@@ -133,6 +138,26 @@ def test_where_no_triangle_allows_bytes_all_have_attributes_and_light() -> None:
         picture = draw_picture(scene, SPANS, encoding=encoding)
         assert picture.route.color == "some-bytes"
         np.testing.assert_array_equal(picture.pixels, exact_bytes(scene, SPANS, encoding))
+
+
+def test_a_part_that_only_shows_what_reaches_behind_the_eye_allows_what_the_whole_allows() -> None:
+    scene = behind_the_eye_below_and_smooth_above()
+    lower = draw_picture(scene, SPANS, region=(0, 0, 160, 60))
+    assert lower.route.allowed == draw_picture(scene, SPANS).route.allowed == "some-bytes"
+
+
+def test_a_see_through_triangle_leaves_others_their_bytes() -> None:
+    both = smooth_below_and_steep_above()
+    assert both.attributes is not None
+    see_through = both.attributes.copy()
+    see_through[1, 2, 3] = 0.5
+    scene = ClipScene(both.clip, see_through, both.size)
+    picture = draw_picture(scene, SPANS)
+    assert picture.route.color == "some-bytes"
+    lower = slice(0, both.size[1] // 4)
+    np.testing.assert_array_equal(picture.pixels[lower], draw_picture(both, SPANS).pixels[lower])
+    shows_it = render(scene, SPANS).primitive == 1
+    np.testing.assert_array_equal(picture.pixels[shows_it], exact_bytes(scene, SPANS, "srgb")[shows_it])
 
 
 @pytest.mark.parametrize("clipping", ["homogeneous", "sutherland-hodgman"])

@@ -11,7 +11,7 @@ import pytest
 from core import Camera, draw_picture
 from core.picture import Route
 from core.picture.workers import BandWorkers
-from core.picture.workers.sharing import have_colors_of_whole
+from core.picture.workers.sharing import have_colors_of_whole, joined_route
 from tests.core.picture.band_scenes import SCENES, SPANS, ball, textured_ball
 
 
@@ -72,6 +72,25 @@ def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: boo
     routes = [Route("words", name or "normals", visible=1, allowed=name) for name in allowed]
     assert have_colors_of_whole(routes, plain_colors=False) == with_cheap
     assert have_colors_of_whole(routes, plain_colors=True) == with_plain
+
+
+@pytest.mark.parametrize(
+    ("colors", "joined"),
+    [
+        (["bytes", "bytes"], "bytes"),
+        (["bytes", "some-bytes"], "some-bytes"),
+        (["palette", "deferred"], "deferred"),
+        (["palette", "palette"], "palette"),
+    ],
+)
+def test_the_route_of_a_picture_is_that_of_the_bands_that_show_something(colors, joined: str) -> None:
+    nothing = Route("words", "meshes", visible=0, allowed="palette")
+    routes = [Route("layer", color, visible=1, allowed=color) for color in colors]
+    for parts in (routes, [nothing, *routes], [*routes, nothing]):
+        route = joined_route(parts)
+        assert (route.color, route.visibility, route.visible) == (joined, "layer", 2)
+    assert joined_route([*routes, replace(routes[1], visibility="words")]).visibility == "words"
+    assert joined_route([nothing, nothing]) == nothing
 
 
 @pytest.mark.parametrize("name", list(SCENES))

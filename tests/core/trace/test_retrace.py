@@ -268,6 +268,18 @@ def test_other_settings_look_at_everything_again(settings, examined):
     assert set(examined) == set(range(16))
 
 
+def test_a_reflectance_of_another_sign_is_another_one():
+    scene, settings = SCENES["lit"], Settings(fill="brute-force")
+    meshes = [
+        tuple(replace(mesh, material=Material(zero, 0.5, 0.4, 8.0)) for mesh in scene.meshes)
+        for zero in (0.0, -0.0)
+    ]
+    earlier = trace(replace(scene, meshes=meshes[0]), settings)
+    earlier.stage("shade")
+    edited = replace(scene, meshes=meshes[1])
+    check_trace(trace(edited, settings, earlier=earlier), trace(edited, settings))
+
+
 def test_a_triangle_that_is_culled_leaves_the_others_as_they_are(examined):
     scene, settings = grid(), Settings(cull="back")
     earlier = trace(scene, settings)
