@@ -4,11 +4,11 @@ What is interpolated along an edge still goes by its whole length: only the choi
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Integers
+from core.cached import cached_property
 from core.geometry.line_clip_records import ClippedLines
 from core.geometry.line_clipping import clip_lines
 from core.raster.wireframe import Outlines

@@ -5,12 +5,12 @@ Outlines and exact comparisons of rays come with many files, which are imported 
 
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.frame import StageCount
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes

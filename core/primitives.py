@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.cached import cached_property
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Integers
+from core.cached import cached_property
 
 
 class Level(IntEnum):

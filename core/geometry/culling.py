@@ -6,11 +6,11 @@ LMU, *Computer Graphics 1*, tutorial 5, "Culling"; Jubair, "Backface culling"; F
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.geometry.outcodes import BEHIND_BIT, PLANE_BITS, Outcodes, has_bits, shared_bits
 from core.methods import method, table
 from core.primitives import IndexedPrimitives

@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from core.arrays import Flags, Floats, Integers, checked
+from core.cached import cached_property
 from core.methods import method
 
 LINE_CLIP_LIMIT = 2.0**500

@@ -9,13 +9,14 @@ F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline", "vertex processi
 """
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats, Integers, Scalar, read_only
+from core.cached import cached_property
 from core.geometry.matrices import projection, transform, viewport, world_to_camera
 from core.primitives import own_corners
 from core.scene import ClipScene, Mesh, Scene

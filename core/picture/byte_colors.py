@@ -8,12 +8,12 @@ exact colours are those of the unsnapped triangle and may leave the range of its
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.framebuffer.display import srgb
 from core.framebuffer.nearest import NearestFragments
 from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes

@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Flags, Floats, Integers, Singles
+from core.cached import cached_property
 from core.frame import StageCount
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import encode_linear, write_pixels

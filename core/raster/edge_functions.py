@@ -28,11 +28,11 @@ J. Pineda, *A parallel algorithm for polygon rasterization*, 1988.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.methods import table
 from core.raster.cross_product import FIRST, LAST, NEXT, cross
 from core.raster.number_format import Held, NumberFormat, number_format

@@ -7,12 +7,12 @@ whose major axis is y is *steep*.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, checked, checked_size, read_only
+from core.cached import cached_property
 from core.scene import SIZE_LIMIT
 
 COORDINATE_LIMIT = 2.0**20

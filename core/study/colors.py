@@ -1,10 +1,9 @@
 """Studies of texture filters and antialiasing: colours against the picture of 256 samples."""
 
-from functools import cached_property
-
 import numpy as np
 
 from core.arrays import Floats
+from core.cached import cached_property
 from core.frame import Frame
 from core.scene import AnyScene
 from core.settings import Settings

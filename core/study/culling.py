@@ -1,10 +1,9 @@
 """Study of culling: what is drawn less, and what is missing then."""
 
-from functools import cached_property
-
 import numpy as np
 
 from core.arrays import Integers
+from core.cached import cached_property
 from core.frame import Frame
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import Camera, DirectionalLight, Mesh, Scene

@@ -1,10 +1,9 @@
 """Study of fills, number formats and fill rules: which pixels triangles cover, against rational arithmetic."""
 
-from functools import cached_property
-
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.cached import cached_property
 from core.frame import STAGES, Frame, StageCount
 from core.geometry_stages import process_geometry
 from core.pipeline import schedule

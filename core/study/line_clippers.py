@@ -2,11 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 
 from core.arrays import Flags, Floats
+from core.cached import cached_property
 from core.geometry.line_clip_records import ClippedLines
 from core.geometry.line_clipping import clip_lines
 from core.raster.lines import draw_lines

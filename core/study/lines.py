@@ -1,11 +1,12 @@
 """Study of lines: how far the pixels lie from the ideal line, and how well they fill its area."""
 
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 
 from core.arrays import Floats, Integers
+from core.cached import cached_property
 from core.raster.line_records import LinePixels
 from core.raster.lines import draw_lines
 from core.settings import Settings

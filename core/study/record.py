@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
+from core.cached import cached_property
 from core.scene import AnyScene
 from core.settings import Settings
 

@@ -1,8 +1,7 @@
 """Study of shading: a sphere of triangles against the sphere itself."""
 
-from functools import cached_property
-
 from core.arrays import Flags, Floats
+from core.cached import cached_property
 from core.frame import Frame
 from core.scene import Scene
 from core.settings import Settings

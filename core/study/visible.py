@@ -1,12 +1,12 @@
 """Studies of what is seen: hidden surfaces and polygon clipping, against exact comparison."""
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats, Integers
+from core.cached import cached_property
 from core.frame import Frame
 from core.settings import Settings
 from core.study.exact.coverage import count_pixels

@@ -7,12 +7,13 @@ full buffers of `render` with the first method of every family, except for those
 from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from math import ceil
 
 import numpy as np
 
 from core.arrays import Floats
+from core.cached import cached_property
 from core.frame import Frame
 from core.framebuffer.display import encode_linear
 from core.methods import table

@@ -11,13 +11,13 @@ What changed is found by comparing (``unchanged``), so any edit will do: a corne
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 from weakref import ReferenceType, ref
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
+from core.cached import cached_property
 from core.geometry_stages import Geometry
 from core.raster.coverage import Fragments, PixelTests
 from core.raster.schedule import Boxes, Runs, expand

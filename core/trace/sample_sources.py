@@ -5,13 +5,13 @@ lie at the pixels' centres; colours are those of the unmoved triangles. Supersam
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from core.antialiased.multisampling import at_sample
 from core.antialiased.supersampling import finer_raster, finer_scene, finer_settings, in_squares
 from core.arrays import Floats
+from core.cached import cached_property
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.sample_positions import ROTATED_GRID
 from core.geometry_stages import Geometry, process_geometry

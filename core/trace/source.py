@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers, Singles
+from core.cached import cached_property
 from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Flags, Integers, read_only
+from core.cached import cached_property
 from core.listing import Listing
 from core.steps import Operation, Steps
 

@@ -1,12 +1,12 @@
 """Which triangles could matter at a pixel: those whose box contains it; the others are only counted."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.frame import STAGES, StageCount
 from core.geometry_stages import Geometry, process_geometry
 from core.methods import table

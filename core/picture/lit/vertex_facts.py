@@ -5,11 +5,11 @@ camera; so what was found in the array of the last picture is kept with it.
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.geometry.matrices import world_to_camera
 from core.geometry_record import Geometry
 from core.scene import Camera

@@ -5,11 +5,10 @@ References
 J. Blinn, *Hyperbolic interpolation*, 1992.
 """
 
-from functools import cached_property
-
 import numpy as np
 
 from core.arrays import Flags, Floats
+from core.cached import cached_property
 from core.fragments.corrected_affine import largest_affine_error
 from core.pipeline import render
 from core.scene import ClipScene

@@ -8,12 +8,11 @@ N. Reed, *Depth precision visualized*, 2015.
 K. Akeley, J. Su, *Minimum triangle separation for correct z-buffer occlusion*, 2006.
 """
 
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
+from core.cached import cached_property
 from core.pipeline import render
 from core.scene import Camera, Scene
 from core.settings import Settings

@@ -1,10 +1,9 @@
 """Which of any triangles in clip space is seen at every pixel, by fractions: hidden surfaces that can be shrunk."""
 
-from functools import cached_property
-
 import numpy as np
 
 from core.arrays import Flags, Floats, Integers
+from core.cached import cached_property
 from core.methods import table
 from core.pipeline import render
 from core.scene import ClipScene
