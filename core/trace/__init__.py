@@ -86,7 +86,7 @@ def trace(
 
     source = TraceSource(scene, settings or Settings(), triangle, region, before)
     if earlier is not None:
-        from core.trace.retrace import after_edit
+        from core.trace.edited.retrace import after_edit
 
         source = after_edit(source, earlier.source)
     if min(source.raster.shape) <= 0:

@@ -15,7 +15,7 @@ from app.session import Session
 from app.tracing import QUICK_SECONDS
 from core import ClipScene, Settings
 from core.trace import Trace, source
-from core.trace.retrace import Retrace
+from core.trace.edited.retrace import Retrace
 
 SIZE = (48, 36)
 

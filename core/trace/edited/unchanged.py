@@ -10,7 +10,7 @@ from core.arrays import Flags, Integers
 from core.fragment_depth import logarithm_range
 from core.raster.schedule import Runs, expand
 from core.scene import AnyScene, ClipScene
-from core.trace.row_pieces import same_rows
+from core.trace.edited.row_pieces import same_rows
 from core.trace.source import TraceSource
 
 

@@ -22,10 +22,10 @@ from core.geometry_stages import Geometry
 from core.raster.coverage import Fragments, PixelTests
 from core.raster.schedule import Boxes, Runs, expand
 from core.surface import Surface
-from core.trace.row_pieces import RowPieces, pieces_of
+from core.trace.edited.row_pieces import RowPieces, pieces_of
+from core.trace.edited.unchanged import numbers_before
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows
-from core.trace.unchanged import numbers_before
 
 
 @dataclass(frozen=True, eq=False)

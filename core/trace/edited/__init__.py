@@ -1,0 +1,1 @@
+"""Tracing again after an edit: what did not change is found, and taken over."""
