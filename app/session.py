@@ -51,6 +51,7 @@ class Session(QObject):
         """What traces large documents in the background."""
         self.tracing.traced.connect(self._take_traced)
         self.tracing.failed.connect(self.edit_failed)
+        self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document)
         self._cursor = Cursor()
         self._visited = History(self._cursor)
@@ -118,7 +119,6 @@ class Session(QObject):
         self.tracing.cancel()
         if trace is None:
             trace = trace_now(document, self._cursor.stage)
-        self._history.seal()
         self._history.put(document)
         self._pin = self._hover = None
         self._document_replaced(trace)
@@ -127,7 +127,8 @@ class Session(QObject):
     def edit(self, document: Document, gesture: str = "") -> None:
         """Take over an edited document; edits of one ``gesture`` are undone together.
 
-        What takes long is traced in the background, and taken over when that is done.
+        Every gesture has a name of its own. What takes long is traced in the background, and taken over when that is
+        done: also when the gesture has ended by then, as the last part of it.
 
         Raises
         ------
@@ -136,10 +137,6 @@ class Session(QObject):
         """
         if document is not self.document:
             self._put(document, gesture)
-
-    def end_gesture(self) -> None:
-        """Say that the next edit is one of its own."""
-        self._history.seal()
 
     def take_back(self, gesture: str) -> None:
         """End a gesture as if it had not been; redo does it after all."""
@@ -154,7 +151,12 @@ class Session(QObject):
             self._put(replace(self.document, settings=settings))
 
     def undo(self) -> None:
-        """Take the last edit back."""
+        """Take the last edit back, with what is still being traced of it; or one that is being traced, alone."""
+        newest = self.tracing.newest
+        if newest is not None and newest.direction == 0:
+            self.tracing.cancel()
+            if not newest.gesture or not self._history.is_within(newest.gesture):
+                return
         self._go_in_history(-1)
 
     def redo(self) -> None:
@@ -181,7 +183,7 @@ class Session(QObject):
     @property
     def can_undo(self) -> bool:
         """Whether an edit can be taken back."""
-        return self._history.can_undo
+        return self._history.can_undo or self.tracing.newest is not None
 
     @property
     def can_redo(self) -> bool:

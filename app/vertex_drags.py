@@ -65,7 +65,6 @@ class VertexDrags(QObject):
     @Slot(int)
     def _end(self, vertex: int) -> None:
         self._count += 1
-        self._session.end_gesture()
 
     @Slot(int)
     def _take_back(self, vertex: int) -> None:

@@ -339,7 +339,6 @@ class ScenePresenter(QObject):
     @Slot(int)
     def _end_drag(self, index: int) -> None:
         self._drags += 1
-        self._session.end_gesture()
 
     @Slot(int)
     def _take_drag_back(self, index: int) -> None:
