@@ -67,6 +67,12 @@ class Session(QObject):
         return self._history.present
 
     @property
+    def latest(self) -> Document:
+        """What the next edit starts from: what is still being traced, as all edits before it; else what is open."""
+        newest = self.tracing.newest
+        return self.document if newest is None else newest.document
+
+    @property
     def trace(self) -> Trace:
         """Its trace."""
         return self._trace
@@ -135,7 +141,7 @@ class Session(QObject):
         ValueError
             If it cannot be traced; everything stays as it was.
         """
-        if document is not self.document:
+        if document is not self.latest:
             self._put(document, gesture)
 
     def take_back(self, gesture: str) -> None:
@@ -146,9 +152,9 @@ class Session(QObject):
 
     def set_setting(self, family: str, value: str | int) -> None:
         """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
-        settings: Settings = replace(self.document.settings, **{family: value})  # type: ignore[arg-type]
-        if settings != self.document.settings:
-            self._put(replace(self.document, settings=settings))
+        settings: Settings = replace(self.latest.settings, **{family: value})  # type: ignore[arg-type]
+        if settings != self.latest.settings:
+            self._put(replace(self.latest, settings=settings))
 
     def undo(self) -> None:
         """Take the last edit back, with what is still being traced of it; or one that is being traced, alone."""

@@ -117,6 +117,25 @@ def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> 
     session.tracing.shut_down()
 
 
+def test_an_edit_starts_from_the_one_that_is_still_being_traced(window: MainWindow, qtbot: QtBot) -> None:
+    session, grid = window.session, window.page.grid
+    session.open(
+        replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
+    )
+    grid.vertex_dragged.emit(0, 10.0, 12.0)
+    grid.vertex_drag_finished.emit(0)
+    assert session.tracing.is_busy
+    moved = session.latest.scene
+    assert moved is not session.document.scene
+    window.edits.toggle_cleared()
+    session.set_setting("shading", "flat")
+    session.set_setting("fill", "blocks")
+    wait_for(session, qtbot)
+    assert session.document.scene is moved
+    assert session.document.before == "cleared"
+    assert (session.document.settings.shading, session.document.settings.fill) == ("flat", "blocks")
+
+
 def test_too_long_a_run_is_refused_with_what_to_do(qtbot: QtBot) -> None:
     session = Session(open_document(make_scene("knot"), "Knot"))
     before = session.document
