@@ -119,9 +119,7 @@ def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> 
 
 def test_an_edit_starts_from_the_one_that_is_still_being_traced(window: MainWindow, qtbot: QtBot) -> None:
     session, grid = window.session, window.page.grid
-    session.open(
-        replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
-    )
+    session.open(replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force")))
     grid.vertex_dragged.emit(0, 10.0, 12.0)
     grid.vertex_drag_finished.emit(0)
     assert session.tracing.is_busy
