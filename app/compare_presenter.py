@@ -155,7 +155,7 @@ class ComparePresenter(QObject):
             {f: getattr(document.settings, f) for f in self._differences},
         )
         try:
-            self._session.edit(replace(document, settings=other))
+            self._session.edit(replace(self._session.latest, settings=other))
         except ValueError as error:
             self._differences = before
             self.edit_refused.emit(str(error))

@@ -31,7 +31,7 @@ class DocumentEdits(QObject):
 
     def toggle_shared(self) -> None:
         """Let corners at one place move together, or each by itself."""
-        document = self._session.document
+        document = self._session.latest
         scene = document.scene
         if not isinstance(scene, ClipScene):
             self.edit_pointless.emit("Vertices of a mesh are always shared by its triangles.")
@@ -41,29 +41,29 @@ class DocumentEdits(QObject):
 
     def fit_region(self) -> None:
         """Show the smallest raster around the triangle in focus."""
-        document = self._session.document
+        document = self._session.latest
         if document.triangle is None and document.triangle_count == 1:
             document = replace(document, triangle=0)
         self.edit(fit_region(document))
 
     def focus_all(self) -> None:
         """Step all triangles instead of the one in focus."""
-        document = self._session.document
+        document = self._session.latest
         self.edit(replace(document, triangle=None, raster=same_view(document.scene, 64, 48)))
 
     @Slot(int)
     def focus_triangle(self, triangle: int) -> None:
         """Bring a triangle into focus."""
-        self.edit(focus_on(self._session.document, triangle))
+        self.edit(focus_on(self._session.latest, triangle))
 
     def toggle_cleared(self) -> None:
         """Start from cleared buffers, or as the earlier triangles left them."""
-        document = self._session.document
+        document = self._session.latest
         before = "earlier" if document.before == "cleared" else "cleared"
         self.edit(replace(document, before=before))
 
     @Slot(int, int)
     def choose_raster(self, columns: int, rows: int) -> None:
         """Draw the whole view in so many columns and rows."""
-        document = self._session.document
+        document = self._session.latest
         self.edit(replace(document, raster=same_view(document.scene, columns, rows)))

@@ -12,6 +12,7 @@ from app.message_words import sentences
 from app.open_any import Opened, open_any
 from app.page_table import page_endings
 from app.pages import Pages
+from app.save_dialog import SaveDialog
 from app.state_files import EXTENSION, State, StateFileError, save_state
 from app.step_page import StepPage
 from app.stepping_presenter import Bookmark
@@ -129,9 +130,8 @@ class FileDesk(QObject):
 
     def ask_save(self) -> None:
         """Ask where the state is to be saved, and save it."""
-        path, _ = QFileDialog.getSaveFileName(
-            self._page.window(), "Save state", f"state{EXTENSION}", f"States (*{EXTENSION})"
-        )
+        name, kinds = f"state{EXTENSION}", f"States (*{EXTENSION})"
+        path = SaveDialog(self._page.window(), "Save state", name, kinds).ask()
         if path:
             self.save_to(path)
 
@@ -150,7 +150,7 @@ class FileDesk(QObject):
     def ask_export(self) -> None:
         """Ask where the current view is to go, and export it."""
         kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
-        path, _ = QFileDialog.getSaveFileName(self._page.window(), "Export view", "view.png", kinds)
+        path = SaveDialog(self._page.window(), "Export view", "view.png", kinds).ask()
         if path:
             self.export_to(path)
 

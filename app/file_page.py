@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import Slot
-from PySide6.QtWidgets import QFileDialog, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.export import copy_widget, export_widget
 from app.file_writing import whole_file
 from app.kept_results import KeptResults
 from app.pages import Page
+from app.save_dialog import SaveDialog
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ class FilePage(Page):
 
     def ask_path(self, title: str, name: str, kinds: str, write: Callable[[str], None]) -> None:
         """Ask for a file, and write to it unless there is none."""
-        path, _ = QFileDialog.getSaveFileName(self.window(), title, name, kinds)
+        path = SaveDialog(self.window(), title, name, kinds).ask()
         if path:
             write(path)
 

@@ -51,12 +51,8 @@ class History(Generic[State]):
         self._at = len(self._states) - 1
 
     def is_within(self, gesture: str) -> bool:
-        """Return whether the present value was put in by a gesture that goes on."""
+        """Return whether the present value was put in by this gesture."""
         return self._keys[self._at] == gesture
-
-    def seal(self) -> None:
-        """End a gesture: later values with its key are new ones."""
-        self._keys[self._at] = ""
 
     def undo(self) -> State:
         """Return to the value before."""

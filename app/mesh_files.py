@@ -107,15 +107,14 @@ def ignore_progress(fraction: float | None, doing: str) -> None:
 
 def read_file(path: Path, report: Report) -> LoadedMeshes:
     """Read ``path`` with the reader of its extension and check that there is something to draw."""
-    reader = READERS.get(path.suffix.lower())
-    if reader is None:
-        known = ", ".join(EXTENSIONS)
-        raise MeshFileError(
-            f"{path.name} has the extension {path.suffix or '(none)'}; files that open are {known}"
-        )
     try:
         if path.is_dir():
-            raise MeshFileError(f"{path.name} is a folder, not a file")
+            raise MeshFileError(f"a mesh is wanted, and {path.name} is a folder, not a file")
+        reader = READERS.get(path.suffix.lower())
+        if reader is None:
+            extension = f"the extension {path.suffix}" if path.suffix else "no extension"
+            known = ", ".join(EXTENSIONS)
+            raise MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
         if path.exists() and not path.is_file():
             raise MeshFileError(f"{path.name} is not a file")
         if path.stat().st_size == 0:

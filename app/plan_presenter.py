@@ -163,7 +163,7 @@ class PlanPresenter(AskedWork):
         if self.is_stale:
             self.refused.emit("What was chosen is for an earlier scene: look again (F5).")
             return
-        document = self._session.document
+        document = self._session.latest
         if document.settings == shown.plan.settings:
             self.message_sent.emit("The scene has these settings already.")
             return

@@ -54,7 +54,7 @@ class ScenePresenter(QObject):
 
     @Slot(str, float)
     def _edit_value(self, path: str, value: float) -> None:
-        document = self._session.document
+        document = self._session.latest
         try:
             if path == "document/focus/triangle":
                 edited = self._focus(document, value)

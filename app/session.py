@@ -51,6 +51,7 @@ class Session(QObject):
         """What traces large documents in the background."""
         self.tracing.traced.connect(self._take_traced)
         self.tracing.failed.connect(self.edit_failed)
+        self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document)
         self._cursor = Cursor()
         self._visited = History(self._cursor)
@@ -64,6 +65,12 @@ class Session(QObject):
     def document(self) -> Document:
         """What is open."""
         return self._history.present
+
+    @property
+    def latest(self) -> Document:
+        """What the next edit starts from: what is still being traced, as all edits before it; else what is open."""
+        newest = self.tracing.newest
+        return self.document if newest is None else newest.document
 
     @property
     def trace(self) -> Trace:
@@ -118,7 +125,6 @@ class Session(QObject):
         self.tracing.cancel()
         if trace is None:
             trace = trace_now(document, self._cursor.stage)
-        self._history.seal()
         self._history.put(document)
         self._pin = self._hover = None
         self._document_replaced(trace)
@@ -127,19 +133,16 @@ class Session(QObject):
     def edit(self, document: Document, gesture: str = "") -> None:
         """Take over an edited document; edits of one ``gesture`` are undone together.
 
-        What takes long is traced in the background, and taken over when that is done.
+        Every gesture has a name of its own. What takes long is traced in the background, and taken over when that is
+        done: also when the gesture has ended by then, as the last part of it.
 
         Raises
         ------
         ValueError
             If it cannot be traced; everything stays as it was.
         """
-        if document is not self.document:
+        if document is not self.latest:
             self._put(document, gesture)
-
-    def end_gesture(self) -> None:
-        """Say that the next edit is one of its own."""
-        self._history.seal()
 
     def take_back(self, gesture: str) -> None:
         """End a gesture as if it had not been; redo does it after all."""
@@ -149,12 +152,17 @@ class Session(QObject):
 
     def set_setting(self, family: str, value: str | int) -> None:
         """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
-        settings: Settings = replace(self.document.settings, **{family: value})  # type: ignore[arg-type]
-        if settings != self.document.settings:
-            self._put(replace(self.document, settings=settings))
+        settings: Settings = replace(self.latest.settings, **{family: value})  # type: ignore[arg-type]
+        if settings != self.latest.settings:
+            self._put(replace(self.latest, settings=settings))
 
     def undo(self) -> None:
-        """Take the last edit back."""
+        """Take the last edit back, with what is still being traced of it; or one that is being traced, alone."""
+        newest = self.tracing.newest
+        if newest is not None and newest.direction == 0:
+            self.tracing.cancel()
+            if not newest.gesture or not self._history.is_within(newest.gesture):
+                return
         self._go_in_history(-1)
 
     def redo(self) -> None:
@@ -181,7 +189,7 @@ class Session(QObject):
     @property
     def can_undo(self) -> bool:
         """Whether an edit can be taken back."""
-        return self._history.can_undo
+        return self._history.can_undo or self.tracing.newest is not None
 
     @property
     def can_redo(self) -> bool:

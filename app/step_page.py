@@ -304,7 +304,9 @@ class StepPage(Page):
         return str(self.view_bar.tabData(self.view_bar.currentIndex()))
 
     def main_view(self) -> QWidget:
-        """Return the widget of the main view that is shown; of the pixels, the grid alone."""
+        """Return the widget of the main view that is shown: the grid, or the three pictures, without what is around."""
+        if self.current_view() == "compare":
+            return self.compare_view.figure
         shown = self.view_stack.currentWidget()
         return self.grid if shown is None or self.current_view() == "pixels" else shown
 

@@ -64,6 +64,7 @@ class Tracing(QObject):
         super().__init__(parent)
         self._job = Job(self)
         self._waiting: Order | None = None
+        self._newest: Order | None = None
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
 
@@ -72,8 +73,14 @@ class Tracing(QObject):
         """Whether a trace is being waited for."""
         return self._job.is_running
 
+    @property
+    def newest(self) -> Order | None:
+        """What was ordered last of what is not done yet; ``None``: nothing is waited for."""
+        return self._newest
+
     def start(self, order: Order) -> None:
         """Trace as soon as what is being traced now is done."""
+        self._newest = order
         if self._job.is_running:
             self._waiting = order
             return
@@ -87,14 +94,14 @@ class Tracing(QObject):
     @Slot()
     def cancel(self) -> None:
         """Stop waiting; what is open stays as it is."""
-        self._waiting = None
+        self._waiting = self._newest = None
         if self._job.is_running:
             self._job.cancel()
             self.busy_changed.emit("")
 
     def shut_down(self) -> None:
         """Cancel and wait for the thread."""
-        self._waiting = None
+        self._waiting = self._newest = None
         self._job.shut_down()
 
     @Slot(object)
@@ -108,7 +115,7 @@ class Tracing(QObject):
         self._go_on()
 
     def _go_on(self) -> None:
-        waiting, self._waiting = self._waiting, None
+        waiting, self._waiting, self._newest = self._waiting, None, None
         self.busy_changed.emit("")
         if waiting is not None:
             self.start(waiting)

@@ -51,21 +51,20 @@ class VertexDrags(QObject):
 
     @Slot(int, float, float)
     def _drag(self, vertex: int, x: float, y: float) -> None:
-        document, trace = self._session.document, self._session.trace
+        document, latest, trace = self._session.document, self._session.latest, self._session.trace
         first_column, first_row, _, _ = trace.source.raster.bounds
         wanted = document.triangle if document.triangle is not None else self._focus()
         triangle = int(outlined_triangles(trace, wanted)[vertex // 3])
         place, size = (x + first_column, y + first_row), document.traced_scene.size
         try:
-            scene = move_corner(document.scene, triangle, vertex % 3, place, size)
-            self._session.edit(replace(document, scene=scene), self._gesture)
+            scene = move_corner(latest.scene, triangle, vertex % 3, place, size)
+            self._session.edit(replace(latest, scene=scene), self._gesture)
         except ValueError as error:
             self.refused.emit(f"The vertex was not moved: {error}")
 
     @Slot(int)
     def _end(self, vertex: int) -> None:
         self._count += 1
-        self._session.end_gesture()
 
     @Slot(int)
     def _take_back(self, vertex: int) -> None:

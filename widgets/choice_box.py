@@ -4,9 +4,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePainter
 
+MOST_SEEN = 16
+"""Choices in a list that does not scroll."""
+
 
 class ChoiceBox(QComboBox):
-    """A combo box that a wheel over it does not change and that shortens its text with an ellipsis."""
+    """A combo box that a wheel over it does not change and that shortens its text with an ellipsis, not its choices."""
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the box, and as much of the text as fits."""
@@ -19,6 +22,14 @@ class ChoiceBox(QComboBox):
         text = self.fontMetrics().elidedText(self.currentText(), Qt.TextElideMode.ElideRight, room - 4)
         option.currentText = text
         painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
+
+    def showPopup(self) -> None:
+        """Show the choices in a list as wide as the longest of them."""
+        self.setMaxVisibleItems(MOST_SEEN)
+        view = self.view()
+        bar = view.verticalScrollBar().sizeHint().width() if self.count() > MOST_SEEN else 0
+        view.setMinimumWidth(view.sizeHintForColumn(0) + 2 * view.frameWidth() + bar)
+        super().showPopup()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Leave the wheel to what scrolls."""

@@ -46,10 +46,13 @@ class CompareView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.linked = LinkedGrids(("A", "B", "Difference"), self)
+        self.figure = QWidget(self)
+        """The pictures with what is said of them, without the choices: what is exported and copied."""
+        self.figure.setAccessibleName("A, B and difference")
+        self.linked = LinkedGrids(("A", "B", "Difference"), self.figure)
         self.grids, self.titles = self.linked.grids, self.linked.titles
         self.buffer_box, self.family_box, self.value_box = (ChoiceBox(self) for _ in range(3))
-        self.summary = QLabel(self)
+        self.summary = QLabel(self.figure)
         self._settings: tuple[Setting, ...] = ()
         self.linked.pixel_hovered.connect(self.pixel_hovered)
         self.linked.pixel_left.connect(self.pixel_left)
@@ -89,8 +92,12 @@ class CompareView(QWidget):
         layout.setContentsMargins(0, 4, 0, 0)
         layout.setSpacing(8)
         layout.addLayout(row)
-        layout.addWidget(self.linked, 1)
-        layout.addWidget(self.summary)
+        layout.addWidget(self.figure, 1)
+        figure = QVBoxLayout(self.figure)
+        figure.setContentsMargins(0, 0, 0, 0)
+        figure.setSpacing(8)
+        figure.addWidget(self.linked, 1)
+        figure.addWidget(self.summary)
 
     def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
         """Offer buffers (name, title) for comparison."""
@@ -120,7 +127,12 @@ class CompareView(QWidget):
     def show_comparison(self, comparison: Comparison) -> None:
         """Show both pictures and their difference."""
         buffers = (comparison.first, comparison.second, comparison.difference)
-        titles = (comparison.first_title, comparison.second_title, "Difference")
+        name = self.buffer_box.currentText().lower()
+        titles = (
+            comparison.first_title,
+            comparison.second_title,
+            f"Difference, {name}" if name else "Difference",
+        )
         self.linked.show_buffers(buffers, titles)
         self.grids[2].show_overlays(comparison.marks)
         self.summary.setText(comparison.summary)

@@ -39,7 +39,11 @@ QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {
 QAbstractSpinBox::up-button { subcontrol-position: top right; }
 QAbstractSpinBox::down-button { subcontrol-position: bottom right; }
 QAbstractSpinBox::up-button:hover, QAbstractSpinBox::down-button:hover { background: $selection; }
+/* A list under the box: as a menu over it, Qt cuts the last choice off. */
+QComboBox { combobox-popup: 0; }
 QComboBox QAbstractItemView { background: $panel; border: 1px solid $outline; padding: ${u}px; }
+QComboBox QAbstractItemView::item { min-height: ${control}px; padding: 3px ${u}px; }
+QComboBox QAbstractItemView::item:selected { background: $selection; color: $text; }
 
 QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
     background: $panel; color: $text; border: 1px solid $outline; border-radius: 3px; padding: 3px ${u}px;

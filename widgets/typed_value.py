@@ -68,6 +68,7 @@ class TypedValue(QWidget):
     def set_range(self, lowest: float, highest: float) -> None:
         """Refuse values outside [lowest, highest]."""
         self._lowest, self._highest = lowest, highest
+        self.updateGeometry()
 
     def error_text(self) -> str:
         """Return what is wrong with the typed text; empty when nothing is."""
@@ -80,10 +81,15 @@ class TypedValue(QWidget):
         return QSize(self.edit.fontMetrics().horizontalAdvance(text) + 16, hint.height())
 
     def minimumSizeHint(self) -> QSize:
-        """Never narrower than four significant figures with sign and point."""
+        """Never narrower than four significant figures with sign and point, nor than the largest number allowed.
+
+        Figures that are cut off at the end would leave another number, which looks whole.
+        """
         hint = super().minimumSizeHint()
         text, room = ("\u22120.00", 10) if self._is_compact else ("\u22120.0000", 16)
-        return QSize(self.edit.fontMetrics().horizontalAdvance(text) + room, hint.height())
+        texts = [text, *(number_text(end) for end in (self._lowest, self._highest) if math.isfinite(end))]
+        width = max(map(self.edit.fontMetrics().horizontalAdvance, texts))
+        return QSize(width + room, hint.height())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Show full precision while editing; Escape restores."""

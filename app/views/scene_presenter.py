@@ -323,23 +323,21 @@ class ScenePresenter(QObject):
 
     @Slot(int, float, float)
     def _drag(self, index: int, x: float, y: float) -> None:
-        document, space, triangle = self._session.document, self._space, self.focus
+        latest, space, triangle = self._session.latest, self._space, self.focus
         if space is None or triangle is None or self._drawn is None:
             return
         corner, shot = space.corners(triangle)[index], self._drawn.shot
         place = moved_parallel(space, shot.orbit, shot.size, corner, x, y)
         try:
-            moved = move_corner_to(space, triangle, index, place)
+            moved = move_corner_to(replace(space, scene=latest.scene), triangle, index, place)
         except ValueError as error:
             self.refused.emit(str(error))
             return
-        scene = replace(moved, size=document.scene.size)
-        self._session.edit(replace(document, scene=scene), self._gesture)
+        self._session.edit(replace(latest, scene=moved), self._gesture)
 
     @Slot(int)
     def _end_drag(self, index: int) -> None:
         self._drags += 1
-        self._session.end_gesture()
 
     @Slot(int)
     def _take_drag_back(self, index: int) -> None:

@@ -1,6 +1,7 @@
 """A | B | difference: linked grids, what B does otherwise, and what cannot be drawn."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,6 +52,16 @@ def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBo
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     assert window.page.current_view() == "pixels"
     assert not window.menus.actions_by_name["compare"].isChecked()
+
+
+def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
+    window.page.show_view("compare")
+    window.files.export_to(str(tmp_path / "both.svg"))
+    drawing = (tmp_path / "both.svg").read_text()
+    for text in ("A, the page", "Scanline as printed", "Difference, colour", "pixels differ"):
+        assert text in drawing
+    for text in ("B = A", "Swap"):
+        assert text not in drawing
 
 
 def test_b_follows_the_page_but_for_its_difference(window: MainWindow) -> None:

@@ -8,11 +8,12 @@ import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QGuiApplication, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.compare_page import ComparePage
 from app.main_window import MainWindow
+from app.save_dialog import SaveDialog
 from app.study_charts import TIME
 from app.study_files import load_study, save_study
 from core.study import measure
@@ -96,7 +97,7 @@ def test_a_study_is_exported(
     page.studies.refresh()
     for ending in (".json", ".csv", ".svg", ".png", ".pdf"):
         path = str(tmp_path / f"study{ending}")
-        monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args, path=path: (path, ""))
+        monkeypatch.setattr(SaveDialog, "ask", lambda dialog, path=path: path)
         QTest.keyClick(window, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
         assert window.statusBar().currentMessage() == f"Exported study{ending}."
     loaded = load_study(tmp_path / "study.json")

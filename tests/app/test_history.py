@@ -24,18 +24,17 @@ def test_one_gesture_is_undone_together() -> None:
     history = History(0)
     for value in (1, 2, 3):
         history.put(value, "drag 0")
-    history.seal()
-    history.put(4, "drag 0")
+    history.put(4, "drag 1")
     assert history.undo() == 3
     assert history.undo() == 0
 
 
-def test_a_gesture_is_known_until_it_ends() -> None:
+def test_the_gesture_of_the_present_value_is_known() -> None:
     history = History(0)
     history.put(1, "drag 0")
     assert history.is_within("drag 0")
     assert not history.is_within("drag 1")
-    history.seal()
+    history.put(2)
     assert not history.is_within("drag 0")
 
 

@@ -82,7 +82,7 @@ def test_materials_that_share_a_texture_share_it_after_the_process(tmp_path):
             "v 0 0 0\n",
             "a.txt has the extension .txt; files that open are .obj, .ply, .stl, .off, .glb",
         ),
-        ("model", "v 0 0 0\n", "model has the extension (none)"),
+        ("model", "v 0 0 0\n", "the file model has no extension; files that open are .obj"),
         ("a.obj", "", "a.obj is empty"),
         ("a.obj", "Dear reader,\nthis is a letter.\n", "a.obj has no vertices: it is empty or no OBJ file"),
         ("a.obj", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj is not an OBJ file: it is not text"),
@@ -101,10 +101,10 @@ def test_an_extension_in_capitals_opens(tmp_path):
 def test_a_path_that_cannot_be_read_is_refused(tmp_path):
     with pytest.raises(MeshFileError, match="there is no file"):
         open_mesh(tmp_path / "gone.obj")
-    folder = tmp_path / "folder.obj"
-    folder.mkdir()
-    with pytest.raises(MeshFileError, match=r"folder\.obj is a folder"):
-        open_mesh(folder)
+    for name in ("folder.obj", "folder"):
+        (tmp_path / name).mkdir()
+        with pytest.raises(MeshFileError, match=f"a mesh is wanted, and {name} is a folder"):
+            open_mesh(tmp_path / name)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")

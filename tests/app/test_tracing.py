@@ -67,6 +67,73 @@ def test_of_many_that_wait_the_last_is_kept(qtbot: QtBot) -> None:
     session.tracing.shut_down()
 
 
+def wait_for(session: Session, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: not session.tracing.is_busy, timeout=20000)
+
+
+def test_what_of_a_drag_is_traced_after_its_end_is_undone_with_it(window: MainWindow, qtbot: QtBot) -> None:
+    session, grid = window.session, window.page.grid
+    slow = replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force"))
+    session.open(slow)
+    for x in (10.0, 20.0):
+        grid.vertex_dragged.emit(0, x, 12.0)
+        if x == 10.0:
+            wait_for(session, qtbot)
+    grid.vertex_drag_finished.emit(0)
+    assert session.tracing.is_busy
+    wait_for(session, qtbot)
+    assert session.document is not slow
+    session.undo()
+    wait_for(session, qtbot)
+    assert session.document is slow
+
+
+def test_an_edit_that_is_being_traced_is_undone_alone(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    assert not session.can_undo
+    with qtbot.waitSignal(session.history_changed):
+        session.set_setting("fill", "brute-force")
+    assert session.can_undo
+    session.undo()
+    assert not session.can_undo
+    session.set_setting("fill", "blocks")
+    quick = session.document
+    session.set_setting("fill", "brute-force")
+    session.undo()
+    assert session.document is quick
+    assert not session.tracing.is_busy
+    session.tracing.shut_down()
+    assert session.document is quick
+
+
+def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> None:
+    session = Session(open_document(make_scene(SPHERE), "Sphere"))
+    before = session.document
+    session.edit(replace(before, settings=Settings(fill="blocks")), "drag 0")
+    session.edit(replace(before, settings=Settings(fill="brute-force")), "drag 0")
+    session.undo()
+    assert session.document is before
+    assert not session.tracing.is_busy
+    session.tracing.shut_down()
+
+
+def test_an_edit_starts_from_the_one_that_is_still_being_traced(window: MainWindow, qtbot: QtBot) -> None:
+    session, grid = window.session, window.page.grid
+    session.open(replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force")))
+    grid.vertex_dragged.emit(0, 10.0, 12.0)
+    grid.vertex_drag_finished.emit(0)
+    assert session.tracing.is_busy
+    moved = session.latest.scene
+    assert moved is not session.document.scene
+    window.edits.toggle_cleared()
+    session.set_setting("shading", "flat")
+    session.set_setting("fill", "blocks")
+    wait_for(session, qtbot)
+    assert session.document.scene is moved
+    assert session.document.before == "cleared"
+    assert (session.document.settings.shading, session.document.settings.fill) == ("flat", "blocks")
+
+
 def test_too_long_a_run_is_refused_with_what_to_do(qtbot: QtBot) -> None:
     session = Session(open_document(make_scene("knot"), "Knot"))
     before = session.document

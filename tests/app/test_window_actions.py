@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from app.keys import ACTIONS, KeyAction
 from app.main_window import MainWindow
+from app.save_dialog import SaveDialog
 from core.steps import Level
 from widgets.theme import current_theme
 
@@ -88,7 +89,7 @@ def test_every_key_does_something(
     window.files.save_to(str(state))
     window.statusBar().clearMessage()
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *args: (str(state), ""))
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: (str(tmp_path / "view.png"), ""))
+    monkeypatch.setattr(SaveDialog, "ask", lambda dialog: str(tmp_path / "view.png"))
     prepare(window, action.name)
     window.statusBar().clearMessage()
     window.page.grid.setFocus()

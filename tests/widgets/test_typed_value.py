@@ -2,7 +2,7 @@ import math
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from widgets.number_text import fraction_text, full_text, number_text, parse_number
 from widgets.typed_value import TypedValue
@@ -186,3 +186,19 @@ def test_a_narrow_field_rounds_rather_than_cutting_digits_off(qtbot) -> None:
     field.show()
     qtbot.waitExposed(field)
     assert field.edit.text() == "−0.33"
+
+
+def test_the_largest_number_allowed_is_shown_whole_however_little_room_there_is(qtbot) -> None:
+    page = QWidget()
+    qtbot.addWidget(page)
+    row = QHBoxLayout(page)
+    field = TypedValue("triangle", page, is_compact=True)
+    field.set_range(0, 199999)
+    field.show_value(199999)
+    row.addWidget(field)
+    row.addStretch(1)
+    page.resize(10, 30)
+    page.show()
+    qtbot.waitExposed(page)
+    assert field.edit.text() == "199999"
+    assert field.edit.fontMetrics().horizontalAdvance("199999") <= field.edit.width() - 10
