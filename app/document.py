@@ -121,6 +121,10 @@ class Document:
         return trace(*run, earlier=earlier)
 
 
+NEAR_THE_MIDDLE = 64
+"""Triangles among which the one is chosen that is stepped first."""
+LEAST_AREA = 8.0
+"""Pixels that it has at least, if one of them has."""
 STEPPED = Settings(fill="bounding-box")
 """How a scene is first stepped: every pixel of a box tested, one after another, is the plainest fill to follow."""
 
@@ -144,15 +148,24 @@ def same_view(scene: AnyScene, columns: int, rows: int) -> TeachingRaster:
 
 
 def central_triangle(document: Document) -> int:
-    """Return the triangle that is seen nearest to the middle of the view, or 0."""
+    """Return the triangle nearest to the middle of the view that has pixels to look at, as far as one has, or 0."""
     whole = replace(document, raster=same_view(document.scene, *TEACHING_LIMIT), triangle=None)
-    primitive = TraceSource(whole.traced_scene, document.settings, None).picture.primitive
+    source = TraceSource(whole.traced_scene, document.settings, None)
+    primitive = source.picture.primitive
     rows, columns = np.nonzero(primitive >= 0)
     if len(rows) == 0:
         return 0
     middle = np.array(primitive.shape) / 2
-    nearest = np.argmin((rows - middle[0]) ** 2 + (columns - middle[1]) ** 2)
-    return int(primitive[rows[nearest], columns[nearest]])
+    by_distance = np.argsort((rows - middle[0]) ** 2 + (columns - middle[1]) ** 2, kind="stable")
+    seen = primitive[rows, columns][by_distance]
+    triangles = seen[np.sort(np.unique(seen, return_index=True)[1])][:NEAR_THE_MIDDLE]
+    vertices = source.geometry.vertices
+    enlarged = np.array(document.scene.size) / whole.traced_scene.size
+    first, second, third = vertices.window[vertices.corners[triangles].T, :2] * enlarged
+    with np.errstate(invalid="ignore"):
+        area = np.nan_to_num(np.abs(np.linalg.det(np.stack([second - first, third - first], axis=1))) / 2)
+    enough = min(LEAST_AREA, float(area.max()))
+    return int(triangles[np.argmax(area >= enough)])
 
 
 def window_corners_of(document: Document, triangle: int) -> Floats:
