@@ -174,7 +174,7 @@ class GridCanvas:
         if cells is None:
             painter.fillRect(area, QColor(theme.panel))
             if self._is_compact:
-                painter.setClipRect(placement.viewport)
+                painter.setClipRect(placement.seen_raster)
             else:
                 paint_rulers(painter, placement, area, theme)
                 painter.setClipRegion(beside_rulers(placement, area, theme))

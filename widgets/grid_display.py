@@ -219,7 +219,7 @@ class GridDisplay(QWidget):
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
         theme = current_theme()
         painter.save()
-        painter.setClipRect(placement.viewport)
+        painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
         if self._geometry is not None:
             self._paint_geometry(painter, placement, self._geometry)
         if self._step is not None:

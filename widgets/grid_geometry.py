@@ -146,14 +146,16 @@ def paint_focus(
     painter.setPen(QPen(halo, width + 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
     if free is not None:
         painter.setClipRegion(free)
+    else:
+        painter.setClipRect(placement.seen_raster)
     painter.drawLines(lines)
     for line, edge in zip(lines, source.tolist(), strict=True):
         painter.setPen(
             QPen(QColor(theme.vertex[edge]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
         )
         painter.drawLine(line)
-    painter.setClipRect(placement.viewport)
     if not small:
+        painter.setClipRect(placement.viewport)
         scale *= handle_part(placement, geometry)
         for place in range(3):
             position = vertex_place(geometry, placement, corners[place])

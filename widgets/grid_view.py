@@ -75,6 +75,12 @@ class GridPlacement:
             self.left + column * side, self.bottom - (row + rows) * side, columns * side, rows * side
         )
 
+    @property
+    def seen_raster(self) -> QRectF:
+        """The part of the viewport that the raster takes, with room for its border."""
+        raster = self.cells_rect(0, 0, self.columns, self.rows).adjusted(-1, -1, 1, 1)
+        return raster.intersected(QRectF(self.viewport))
+
     def visible_cells(self) -> tuple[int, int, int, int]:
         """Return (column0, row0, column1, row1) of the cells in the viewport; the upper ends are excluded."""
         return self.cells_in(QRectF(self.viewport))

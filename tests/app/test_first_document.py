@@ -32,8 +32,6 @@ def test_it_is_near_the_middle() -> None:
 
 
 def test_a_scene_behind_the_camera_opens() -> None:
-    scene = seen_from(0.0, 3.0, 1.0)
-    behind = Scene(
-        scene.meshes, Camera(np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.0, 20.0])), scene.lights, (512, 512)
-    )
-    assert open_document(behind, "nothing").triangle == 0
+    turned_away = Camera(np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.0, 20.0]))
+    scene = replace(seen_from(0.0, 3.0, 1.0), camera=turned_away)
+    assert open_document(scene, "nothing").triangle == 0

@@ -6,10 +6,10 @@ import weakref
 import numpy as np
 import pytest
 from PySide6.QtCore import QBuffer, QEvent, QIODevice, QObject, QPoint, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QPainter
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
 from widgets.grid_buffer import GridBuffer
@@ -338,3 +338,27 @@ def test_handles_are_smaller_on_a_tiny_triangle(grid: PixelGrid, corners, part: 
     assert grid.placement().cell == 31
     geometry = GridGeometry(np.array(corners), np.array([[0, 1, 2]]))
     assert handle_part(grid.placement(), geometry) == pytest.approx(part)
+
+
+@pytest.mark.parametrize("focus", [0, -1])
+@pytest.mark.parametrize("is_kept", [True, False])
+def test_no_line_of_a_thumbnail_leaves_its_frame(qtbot, focus: int, is_kept: bool) -> None:
+    widget = PixelGrid(compact=True)
+    qtbot.addWidget(widget)
+    widget.resize(300, 100)
+    widget.show_buffer(GridBuffer("z", np.zeros((16, 16), np.float32)))
+    far = np.array([[-99.0, 3.0], [99.0, 5.0], [8.0, 13.0]])
+    widget.show_geometry(GridGeometry(far, np.array([[0, 1, 2]]), focus))
+    widget.show()
+    qtbot.waitExposed(widget)
+    if is_kept:
+        shown = picture(widget)
+    else:
+        shown = QImage(widget.size(), QImage.Format.Format_RGB32)
+        QWidget.render(widget, shown, QPoint())
+    panel = QColor(current_theme().panel)
+    left = range(int(widget.placement().left) - 1)
+    assert len(left) > 80
+    assert all(shown.pixelColor(x, y) == panel for x in left for y in range(100))
+    inside = {shown.pixelColor(150, y).name() for y in range(10, 90)}
+    assert len(inside) > 1
