@@ -71,6 +71,7 @@ def run_window(target: str | None = None) -> int:
         if text:
             window.tell(text, MessageKind.WARNING)
     if target is not None:
+        window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
         window.open_path(target)
     code = application.exec()
     sys.excepthook = sys.__excepthook__

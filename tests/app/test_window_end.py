@@ -1,4 +1,4 @@
-"""The program ends with its own exit code, whatever is going on."""
+"""The program ends with its own exit code, whatever is going on, and begins where it ended."""
 
 import os
 import subprocess
@@ -39,10 +39,23 @@ sys.exit(window_start.run_window({target!r}))
     ],
 )
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
+    assert printed(tmp_path, target, act) == ""
+    assert (tmp_path / "preferences.json").is_file()
+
+
+def test_the_page_comes_back_but_a_scene_is_shown_on_the_first(tmp_path: Path) -> None:
+    tell = "print(window.pages.current_name)"
+    assert printed(tmp_path, "knot", f"{tell}; window.pages.show_page('plan')") == "step\n"
+    assert printed(tmp_path, None, tell) == "plan\n"
+    assert printed(tmp_path, "torus", tell) == "step\n"
+
+
+def printed(folder: Path, target: str | None, act: str) -> str:
+    """Return what the program says whose window shows ``target``, does ``act`` and is closed; it has to end well."""
     code = START.format(root=str(ROOT), act=act, target=target)
-    environment = {**os.environ, "RASTERSCOPE_CONFIG": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"}
+    environment = {**os.environ, "RASTERSCOPE_CONFIG": str(folder), "QT_QPA_PLATFORM": "offscreen"}
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=environment
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert (tmp_path / "preferences.json").is_file()
+    return done.stdout

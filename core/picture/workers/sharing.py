@@ -67,9 +67,9 @@ def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
 
     Notes
     -----
-    Cheaper colours are right where all triangles allow them, so the whole picture has them if all of its bands do. Of
-    the cheaper ones a scene has one kind at most, by what its vertices carry; one colour a triangle is the same bytes
-    whichever way it is worked out, and which triangles have bytes is decided for each alone.
+    Which triangles have bytes is decided for each alone. Of the other cheaper colours, which are right where all
+    triangles allow them, a scene has one kind at most, by what its vertices carry: the whole picture has them if all of
+    its bands do. One colour a triangle is the same bytes whichever way it is worked out.
     """
     if not all(route.allowed for route in routes):
         # Parts of a supersampled picture choose for themselves.
