@@ -23,8 +23,11 @@ class _Worker(QThread):
 
     def run(self) -> None:
         """Do the work; whatever it raises goes to the GUI thread."""
+        # The thread stays with its job, what it was given to work on does not.
+        work = self._work
+        del self._work
         try:
-            result = self._work(self.progressed.emit, self.isInterruptionRequested, self.part_done.emit)
+            result = work(self.progressed.emit, self.isInterruptionRequested, self.part_done.emit)
         except Exception as error:
             self.failed.emit(error)
         else:
@@ -116,12 +119,7 @@ class Job(QObject):
 
     @Slot()
     def _retire(self) -> None:
-        # One that ends meanwhile is asked once, and retires when it says so itself.
-        ended = [worker for worker in self._retired if not worker.isRunning()]
-        self._retired = [worker for worker in self._retired if worker not in ended]
-        # What a thread was given to work on goes with it; its parent would keep both.
-        for worker in ended:
-            worker.deleteLater()
+        self._retired = [worker for worker in self._retired if worker.isRunning()]
 
 
 class Desk(QObject):

@@ -1,33 +1,37 @@
-"""Threads of jobs that have ended are let go of."""
+"""What a job has worked on is let go of."""
 
-from PySide6.QtCore import QCoreApplication, QEvent, QThread
+from weakref import ref
+
 from pytestqt.qtbot import QtBot
 
-from app import workers
 from app.workers import Job
 
 
-def threads_of(job: Job) -> list[QThread]:
-    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    return job.findChildren(QThread)
+class Large:
+    """Something that should not stay in memory."""
 
 
-def test_a_thread_goes_when_it_has_ended(qtbot: QtBot) -> None:
-    job = Job()
+def test_what_was_worked_on_goes_when_the_work_is_done(qtbot: QtBot) -> None:
+    job, large = Job(), Large()
+    seen = ref(large)
+
+    def work(progress: object, is_cancelled: object, given: Large = large) -> int:
+        return 1 if given else 0
+
     with qtbot.waitSignal(job.succeeded):
-        job.start(lambda progress, is_cancelled: 1)
-    qtbot.waitUntil(lambda: threads_of(job) == [])
+        job.start(work)
+    del work, large
+    qtbot.waitUntil(lambda: seen() is None)
 
 
-def test_a_thread_that_ends_while_others_are_let_go_of_goes_too(qtbot: QtBot, monkeypatch) -> None:
-    job = Job()
-    job.start(lambda progress, is_cancelled: 1)
+def test_it_goes_too_when_nobody_waits_for_it_any_more(qtbot: QtBot) -> None:
+    job, large = Job(), Large()
+    seen = ref(large)
+
+    def work(progress: object, is_cancelled: object, given: Large = large) -> int:
+        return 1 if given else 0
+
+    job.start(work)
     job.cancel()
-    (worker,) = threads_of(job)
-    assert worker.wait(5000)
-    # Still running when it is looked at first.
-    answers = iter([True])
-    monkeypatch.setattr(workers._Worker, "isRunning", lambda self: next(answers, False))
-    job._retire()
-    assert threads_of(job) == [worker]
-    qtbot.waitUntil(lambda: threads_of(job) == [])
+    del work, large
+    qtbot.waitUntil(lambda: seen() is None)

@@ -164,8 +164,8 @@ def _bound_columns(
     right += 1 + owners.right_guard
     if reaches_out:
         first_column, _, end_column, _ = raster.bounds
-        for bound in (left, right):  # at both ends: that takes less time than at one (NumPy 2.4)
-            np.clip(bound, float(first_column), float(end_column), out=bound)
+        np.maximum(left, float(first_column), out=left)
+        np.minimum(right, float(end_column), out=right)
     start, length = (arena(name, len(left), dtype=np.int32) for name in ("row_start", "row_length"))
     np.copyto(start, left, casting="unsafe")
     np.copyto(length, right, casting="unsafe")
