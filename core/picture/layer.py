@@ -58,8 +58,8 @@ def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) ->
             spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
             fragments += spans.pixel_count
         with job.timed("shade"):
-            for pixel, word in each_pass(spans):
-                job.pixels[pixel] = unpack(word, job.arena)
+            for k, pixel, word in each_pass(spans):
+                job.pixels[k:][pixel] = unpack(word, job.arena)
     return fragments
 
 

@@ -39,8 +39,8 @@ def find_visible(job: Job) -> tuple[NearestFragments, Split]:
     rest = np.flatnonzero(~is_walked)
     if len(rest):
         fragments += _one_by_one(job, nearest, rest)
-    big = int(is_big.sum())
-    return nearest, Split(int(is_walked.sum()) - big, big, len(rest), fragments)
+    big = int(np.count_nonzero(is_big))
+    return nearest, Split(int(np.count_nonzero(is_walked)) - big, big, len(rest), fragments)
 
 
 def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Flags]:

@@ -95,8 +95,7 @@ def row_range(y: Floats, raster: Raster, owners: TieOwners, arena: Arena) -> tup
     _, first_row, _, end_row = raster.bounds
     for edge in (first, end):
         np.ceil(edge, out=edge)
-        np.maximum(edge, float(first_row), out=edge)
-        np.minimum(edge, float(end_row), out=edge)
+        np.clip(edge, float(first_row), float(end_row), out=edge)
     end -= first
     return first, end
 
@@ -189,7 +188,8 @@ def _edges(
         np.divide(1.0, dy, out=reciprocal[side])
         numerator[side][level] = -NOWHERE if side == LEFT else NOWHERE
 
-    # The middle edge is on the left where it goes down; as 1 / dy is negative there, -NOWHERE is far on the other side.
+    # The middle edge is on the left where it goes down, else on the right. Products with 1 and 0 put its numerator
+    # there, and on the other side -NOWHERE: far out on the right too, as it is divided by a negative dy there.
     step[MIDDLE_LEFT], reciprocal[MIDDLE_LEFT] = step[MIDDLE_RIGHT], reciprocal[MIDDLE_RIGHT]
     goes_down = np.less(reciprocal[MIDDLE_RIGHT], 0, out=part)
     np.multiply(numerator[MIDDLE_RIGHT], goes_down, out=numerator[MIDDLE_LEFT])

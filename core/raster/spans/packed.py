@@ -10,6 +10,7 @@ gives the same bits.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -74,29 +75,30 @@ def word_spans(
     return WordSpans(pixel, word, step, longer)
 
 
-def each_pass(spans: WordSpans) -> Iterator[tuple[Integers, Integers]]:
-    """Yield place in the buffer and word of pixels, (F,) int64 each, until all pixels of ``spans`` have come.
+def each_pass(spans: WordSpans) -> Iterator[tuple[int, Integers, Integers]]:
+    """Yield k, and place and word of pixels, (F,) int64 each, until all pixels of ``spans`` have come.
 
     Notes
     -----
-    Pass k is the k-th pixel of every span that has one: the first ``longer[k]``. What is left of the few longest spans
-    comes at once. The arrays are good until the next pass; the spans are used up.
+    Pass k is the k-th pixel of every span that has one: the first ``longer[k]``. It lies k places behind the first one,
+    so its place is counted from there: where that of the first is in the buffer, this one is in ``buffer[k:]``, and no
+    place has to be moved on. What is left of the few longest spans comes at once. The arrays are good until the next
+    pass; the words are used up.
     """
     pixel, word, step = spans.pixel, spans.word, spans.step
-    for passes, count in enumerate(spans.longer):
+    for k, (count, further) in enumerate(pairwise((*spans.longer, 0))):
         if count < FEW:
-            span, place = write_out(spans.longer[passes:])
-            yield pixel[span] + place, word[span] + place * step[span]
+            span, place = write_out(spans.longer[k:])
+            yield k, pixel[span] + place, word[span] + place * step[span]
             return
-        yield pixel[:count], word[:count]
-        pixel[:count] += 1
-        word[:count] += step[:count]
+        yield k, pixel[:count], word[:count]
+        word[:further] += step[:further]
 
 
 def draw_words(words: Integers, spans: WordSpans) -> None:
     """Keep the least word of every pixel of the buffer ``words`` (H*W,) int64; the spans are used up."""
-    for pixel, word in each_pass(spans):
-        np.minimum.at(words, pixel, word)
+    for k, pixel, word in each_pass(spans):
+        np.minimum.at(words[k:], pixel, word)
 
 
 def write_out(longer: list[int]) -> tuple[Integers, Integers]:

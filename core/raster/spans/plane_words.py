@@ -6,6 +6,7 @@ computed once a span.
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -61,8 +62,7 @@ class DepthPlanes:
 
     def words(self, depth: Floats, payload: Integers, arena: Arena) -> Integers:
         """Return the words (F,) int64 of depths (F,), which are limited and rounded in place."""
-        np.maximum(depth, 0.0, out=depth)
-        np.minimum(depth, 1.0, out=depth)
+        np.clip(depth, 0.0, 1.0, out=depth)
         if self.scale != 1:
             depth *= self.scale
             np.rint(depth, out=depth)
@@ -110,14 +110,14 @@ def draw_plane_words(
     x, y = raster.along(spans.start), raster.along(row)
     a, payload = planes.a.take(owner), planes.payload.take(owner)
     of_row = planes.b.take(owner) * y + planes.c.take(owner)
-    for passes, count in enumerate(spans.longer):
+    for k, (count, further) in enumerate(pairwise((*spans.longer, 0))):
         if count < FEW:
-            span, place = write_out(spans.longer[passes:])
+            span, place = write_out(spans.longer[k:])
             depth = a[span] * (x[span] + place) + of_row[span]
-            np.minimum.at(words, pixel[span] + place, planes.words(depth, payload[span], arena))
+            np.minimum.at(words[k:], pixel[span] + place, planes.words(depth, payload[span], arena))
             return
         depth = np.multiply(a[:count], x[:count], out=arena("plane_depth", count))
         depth += of_row[:count]
-        np.minimum.at(words, pixel[:count], planes.words(depth, payload[:count], arena))
-        pixel[:count] += 1
-        x[:count] += 1
+        # The k-th pixel is k places behind the first, see `packed.each_pass`.
+        np.minimum.at(words[k:], pixel[:count], planes.words(depth, payload[:count], arena))
+        x[:further] += 1

@@ -10,6 +10,7 @@ What else is linear in the rows is carried along: the number of the row, or of i
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -88,14 +89,13 @@ def bounds_of_rows(
     left, right = arena("left", total), arena("right", total)
     values = [arena(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
     done = row = 0
-    for count, levels in groups:
+    for (count, levels), (further, _) in pairwise((*groups, (0, 0))):
         end = done + count * levels
         shape = (levels, count)
-        _cross(
-            lanes, row, levels, count, left[done:end].reshape(shape), right[done:end].reshape(shape), arena
-        )
+        bounds = left[done:end].reshape(shape), right[done:end].reshape(shape)
+        _cross(lanes, row, levels, count, further, *bounds, arena)
         for value, carry in zip(values, carried, strict=True):
-            _carry(carry, levels, count, value[done:end].reshape(shape))
+            _carry(carry, levels, further, value[done:end].reshape(shape))
         done = end
         row += levels
     start, length = _bound_columns(left, right, lanes.reaches_out, raster, owners, arena)
@@ -113,9 +113,9 @@ def _groups(taller: list[int]) -> list[tuple[int, int]]:
 
 
 def _cross(
-    lanes: Lanes, row: int, levels: int, count: int, left: Floats, right: Floats, arena: Arena
+    lanes: Lanes, row: int, levels: int, count: int, further: int, left: Floats, right: Floats, arena: Arena
 ) -> None:
-    """Write the bounds (levels, count) of the next rows, and move the numerators on."""
+    """Write the bounds (levels, count) of the next rows, and move the numerators of the ``further`` lanes on."""
     numerator, step, reciprocal = (
         values[:, :count] for values in (lanes.numerator, lanes.step, lanes.reciprocal)
     )
@@ -124,7 +124,7 @@ def _cross(
         np.multiply(numerator, reciprocal, out=at)
         np.maximum(at[LEFT], at[MIDDLE_LEFT], out=left[0])
         np.minimum(at[RIGHT], at[MIDDLE_RIGHT], out=right[0])
-        numerator += step
+        numerator[:, :further] += step[:, :further]
         return
     block = arena("crossings", 4, levels, count)
     np.multiply(step[:, None], np.arange(float(levels))[:, None], out=block)
@@ -132,7 +132,7 @@ def _cross(
     block *= reciprocal[:, None]
     np.maximum(block[LEFT], block[MIDDLE_LEFT], out=left)
     np.minimum(block[RIGHT], block[MIDDLE_RIGHT], out=right)
-    numerator += step * levels
+    numerator[:, :further] += step[:, :further] * levels
     if lanes.taller[row + levels - 1] < count:
         ends = np.array(lanes.taller[row : row + levels])
         has_ended = np.arange(count) >= ends[:, None]
@@ -140,19 +140,21 @@ def _cross(
         np.copyto(right, -1.0, where=has_ended)
 
 
-def _carry(carry: Carried, levels: int, count: int, values: Integers) -> None:
-    """Write the carried values (levels, count) of the next rows, and move them on."""
+def _carry(carry: Carried, levels: int, further: int, values: Integers) -> None:
+    """Write the carried values (levels, count) of the next rows, and move those of the ``further`` lanes on."""
+    count = values.shape[1]
     first, up = carry.first[:count], carry.up if isinstance(carry.up, int) else carry.up[:count]
-    if levels == 1 or (isinstance(up, int) and not up):
+    is_fixed = isinstance(up, int) and not up
+    if levels == 1 or is_fixed:
         values[:] = first
     elif isinstance(up, int):
         np.add(first, (np.arange(levels) * up)[:, None], out=values)
     else:
         np.multiply(up, np.arange(levels)[:, None], out=values)
         values += first
-    if isinstance(up, int) and not up:
-        return
-    first += up if levels == 1 else up * levels
+    if not is_fixed:
+        change = up if isinstance(up, int) else up[:further]
+        first[:further] += change if levels == 1 else change * levels
 
 
 def _bound_columns(
