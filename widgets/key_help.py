@@ -44,6 +44,7 @@ class KeyHelp(QWidget):
         self.setAccessibleName("Keys")
         self._entries: tuple[KeyEntry, ...] = ()
         self._columns = 0
+        self._is_stale = True
         title = QLabel("Keys", self)
         title.setProperty("role", "title")
         self.search = QLineEdit(self)
@@ -98,6 +99,8 @@ class KeyHelp(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Begin in the field that finds."""
         super().showEvent(event)
+        if self._is_stale:
+            self._build()
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -132,6 +135,13 @@ class KeyHelp(QWidget):
 
     @Slot()
     def _rebuild(self) -> None:
+        """Show what there is now, or when the page is opened: hundreds of labels that few ask for take their time."""
+        self._is_stale = True
+        if self.isVisible():
+            self._build()
+
+    def _build(self) -> None:
+        self._is_stale = False
         self._columns = self._column_count()
         entries = self.shown_entries()
         self.none_found.setVisible(bool(self._entries) and not entries)

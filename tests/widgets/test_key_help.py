@@ -58,3 +58,21 @@ def test_columns_follow_the_width(page) -> None:
     assert page._columns == 2
     page.resize(400, 400)
     assert page._columns == 1
+
+
+def test_the_table_is_made_when_the_page_is_opened(qtbot) -> None:
+    page = KeyHelp()
+    qtbot.addWidget(page)
+    page.show_keys(KEYS)
+    page.search.setText("pixel")
+    assert page._scroll.widget() is None
+    page.show()
+    qtbot.waitExposed(page)
+    assert "Go to a pixel" in shown_texts(page)
+    assert "Space" not in shown_texts(page)
+    page.hide()
+    page.show_keys(KEYS[:2])
+    page.search.clear()
+    page.show()
+    assert "Space" in shown_texts(page)
+    assert "Go to a pixel" not in shown_texts(page)
