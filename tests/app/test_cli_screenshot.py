@@ -1,6 +1,9 @@
 """``rasterscope screenshot``: the window in a file, without a display."""
 
+import json
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -8,7 +11,7 @@ from PIL import Image
 
 from app.atlas_export import atlas_json
 from core.study.stability import Axis, experiments, stress
-from tests.app.cli_runs import refused, run_program
+from tests.app.cli_runs import ROOT, refused, run_program
 
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}
 
@@ -108,26 +111,48 @@ def test_options_of_another_page_are_wrong_usage(tmp_path, arguments, wanted):
     assert wanted in line
 
 
-@pytest.mark.parametrize(
-    ("arguments", "wanted"),
-    [
-        (["cube", "-o", "a.png", "--page", "compare", "--show", "tea"], "family must be one of "),
-        (
-            ["cube", "-o", "a.png", "--page", "compare", "--show", "line", "--work", "x"],
-            "work of line must be one",
-        ),
-        (
-            ["cube", "-o", "a.png", "--page", "stability", "--show", "tea"],
-            "experiment must be one of precision-dial",
-        ),
-        (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no such file"),
-        (["gone.obj", "-o", "a.png"], "there is no file gone.obj"),
-        (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
-        (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),
-    ],
-)
-def test_what_cannot_be_done_is_one_line(tmp_path, arguments, wanted):
-    line = refused(1, "screenshot", *arguments, cwd=tmp_path, **NO_DISPLAY)
-    assert line.startswith("rasterscope screenshot: ")
-    assert wanted in line
+REFUSED = [
+    (["cube", "-o", "a.png", "--page", "compare", "--show", "tea"], "family must be one of "),
+    (
+        ["cube", "-o", "a.png", "--page", "compare", "--show", "line", "--work", "x"],
+        "work of line must be one",
+    ),
+    (
+        ["cube", "-o", "a.png", "--page", "stability", "--show", "tea"],
+        "experiment must be one of precision-dial",
+    ),
+    (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no such file"),
+    (["gone.obj", "-o", "a.png"], "there is no file gone.obj"),
+    (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
+    (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),
+]
+ONE_AFTER_THE_OTHER = """
+import json, sys
+from app.cli import run_command_line
+sys.exit(sum(run_command_line(["screenshot", *arguments]) for arguments in json.loads(sys.argv[1])))
+"""
+
+
+def test_what_cannot_be_done_is_one_line(tmp_path):
+    """All in one process: to start one for each takes longer than all that they do."""
+    environment = {**os.environ, **NO_DISPLAY, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error"}
+    lines = json.dumps([arguments for arguments, _ in REFUSED])
+    run = subprocess.run(
+        [sys.executable, "-P", "-c", ONE_AFTER_THE_OTHER, lines],
+        capture_output=True,
+        encoding="utf-8",
+        cwd=tmp_path,
+        env=environment,
+        timeout=120,
+    )
+    assert (run.returncode, run.stdout) == (len(REFUSED), ""), run.stderr
+    told = run.stderr.splitlines()
+    for line, (_, wanted) in zip(told, REFUSED, strict=True):
+        assert line.startswith("rasterscope screenshot: ")
+        assert wanted in line
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_that_cannot_be_made_ends_the_program_with_1(tmp_path):
+    line = refused(1, "screenshot", "gone.obj", "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
+    assert "there is no file gone.obj" in line

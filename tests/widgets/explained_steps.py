@@ -91,7 +91,7 @@ def steps_of_scene(name: str) -> tuple[Step, ...]:
     scene, triangle, window = scene_and_window(name)
     found: list[Step] = []
     for settings in every_choice():
-        found += steps_of(trace(scene, settings, triangle, window, before="cleared"), 90)
+        found += steps_of(trace(scene, settings, triangle, window, before="cleared"), 60)
     return tuple(found)
 
 

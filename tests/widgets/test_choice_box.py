@@ -5,10 +5,10 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from widgets.choice_box import MOST_SEEN, ChoiceBox
-from widgets.theme import DARK, LIGHT, PRESENTER, Theme, apply_theme
+from widgets.theme import LIGHT, PRESENTER, Theme, apply_theme
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK, PRESENTER], ids=lambda theme: theme.name)
+@pytest.mark.parametrize("theme", [LIGHT, PRESENTER], ids=lambda theme: theme.name)
 @pytest.mark.parametrize("count", [3, MOST_SEEN, MOST_SEEN + 5])
 def test_no_choice_is_cut_off(qtbot: QtBot, theme: Theme, count: int) -> None:
     application = QApplication.instance()
