@@ -16,77 +16,112 @@ from tests.app.cli_runs import ROOT, refused, run_program
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}
 
 
-def shot(folder, *arguments):
-    run = run_program(
-        "screenshot",
-        *arguments,
-        "-o",
-        "window.png",
+LINES = ["--page", "compare", "--show", "visibility", "--work", "cycle", "--rounds", "1"]
+MAPS = ["--page", "stability", "--show", "painters-cycle"]
+DIAL = ["--page", "stability", "--show", "precision-dial"]
+SHOTS = {
+    "light": ["shared-edge", "--size", "1100x700"],
+    "dark": ["shared-edge", "--size", "1100x700", "--theme", "dark"],
+    "step": ["shared-edge"],
+    "first": ["shared-edge", "--stage", "raster", "--step", "1"],
+    "last": ["shared-edge", "--stage", "raster"],
+    "space": ["shared-edge", "--stage", "raster", "--view", "pyramid"],
+    "plain": ["shared-edge", "--stage", "resolve"],
+    "smooth": ["shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16"],
+    "lines": ["shared-edge", *LINES],
+    "maps": ["shared-edge", *MAPS],
+    "plan": ["shared-edge", "--page", "plan"],
+    "closed": ["shared-edge", *DIAL],
+    "opened": ["shared-edge", *DIAL, "--choose", "coverage=float32"],
+    "saved": ["../maps/atlas.json"],
+}
+"""Name of a picture of the window to what it shows."""
+ONE_AFTER_THE_OTHER = """
+import json, sys
+from app.cli import run_command_line
+sys.exit(sum(run_command_line(["screenshot", *arguments]) for arguments in json.loads(sys.argv[1])))
+"""
+
+
+def run_all(folder, commands):
+    """Run the command with all these arguments in one process: to start one for each takes longer than the rest."""
+    environment = {
+        **os.environ,
+        **NO_DISPLAY,
+        "PYTHONPATH": str(ROOT),
+        "PYTHONWARNINGS": "error",
+        "RASTERSCOPE_CONFIG": str(folder / "none"),
+    }
+    return subprocess.run(
+        [sys.executable, "-P", "-c", ONE_AFTER_THE_OTHER, json.dumps(commands)],
+        capture_output=True,
+        encoding="utf-8",
         cwd=folder,
-        RASTERSCOPE_CONFIG=folder / "none",
+        env=environment,
+        timeout=300,
+    )
+
+
+def pictures_in(folder):
+    """Make all pictures of the window, and return them by name, (h, w, 3)."""
+    (folder / "maps").mkdir()
+    axes = tuple(
+        Axis(a.name, a.title, a.unit, a.values[:3], True) for a in experiments.get("slivers").info.axes
+    )
+    (folder / "maps" / "atlas.json").write_text(atlas_json(stress("slivers", axes=axes)))
+    shots = folder / "shots"
+    shots.mkdir()
+    run = run_all(shots, [[*arguments, "-o", f"{name}.png"] for name, arguments in SHOTS.items()])
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    written = {f"{name}.png" for name in SHOTS}
+    assert set(os.listdir(shots)) == written, "a picture must not change what the window remembers"
+    found = {}
+    for name in SHOTS:
+        with Image.open(shots / f"{name}.png") as image:
+            found[name] = np.asarray(image.convert("RGB")).astype(int)
+    return found
+
+
+def differs(first, second):
+    """Return the part of the pixels of two pictures that differ."""
+    return (first != second).any(axis=2).mean()
+
+
+def test_the_program_makes_a_picture_without_a_display(tmp_path):
+    run = run_program(
+        *["screenshot", "shared-edge", "-o", "window.png"],
+        cwd=tmp_path,
+        RASTERSCOPE_CONFIG=tmp_path / "none",
         **NO_DISPLAY,
     )
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
-    assert os.listdir(folder) == ["window.png"], "a picture of the window must not change what it remembers"
-    with Image.open(folder / "window.png") as image:
-        return np.asarray(image.convert("RGB")).astype(int)
+    assert os.listdir(tmp_path) == ["window.png"]
 
 
-def test_the_window_has_the_size_and_the_theme(tmp_path):
-    light = shot(tmp_path, "shared-edge", "--size", "1100x700")
-    dark = shot(tmp_path, "shared-edge", "--size", "1100x700", "--theme", "dark")
+def test_pictures_show_what_was_asked_for(tmp_path):
+    """One test, so that one worker makes the pictures once."""
+    pictures = pictures_in(tmp_path)
+
+    light, dark = pictures["light"], pictures["dark"]
     assert light.shape == dark.shape == (700, 1100, 3)
     assert light.mean() > 180
     assert dark.mean() < 90
 
-
-def test_stage_step_and_view_are_those_that_were_asked_for(tmp_path):
-    first = shot(tmp_path, "shared-edge", "--stage", "raster", "--step", "1")
-    last = shot(tmp_path, "shared-edge", "--stage", "raster")
-    space = shot(tmp_path, "shared-edge", "--stage", "raster", "--view", "pyramid")
+    # Stage, step, view and method.
+    first, last, space = (pictures[name] for name in ("first", "last", "space"))
     assert first.shape == last.shape == space.shape == (800, 1280, 3)
-    assert (first != last).any(axis=2).mean() > 0.01
-    assert (space != last).any(axis=2).mean() > 0.01
+    assert differs(first, last) > 0.01
+    assert differs(space, last) > 0.01
+    assert differs(pictures["plain"], pictures["smooth"]) > 0.01
 
-
-def test_methods_are_those_that_were_asked_for(tmp_path):
-    plain = shot(tmp_path, "shared-edge", "--stage", "resolve")
-    smooth = shot(tmp_path, "shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16")
-    assert (plain != smooth).any(axis=2).mean() > 0.01
-
-
-def test_pages_are_filled(tmp_path):
-    step = shot(tmp_path, "shared-edge")
-    lines = shot(
-        tmp_path,
-        "shared-edge",
-        *["--page", "compare", "--show", "visibility", "--work", "cycle", "--rounds", "1"],
-    )
-    maps = shot(tmp_path, "shared-edge", *["--page", "stability", "--show", "painters-cycle"])
-    plan = shot(tmp_path, "shared-edge", "--page", "plan")
-    pictures = [step, lines, maps, plan]
-    for number, first in enumerate(pictures):
-        for second in pictures[:number]:
-            assert (first != second).any(axis=2).mean() > 0.05
-
-
-def test_what_is_behind_a_mark_is_opened(tmp_path):
-    page = ["shared-edge", *["--page", "stability", "--show", "precision-dial"]]
-    closed, opened = shot(tmp_path, *page), shot(tmp_path, *page, "--choose", "coverage=float32")
+    # Every page is filled, and what is behind a mark is opened.
+    pages = [pictures[name] for name in ("step", "lines", "maps", "plan")]
+    for number, page in enumerate(pages):
+        for other in pages[:number]:
+            assert differs(page, other) > 0.05
     lower = slice(560, 760), slice(290, 1280)
-    assert (closed[lower] != opened[lower]).any(axis=2).mean() > 0.2
-
-
-def test_a_saved_atlas_is_shown_as_it_is(tmp_path):
-    axes = tuple(
-        Axis(a.name, a.title, a.unit, a.values[:3], True) for a in experiments.get("slivers").info.axes
-    )
-    atlas = tmp_path / "maps" / "atlas.json"
-    atlas.parent.mkdir()
-    atlas.write_text(atlas_json(stress("slivers", axes=axes)))
-    (tmp_path / "picture").mkdir()
-    saved, step = shot(tmp_path / "picture", str(atlas)), shot(tmp_path / "picture", "shared-edge")
-    assert (saved != step).any(axis=2).mean() > 0.05
+    assert differs(pictures["closed"][lower], pictures["opened"][lower]) > 0.2
+    assert differs(pictures["saved"], pictures["step"]) > 0.05
 
 
 @pytest.mark.parametrize(
@@ -126,25 +161,10 @@ REFUSED = [
     (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
     (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),
 ]
-ONE_AFTER_THE_OTHER = """
-import json, sys
-from app.cli import run_command_line
-sys.exit(sum(run_command_line(["screenshot", *arguments]) for arguments in json.loads(sys.argv[1])))
-"""
 
 
 def test_what_cannot_be_done_is_one_line(tmp_path):
-    """All in one process: to start one for each takes longer than all that they do."""
-    environment = {**os.environ, **NO_DISPLAY, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error"}
-    lines = json.dumps([arguments for arguments, _ in REFUSED])
-    run = subprocess.run(
-        [sys.executable, "-P", "-c", ONE_AFTER_THE_OTHER, lines],
-        capture_output=True,
-        encoding="utf-8",
-        cwd=tmp_path,
-        env=environment,
-        timeout=120,
-    )
+    run = run_all(tmp_path, [arguments for arguments, _ in REFUSED])
     assert (run.returncode, run.stdout) == (len(REFUSED), ""), run.stderr
     told = run.stderr.splitlines()
     for line, (_, wanted) in zip(told, REFUSED, strict=True):
