@@ -12,7 +12,5 @@ def shade_visible(job: Job, nearest: NearestFragments) -> int:
     with job.timed("depth"):
         for place, primitive in nearest.seen():
             seen_count += len(place)
-            color = colors.at(primitive, *job.raster.position(place))
-            with job.timed("resolve"):
-                job.pixels[place] = job.encode(color)
+            colors.write(place, primitive)
     return seen_count

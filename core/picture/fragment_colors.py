@@ -36,3 +36,10 @@ class FragmentColors:
             slopes = texture_slopes(job.geometry, job.settings, job.raster, fragments, values)
             shaded = shade_fragments(job.scene, job.settings, primitives.layout, mesh, values, slopes)
             return np.asarray(shaded.color)
+
+    def write(self, place: Integers, primitive: Integers) -> None:
+        """Write the pixels at places in the picture (F,), of primitives (F,)."""
+        job = self._job
+        color = self.at(primitive, *job.raster.position(place))
+        with job.timed("resolve"):
+            job.pixels[place] = job.encode(color)

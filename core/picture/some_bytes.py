@@ -10,7 +10,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Integers
 from core.framebuffer.nearest import READ_AT_ONCE, NearestFragments
 from core.picture.byte_colors import ByteColors
 from core.picture.deferred import shade_visible
@@ -48,12 +47,5 @@ class SomeBytes:
                 self.colors.write(job, place.take(at), primitive.take(at))
             for part in blocks(len(other)):
                 at = other[part]
-                _write_plain(job, plain, place.take(at), number.take(primitive.take(at)))
+                plain.write(place.take(at), number.take(primitive.take(at)))
         return seen_count
-
-
-def _write_plain(job: Job, plain: FragmentColors, place: Integers, primitive: Integers) -> None:
-    """Write the pixels at places (F,), of primitives (F,), by attributes and light."""
-    color = plain.at(primitive, *job.raster.position(place))
-    with job.timed("resolve"):
-        job.pixels[place] = job.encode(color)

@@ -74,6 +74,5 @@ def color_doubtful(job: Job, nearest: NearestFragments, lit: Lit) -> int:
         colors, number = FragmentColors(job.part(np.flatnonzero(is_shown))), np.cumsum(is_shown) - 1
         for part in blocks(len(lit.place)):
             place = lit.place[part]
-            local = number.take(nearest.primitive_at(place))
-            job.pixels[place] = job.encode(colors.at(local, *job.raster.position(place)))
+            colors.write(place, number.take(nearest.primitive_at(place)))
     return lit.seen_count

@@ -80,7 +80,7 @@ def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
 
 
 def _of_all_triangles(color: str) -> str:
-    """Return a way of colouring, but that of a picture whose triangles all have the same."""
+    """Return a way of colouring, ``bytes`` also where only some of the triangles have them."""
     return "bytes" if color == "some-bytes" else color
 
 
