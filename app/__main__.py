@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Sequence
 
-from app.cli import run_command_line
+from app.cli.commands import run_command_line
 
 
 def main(argv: Sequence[str] | None = None) -> int:

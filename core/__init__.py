@@ -18,8 +18,8 @@ nor the other way round. Methods are imported by their table (`core.methods`).
 
 from typing import TYPE_CHECKING
 
-from core.frame import STAGES, Frame
-from core.on_demand import import_on_demand
+from core.lazy_import import import_on_demand
+from core.records.frame import STAGES, Frame
 from core.scene import (
     Camera,
     ClipScene,
@@ -34,19 +34,19 @@ from core.settings import Settings
 from core.trace import Trace, trace
 
 if TYPE_CHECKING:
-    from core.geometry.line_clip_records import ClippedLines
-    from core.geometry.line_clipping import clip_lines
-    from core.picture import Picture, draw_picture
+    from core.fast_path import Picture, draw_picture
+    from core.geometry.line_clipping.clipping import clip_lines
+    from core.geometry.line_clipping.records import ClippedLines
     from core.pipeline import draw_triangles, render
-    from core.raster.lines import draw_lines
+    from core.raster.lines.drawing import draw_lines
 else:
     __getattr__ = import_on_demand(
         globals(),
-        ClippedLines="core.geometry.line_clip_records",
-        Picture="core.picture",
-        clip_lines="core.geometry.line_clipping",
-        draw_lines="core.raster.lines",
-        draw_picture="core.picture",
+        ClippedLines="core.geometry.line_clipping.records",
+        Picture="core.fast_path",
+        clip_lines="core.geometry.line_clipping.clipping",
+        draw_lines="core.raster.lines.drawing",
+        draw_picture="core.fast_path",
         draw_triangles="core.pipeline",
         render="core.pipeline",
     )

@@ -10,26 +10,26 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.arrays import Floats, Integers
-from core.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
 from core.fragments.interpolation import Interpolator, interpolate
-from core.frame import Frame, StageCount
-from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
-from core.raster.edge_functions import EdgeFunctions
-from core.raster.fills import suited_fill
-from core.raster.schedule import Boxes, Raster, Runs, make_raster, rows_of
-from core.raster.wireframe import (
+from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.fills.tested import suited_fill
+from core.raster.lines.wireframe import (
     LineFragments,
     draw_outlines,
     interpolate_outlines,
 )
+from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster, rows_of
+from core.records.arrays import Floats, Integers
+from core.records.frame import Frame, StageCount
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import Settings, import_methods
-from core.surface import shade_fragments
-from core.texture_slopes import texture_slopes
+from core.stages.fragment_color import shade_fragments
+from core.stages.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
+from core.stages.texture_slopes import texture_slopes
+from core.stages.vertices import Geometry, process_geometry, timed
 
 Batch = TypeVar("Batch")
 

@@ -6,10 +6,10 @@ from math import isfinite, pi
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles, checked, checked_size
+from core.records.arrays import Floats, Integers, Singles, checked, checked_size
 
 SIZE_LIMIT = 16384
-"""Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edge_functions)."""
+"""Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
 
 COORDINATE_LIMIT = 1e60
 """Largest coordinate: products of three of them, as in a determinant, stay far from the end of float64."""

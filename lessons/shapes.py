@@ -4,8 +4,8 @@ from math import pi
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.framebuffer.display import linear_light
+from core.records.arrays import Floats, Integers
 from core.scene import Mesh, Texture
 
 FACE_COLORS = ("#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#F0E442")

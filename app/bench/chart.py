@@ -10,7 +10,7 @@ from app.bench.goals import goal_of
 from app.bench.harness import Entry, Result
 from app.bench.machine import Machine
 from app.bench.report import ratio_to
-from app.svg_shapes import QUIET, TEXT, line, text
+from app.export.svg_shapes import QUIET, TEXT, line, text
 
 WIDTH, MARGIN, GAP = 1000, 24, 36
 HEAD, FOOT = 92, 46

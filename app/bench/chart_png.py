@@ -14,7 +14,7 @@ def write_png(file: BinaryIO, svg: str) -> None:
     from PySide6.QtGui import QGuiApplication, QImage, QPainter
     from PySide6.QtSvg import QSvgRenderer
 
-    from app.export import png_bytes
+    from app.export.views import png_bytes
 
     application = QGuiApplication.instance() or QGuiApplication(["rasterscope"])
     renderer = QSvgRenderer(QByteArray(svg.encode("utf-8")))

@@ -6,9 +6,9 @@ import numpy as np
 
 from app.bench.random_triangles import DARKEST
 from app.bench.records import Bytes, Lighting, ViewedMesh
-from app.opengl_shapes import icosphere
-from core.arrays import Floats, Integers
+from app.opengl_check.shapes import icosphere
 from core.geometry.matrices import projection, world_to_camera
+from core.records.arrays import Floats, Integers
 from core.scene import Camera
 from lessons import shapes
 

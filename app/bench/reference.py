@@ -24,7 +24,7 @@ from app.bench.records import (
 )
 from app.bench.scenes import lights_of, mesh_of, method_names, view_of
 from core import Frame, Settings, render
-from core.arrays import Flags
+from core.records.arrays import Flags
 
 PLAIN = {"cull": "back", "fill": "bounding-box"}
 """Settings whose pictures are the reference."""

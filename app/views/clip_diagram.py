@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Floats
 from core.geometry.culling import PLANES, REASONS
-from core.geometry.sutherland_hodgman import distance_from
+from core.geometry.polygon_clipping.sutherland_hodgman import distance_from
+from core.records.arrays import Floats
 from core.trace import StageTrace, Trace
-from widgets.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
-from widgets.orbit import Orbit
+from widgets.space.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
+from widgets.space.orbit import Orbit
 
 EQUATIONS = ("z = −w", "z = w", "x = −w", "x = w", "y = −w", "y = w")
 NDC_EQUATIONS = ("z = −1", "z = 1", "x = −1", "x = 1", "y = −1", "y = 1")

@@ -4,7 +4,7 @@ import numpy as np
 
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import AnyScene, Camera, Mesh, Scene
-from core.solids import is_solid
+from core.stages.closed_meshes import is_solid
 
 FEWEST = 2_000
 """Triangles; the back faces of fewer cost less than it takes to find out."""

@@ -5,12 +5,12 @@ import numpy as np
 from app.views.pointed_pixel import PointedPixel, fragment_at
 from app.views.scene_picture import fractions
 from app.views.view_space import ViewSpace
-from core.arrays import Floats
 from core.geometry.matrices import transform
+from core.records.arrays import Floats
 from core.scene import Scene
 from core.trace import TraceSource
-from widgets.orbit import Orbit
-from widgets.scene_view import SceneMark
+from widgets.space.orbit import Orbit
+from widgets.space.scene_view import SceneMark
 
 PARTS = 24
 """A ray is projected in so many parts, so that what is behind the viewer can be left out."""

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.session import Pixel, Session
-from core.steps import Level
+from app.session.session import Pixel, Session
+from core.records.steps import Level
 from core.trace import TraceSource
 
 

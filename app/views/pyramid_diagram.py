@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.views.pointed_pixel import PointedPixel, fragment_at
-from core.arrays import Floats
 from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
+from core.records.arrays import Floats
 from core.trace import TraceSource
-from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
-from widgets.grid_buffer import number_text
-from widgets.space_paint import clip_polygon
+from widgets.grid.buffer import number_text
+from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
+from widgets.space.paint import clip_polygon
 
 LARGEST_W = 4.0
 SMALLEST_W = 0.4

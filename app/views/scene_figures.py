@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from core.frame import StageCount
-from core.picture import Route
-from core.picture.record import Coloring, Visibility
-from core.picture.workers import Sharing
+from core.fast_path import Route
+from core.fast_path.record import Coloring, Visibility
+from core.fast_path.workers import Sharing
+from core.records.frame import StageCount
 
 VISIBILITIES: dict[Visibility, str] = {
     "layer": "no depth, since no pixel belongs to two triangles",
@@ -25,7 +25,7 @@ COLORS: dict[Coloring, str] = {
     "texture": "packed texels",
     "deferred": "attributes and light once per visible pixel",
 }
-"""Ways of ``core.picture.Route``, in words."""
+"""Ways of ``core.fast_path.Route``, in words."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.framebuffer.display import Bytes
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import transform
-from core.raster.lines import draw_lines, interpolate_line
-from core.raster.schedule import expand
+from core.raster.lines.drawing import draw_lines, interpolate_line
+from core.raster.pixel_runs import expand
+from core.records.arrays import Flags, Floats, Integers
 
 DEPTH_BIAS = 0.004
 """How much farther than the surface, as a part of its distance, a line on it may seem to be."""
@@ -23,7 +23,7 @@ class SpaceLine:
     points: Floats = field(repr=False)
     """(N, 3) float64; a point that is not finite interrupts it."""
     ink: str
-    """Name of a colour, see ``widgets.ink``."""
+    """Name of a colour, see ``widgets.basics.ink``."""
     width: int = 1
     """Pixels."""
     hidden: float = 0.25

@@ -10,19 +10,19 @@ from app.views.scene_figures import FrameFigures
 from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines
 from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
 from core import Camera, Settings
-from core.arrays import Floats, Integers
+from core.fast_path.workers import BandWorkers
 from core.framebuffer.display import Bytes, linear_light
 from core.framebuffer.fixed_depth import SCALE
 from core.geometry.matrices import transform
-from core.picture.workers import BandWorkers
 from core.pipeline import draw
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
+from core.records.arrays import Floats, Integers
 from core.scene import AnyScene, Scene
 from core.trace import scene_triangle_count
-from widgets.ink import ink_color
-from widgets.orbit import Orbit
-from widgets.sight import Sight
-from widgets.theme import Theme
+from widgets.basics.ink import ink_color
+from widgets.basics.theme import Theme
+from widgets.space.orbit import Orbit
+from widgets.space.view_depth import Sight
 
 SIGHT_COLUMNS, SIGHT_ROWS = 96, 64
 """Places at which the distance of what is seen is kept."""

@@ -1,6 +1,6 @@
 """At which sizes the 3D view can draw: that of the view, that of the scene, or one that others are compared at."""
 
-from widgets.frame_corner import SizeChoice
+from widgets.space.frame_corner import SizeChoice
 
 OWN_SIZE = "view"
 SCENE_SIZE = "scene"

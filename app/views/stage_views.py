@@ -3,16 +3,16 @@
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
-from app.session import Session
+from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state
 from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
-from app.views.scene_presenter import ScenePresenter
+from app.views.scene3d_presenter import ScenePresenter
 from app.views.texture_footprint import no_texture_reason, texture_of, texture_pictures
 from core import STAGES
-from widgets.scene_view import SceneView
-from widgets.space_view import SpaceView
-from widgets.texture_levels import TextureLevels
+from widgets.space.scene_view import SceneView
+from widgets.space.texture_levels import TextureLevels
+from widgets.space.view import SpaceView
 
 TITLES = {"scene": "3D scene", "clip": "Clip space", "pyramid": "(x, y, w)", "texture": "Texture"}
 

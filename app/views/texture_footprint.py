@@ -4,17 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.session import Session
+from app.session.session import Session
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
-from core.arrays import Floats
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import TextureSamples, sample_texture
+from core.records.arrays import Floats
 from core.scene import ClipScene, Texture
 from core.trace import TraceSource
-from widgets.grid_buffer import number_text
-from widgets.texture_picture import TexelFootprint, TexturePicture
+from widgets.grid.buffer import number_text
+from widgets.space.texture_picture import TexelFootprint, TexturePicture
 
 PIXEL_SQUARE = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
 """Corners of a pixel around its centre, in turn."""

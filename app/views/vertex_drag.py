@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.scene_edits import set_clip_corner
+from app.session.scene_edits import set_clip_corner
 from app.views.view_space import ViewSpace
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
 
 

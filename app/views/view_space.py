@@ -9,14 +9,14 @@ from math import inf
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import projection, transform, world_to_camera
-from core.geometry.sutherland_hodgman import DEPTH_PLANES, clip_primitives
+from core.geometry.polygon_clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
 from core.geometry.vertex_stage import VertexStage, vertex_normals
-from core.primitives import Primitives
+from core.records.arrays import Floats, Integers
+from core.records.primitives import Primitives
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
-from widgets.orbit import Orbit
+from widgets.space.orbit import Orbit
 
 FIELD_OF_VIEW = 0.7
 """Vertical opening angle of the viewing camera, radians."""

@@ -17,9 +17,9 @@ from math import floor, inf
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.interpolation import Planes, perspective
 from core.methods import method
+from core.records.arrays import Floats, Integers
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,8 +22,8 @@ P. Heckbert, *Fundamentals of texture mapping and image warping*, 1989, section 
 
 import numpy as np
 
-from core.arrays import Floats, Integers, checked
 from core.methods import table
+from core.records.arrays import Floats, Integers, checked
 from core.scene import Texture
 
 PIECE_LIMIT = 1 << 16

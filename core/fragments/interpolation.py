@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.mixing import BLOCK, LocalNumbers, Mixer
 from core.methods import method, table
-from core.primitives import CornerValues, own_corners
+from core.records.arrays import Floats, Integers
+from core.records.primitives import CornerValues, own_corners
 
 DETERMINANT_ERROR = 2.0**-50
 """Rounding error of a determinant, as a part of the sum of the sizes of its terms."""

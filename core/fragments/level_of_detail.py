@@ -18,9 +18,9 @@ from math import sqrt
 import numpy as np
 from numpy import log2 as binary_logarithm
 
-from core.arrays import Floats, Integers
 from core.fragments.textures import uses_mipmaps
 from core.methods import method, table
+from core.records.arrays import Floats, Integers
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from math import sqrt
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, read_only
+from core.records.arrays import Flags, Floats, Integers, read_only
 from core.scene import DirectionalLight, Light, Material
 
 _BLOCK = 16384

@@ -6,10 +6,10 @@ from math import ceil, floor
 
 import numpy as np
 
-from core.arrays import Floats, Integers, read_only
 from core.fragments.level_of_detail import LevelChoice, choose_levels
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import TextureSamples, bilinear_color, sample_texture, texture_colors
+from core.records.arrays import Floats, Integers, read_only
 from core.scene import Texture
 
 _BLOCK = 8192

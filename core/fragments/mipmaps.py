@@ -16,7 +16,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import Texture
 
 _smaller: WeakKeyDictionary[Texture, tuple[Texture, ...]] = WeakKeyDictionary()

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, Integers
-from core.primitives import CornerValues
+from core.records.arrays import Floats, Integers
+from core.records.primitives import CornerValues
 
 BLOCK = 16384
 """Fragments mixed at once: enough to make the calls cheap, few enough for the processor's cache."""

@@ -34,10 +34,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers, Singles, read_only
-from core.byte_words import FIELDS, OPAQUE, let_meet
 from core.fragments.texel_places import PLACES, AxisPlaces, Wholes, place_count
 from core.methods import table
+from core.numeric.byte_words import FIELDS, OPAQUE, let_meet
+from core.records.arrays import Floats, Integers, Singles, read_only
 from core.scene import Texture
 
 Words = NDArray[np.uint32]
@@ -89,7 +89,7 @@ def has_bytes(texture: Texture) -> bool:
 
 @lru_cache(maxsize=4)
 def pack_bytes(texture: Texture, wrap: str) -> PackedTexture:
-    """Return a texture of bytes packed so that means, half a byte more, are words of ``core.byte_words``."""
+    """Return a texture of bytes packed so that means, half a byte more, are words of ``core.numeric.byte_words``."""
     byte = np.rint(texture.pixels * np.float32(255)).astype(np.int64)
     return _pack(byte, [low + fraction - 8 for low, fraction in FIELDS], _HALF, wrap)
 

@@ -16,7 +16,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.fragments.lighting import (
     Lighting,
     Reflectance,
@@ -28,6 +27,7 @@ from core.fragments.lighting import (
     trace_lighting,
 )
 from core.methods import method
+from core.records.arrays import Flags, Floats, Integers
 
 __all__ = [
     "Lighting",

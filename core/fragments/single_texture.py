@@ -18,9 +18,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles, read_only
 from core.fragments.texel_places import PLACES, AxisPlaces, place_count
 from core.methods import table
+from core.records.arrays import Floats, Integers, Singles, read_only
 from core.scene import Texture
 
 BLOCK = 16384

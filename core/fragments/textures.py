@@ -17,8 +17,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Integers, Singles, read_only
 from core.methods import method, table
+from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.scene import Texture
 
 COORDINATE_LIMIT = 2.0**32

@@ -12,9 +12,9 @@ J. P. Ewins et al., *MIP-map level selection for texture mapping*, IEEE TVCG 4 (
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.interpolation import Planes, numerators
-from core.primitives import CornerValues
+from core.records.arrays import Floats, Integers
+from core.records.primitives import CornerValues
 
 BLOCK = 8192
 """Fragments that are looked at once, so that their numbers stay in the processor's cache."""

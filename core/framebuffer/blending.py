@@ -20,9 +20,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, Singles
 from core.framebuffer.stacks import PixelStacks
 from core.methods import method
+from core.records.arrays import Flags, Floats, Integers, Singles
 
 
 @method(

@@ -14,9 +14,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Integers, Singles
 from core.framebuffer.stacks import PixelStacks
 from core.methods import method
+from core.records.arrays import Flags, Floats, Integers, Singles
 
 FLOAT_INFINITY = 0x7F800000
 """Bits of the float32 infinity; the bits of positive floats are in the order of their values."""

@@ -15,10 +15,10 @@ from functools import partial
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Singles
 from core.framebuffer.depth import DepthFormat, as_float32
-from core.framebuffer.logarithm import log2, log2_of
 from core.methods import method
+from core.numeric.logarithm import log2, log2_of
+from core.records.arrays import Flags, Floats, Singles
 
 NEAREST_W, FARTHEST_W = 2.0**-16, 2.0**16
 """What the logarithm counts from and to where there is no camera: triangles given in clip space."""

@@ -18,7 +18,7 @@ from math import floor, isnan
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Singles, read_only
+from core.records.arrays import Flags, Floats, Singles, read_only
 
 Bytes = NDArray[np.uint8]
 Words = NDArray[np.uint32]

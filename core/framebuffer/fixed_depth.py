@@ -17,10 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.framebuffer.depth import DepthFormat, Stored
-from core.integer_planes import FieldPlane, IntegerPlanes, integer_planes
 from core.methods import method
+from core.numeric.integer_planes import FieldPlane, IntegerPlanes, integer_planes
+from core.records.arrays import Flags, Floats, Integers
 
 DEPTH_BITS = 38
 SCALE = 2.0**DEPTH_BITS

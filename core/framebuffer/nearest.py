@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
-from core.arrays import Integers
 from core.framebuffer.depth import DepthFormat, Stored
+from core.records.arrays import Integers
 
 BLOCK = 1 << 15
 """Pixels that are worked on together: their numbers stay in the processor's cache."""

@@ -18,8 +18,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.arrays import Floats, Singles
 from core.methods import method, table
+from core.records.arrays import Floats, Singles
 
 Weigh = Callable[[Floats], Floats]
 AROUND = (-1, 0, 1)

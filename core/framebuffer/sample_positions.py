@@ -14,7 +14,7 @@ H. Jubair, *Computer Graphics*, lecture "Antialiasing", supersampling.
 
 import numpy as np
 
-from core.arrays import Floats, read_only
+from core.records.arrays import Floats, read_only
 
 ROTATED_GRID = read_only(np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]))
 """(4, 2) the four samples of graphics cards: each alone in its row, its column and its quarter of the pixel."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Integers
-from core.sorting import largest_first, radix_order
+from core.numeric.sorting import largest_first, radix_order
+from core.records.arrays import Integers
 
 
 @dataclass(frozen=True, eq=False)

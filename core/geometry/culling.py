@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.cached import cached_property
 from core.geometry.outcodes import BEHIND_BIT, PLANE_BITS, Outcodes, has_bits, shared_bits
 from core.methods import method, table
-from core.primitives import IndexedPrimitives
+from core.records.arrays import Flags, Floats, Integers
+from core.records.cached import cached_property
+from core.records.primitives import IndexedPrimitives
 
 KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE = range(6)
 REASONS = ("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane")
@@ -83,7 +83,7 @@ def cull(assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, cull_f
     ----------
     assembled : IndexedPrimitives
     outcode : (M,) uint8, of its vertices
-    facing : (T,) float64, see ``core.raster.edge_functions.orient``
+    facing : (T,) float64, see ``core.raster.edges.edge_functions.orient``
     cull_faces : str
         A method of the family ``cull``.
     """

@@ -7,7 +7,7 @@ M. Zwicker, *Computergrafik*, lecture "The complete vertex transform", Bern 2016
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import Camera
 
 

@@ -11,7 +11,7 @@ R. Sproull, I. Sutherland, *A clipping divider*, 1968.
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 
 Outcodes = NDArray[np.uint8]
 

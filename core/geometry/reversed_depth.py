@@ -14,7 +14,7 @@ E. Lapidous, G. Jiao, *Optimal depth buffer for low-cost graphics hardware*, 199
 N. Reed, *Depth precision visualized*, 2015.
 """
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 
 
 def reversed_clip_depth(z: Floats, w: Floats, view_range: tuple[float, float] | None) -> Floats:

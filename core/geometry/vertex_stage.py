@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers, Scalar, read_only
-from core.cached import cached_property
 from core.geometry.matrices import projection, transform, viewport, world_to_camera
-from core.primitives import own_corners
+from core.records.arrays import Floats, Integers, Scalar, read_only
+from core.records.cached import cached_property
+from core.records.primitives import own_corners
 from core.scene import ClipScene, Mesh, Scene
 
 

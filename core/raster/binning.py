@@ -8,9 +8,8 @@ N. Greene, *Hierarchical polygon tiling with coverage masks*, 1996.
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
-from core.raster.schedule import (
+from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside
+from core.raster.pixel_runs import (
     BEHIND,
     INSIDE,
     LEAF,
@@ -24,6 +23,7 @@ from core.raster.schedule import (
     Runs,
     expand,
 )
+from core.records.arrays import Flags, Floats, Integers
 
 
 def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:

@@ -6,11 +6,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside
-from core.raster.exact_format import ExactFormat, decide_filtered
-from core.raster.incremental import stepped_values
-from core.raster.schedule import ADDED_A, EVALUATED, Raster, Runs, expand
+from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside
+from core.raster.fills.incremental import stepped_values
+from core.raster.number_formats.exact import ExactFormat, decide_filtered
+from core.raster.pixel_runs import ADDED_A, EVALUATED, Raster, Runs, expand
+from core.records.arrays import Flags, Floats, Integers
 
 BATCH = 1 << 17
 """Pixels looked at in one go: large enough to hide call overhead, small enough to stay in the cache."""

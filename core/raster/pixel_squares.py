@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.raster.edge_functions import EdgeFunctions, edge_value
-from core.raster.schedule import BEHIND, MIXED, PROJECTED, Boxes, Raster, expand, rows_of
+from core.raster.edges.edge_functions import EdgeFunctions, edge_value
+from core.raster.pixel_runs import BEHIND, MIXED, PROJECTED, Boxes, Raster, expand, rows_of
+from core.records.arrays import Flags, Floats, Integers
 
 BATCH = 1 << 20
 """Squares that are looked at in one go, about."""

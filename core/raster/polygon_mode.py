@@ -1,4 +1,4 @@
-"""The family ``polygon_mode``: triangles filled, or drawn as their edges (`core.raster.wireframe`)."""
+"""The family ``polygon_mode``: triangles filled, or drawn as their edges (`core.raster.lines.wireframe`)."""
 
 from core.methods import method
 

@@ -1,7 +1,9 @@
 """The program measures itself: speed against accuracy, stability, and what a scene needs."""
 
-from core.study.families import study_families, study_family
-from core.study.machine import machine
+from core.study.accuracy.families import study_families, study_family
+from core.study.accuracy.machine import machine
+from core.study.accuracy.record import ErrorMeasure, Opening, Pictures, Point, Study, WorkKind, pareto_front
+from core.study.accuracy.speed_accuracy import StudyCancelledError, measure, opening, pictures
 from core.study.planner import (
     Decision,
     Findings,
@@ -15,8 +17,6 @@ from core.study.planner import (
     plan,
     plan_and_check,
 )
-from core.study.record import ErrorMeasure, Opening, Pictures, Point, Study, WorkKind, pareto_front
-from core.study.speed_accuracy import StudyCancelledError, measure, opening, pictures
 
 __all__ = [
     "Decision",

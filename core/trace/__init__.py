@@ -6,8 +6,8 @@ and what traces it is imported no earlier.
 
 from typing import TYPE_CHECKING
 
-from core.frame import STAGES
-from core.on_demand import import_on_demand
+from core.lazy_import import import_on_demand
+from core.records.frame import STAGES
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 
@@ -86,7 +86,7 @@ def trace(
 
     source = TraceSource(scene, settings or Settings(), triangle, region, before)
     if earlier is not None:
-        from core.trace.edited.retrace import after_edit
+        from core.trace.incremental.retrace import after_edit
 
         source = after_edit(source, earlier.source)
     if min(source.raster.shape) <= 0:

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from core.blend_choice import blend_choice
 from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.stacks import stack_fragments
-from core.listing import listing
 from core.methods import table
-from core.raster.line_intensities import intensities_of, weigh_alpha, weighed_color
-from core.steps import Operation, Steps, ends_of
+from core.raster.lines.intensities import intensities_of, weigh_alpha, weighed_color
+from core.records.listing import listing
+from core.records.steps import Operation, Steps, ends_of
+from core.stages.blend_choice import blend_choice
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 

@@ -3,11 +3,11 @@
 import numpy as np
 
 from core.geometry.culling import PLANES
-from core.geometry.polygon_clipping import PolygonClipping
-from core.geometry.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
-from core.listing import listing
+from core.geometry.polygon_clipping.methods import PolygonClipping
+from core.geometry.polygon_clipping.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
 from core.methods import table
-from core.steps import Operation, Steps, ends_of
+from core.records.listing import listing
+from core.records.steps import Operation, Steps, ends_of
 from core.trace.clip_divide import with_division
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from core.arrays import Integers
-from core.geometry.after_divide import divide_corner
 from core.geometry.culling import PLANES
-from core.listing import listing
-from core.steps import Operation
+from core.geometry.polygon_clipping.after_divide import divide_corner
+from core.records.arrays import Integers
+from core.records.listing import listing
+from core.records.steps import Operation
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace

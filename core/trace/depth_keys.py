@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from core.arrays import Integers
 from core.framebuffer.fixed_depth import FixedPlanes
 from core.framebuffer.packed_keys import NUMBER_BITS
 from core.framebuffer.stacks import stack_fragments
-from core.raster.wireframe import LineFragments
-from core.steps import Operation
+from core.raster.lines.wireframe import LineFragments
+from core.records.arrays import Integers
+from core.records.steps import Operation
 from core.trace.source import TraceSource
 
 _KEY = (

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from core.fragment_depth import fragment_quantity, logarithm_range, outlines_of, reversed_ends
 from core.framebuffer.depth_formats import (
     logarithm_of_w,
     reversed_depth,
@@ -13,9 +12,10 @@ from core.framebuffer.depth_formats import (
     share_of_depth,
     unsigned_depth,
 )
-from core.listing import Listing, listing
-from core.raster.wireframe import LineFragments, line_parameter
-from core.steps import Operation
+from core.raster.lines.wireframe import LineFragments, line_parameter
+from core.records.listing import Listing, listing
+from core.records.steps import Operation
+from core.stages.fragment_depth import fragment_quantity, logarithm_range, outlines_of, reversed_ends
 from core.trace.source import TraceSource
 
 _ROUND = Operation("depth", "round", ("depth", "stored"))

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from core.listing import listing
-from core.raster.edge_functions import anchored_coefficients, edge_coefficients
-from core.raster.float_formats import rounded_corner
-from core.raster.inverse_format import inverse_coefficients
-from core.raster.snapping import snap_one
-from core.steps import Operation, Steps, ends_of
+from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.edges.snapping import snap_one
+from core.raster.number_formats.floats import rounded_corner
+from core.raster.number_formats.inverse import inverse_coefficients
+from core.records.listing import listing
+from core.records.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Integers
-from core.listing import Listing
-from core.steps import Operation, Steps, ends_of
+from core.records.arrays import Integers
+from core.records.listing import Listing
+from core.records.steps import Operation, Steps, ends_of
 from core.trace.stage_trace import StageTrace, no_pixels
 
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from core.arrays import Floats
 from core.fragments.corrected_affine import interpolate_corrected_at, place_anchors
 from core.fragments.interpolation import (
     interpolate_affine_at,
@@ -11,8 +10,7 @@ from core.fragments.interpolation import (
     perspective,
     take_provoking_value,
 )
-from core.listing import listing
-from core.raster.wireframe import (
+from core.raster.lines.wireframe import (
     LineFragments,
     interpolate_affine_along,
     interpolate_along,
@@ -20,7 +18,9 @@ from core.raster.wireframe import (
     line_parameter,
     values_at_ends,
 )
-from core.steps import Operation, Steps, ends_of
+from core.records.arrays import Floats
+from core.records.listing import listing
+from core.records.steps import Operation, Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace

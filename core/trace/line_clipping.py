@@ -7,20 +7,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.clipped_outlines import OutlineClip
-from core.geometry.cohen_sutherland import cohen_sutherland_listing
-from core.geometry.cyrus_beck import cyrus_beck_listing
-from core.geometry.exact_line_clipping import exact_listing
-from core.geometry.liang_barsky import liang_barsky_listing
-from core.geometry.line_clip_records import (
+from core.geometry.line_clipping.cohen_sutherland import cohen_sutherland_listing
+from core.geometry.line_clipping.cyrus_beck import cyrus_beck_listing
+from core.geometry.line_clipping.exact import exact_listing
+from core.geometry.line_clipping.liang_barsky import liang_barsky_listing
+from core.geometry.line_clipping.records import (
     ENTER,
     OUTCODE_CASES,
     PARAMETER_CASES,
     OutcodeRows,
     ParameterRows,
 )
-from core.listing import listing
-from core.steps import Operation
+from core.records.listing import listing
+from core.records.steps import Operation
+from core.stages.clipped_outlines import OutlineClip
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace

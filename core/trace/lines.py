@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from core.arrays import Flags, Floats
-from core.listing import listing
-from core.raster.dda import line_coefficients
-from core.raster.line_records import Segments, check_segments, major_first
-from core.raster.lines import LISTINGS
-from core.raster.rectangle_lines import SUBPIXELS, snapped_ends
-from core.raster.smooth_lines import FILTER_TABLE, filter_entry, line_cosine
-from core.raster.wireframe import line_parameter
-from core.steps import Steps, ends_of
+from core.raster.lines.dda import line_coefficients
+from core.raster.lines.drawing import LISTINGS
+from core.raster.lines.records import Segments, check_segments, major_first
+from core.raster.lines.rectangle import SUBPIXELS, snapped_ends
+from core.raster.lines.smooth import FILTER_TABLE, filter_entry, line_cosine
+from core.raster.lines.wireframe import line_parameter
+from core.records.arrays import Flags, Floats
+from core.records.listing import listing
+from core.records.steps import Steps, ends_of
 from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
 from core.trace.source import TraceSource

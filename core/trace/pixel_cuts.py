@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.exact_area import DrawnLayer, PiecePainter
-from core.arrays import Flags, Floats, Integers
-from core.framebuffer.pixel_pieces import (
+from core.antialiasing.exact_area import DrawnLayer, PiecePainter
+from core.antialiasing.pixel_pieces import (
     ON_LINE,
     Pieces,
     area_of,
@@ -22,9 +21,10 @@ from core.framebuffer.pixel_pieces import (
     split_pieces,
     whole_pixels,
 )
-from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
-from core.listing import listing
-from core.steps import Operation
+from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
+from core.records.arrays import Flags, Floats, Integers
+from core.records.listing import listing
+from core.records.steps import Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
 from core.trace.stage_trace import BufferTrack, StageTrace
 

@@ -4,16 +4,16 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from core.arrays import Flags
 from core.fragments.interpolation import numerators
-from core.listing import Listing, listing
-from core.raster.edge_functions import covers
-from core.raster.incremental import step_covers
-from core.raster.scanline import span
-from core.raster.scanline_lecture import draw_triangle
+from core.raster.edges.edge_functions import covers
+from core.raster.fills.incremental import step_covers
+from core.raster.fills.scanline import span
+from core.raster.fills.scanline_lecture import draw_triangle
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder, order_of_spans
-from core.steps import Steps, ends_of
+from core.records.arrays import Flags
+from core.records.listing import Listing, listing
+from core.records.steps import Steps, ends_of
 from core.trace.lines import trace_lines
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.row_table import RowTable, rows_of_runs

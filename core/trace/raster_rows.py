@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from core.arrays import Integers
-from core.steps import Operation
+from core.records.arrays import Integers
+from core.records.steps import Operation
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack
 

@@ -4,17 +4,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.antialiased.exact_area import DrawnLayer, piece_painter, piece_sum
-from core.antialiased.sample_counts import positions_of
-from core.antialiased.sampled import grown, inner_of
-from core.arrays import Flags, Floats, Integers, Singles
-from core.frame import STAGES, StageCount
+from core.antialiasing.exact_area import DrawnLayer, piece_painter, piece_sum
+from core.antialiasing.sample_counts import positions_of
+from core.antialiasing.sampled import grown, inner_of
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
-from core.geometry_stages import process_geometry
-from core.listing import Listing, listing
 from core.pipeline import draw
-from core.steps import Operation, Steps, ends_of
+from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.frame import STAGES, StageCount
+from core.records.listing import Listing, listing
+from core.records.steps import Operation, Steps, ends_of
+from core.stages.vertices import process_geometry
 from core.trace.blend import trace_blend
 from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts
 from core.trace.source import TraceSource

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, Integers
-from core.raster.schedule import EVALUATED
+from core.raster.pixel_runs import EVALUATED
+from core.records.arrays import Floats, Integers
 from core.trace.raster_rows import FILL_OPERATIONS
 from core.trace.source import TraceSource
 

@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.antialiased.multisampling import at_sample
-from core.antialiased.supersampling import finer_raster, finer_scene, finer_settings, in_squares
-from core.arrays import Floats
-from core.cached import cached_property
-from core.frame import STAGES, Frame, StageCount
+from core.antialiasing.multisampling import at_sample
+from core.antialiasing.supersampling import finer_raster, finer_scene, finer_settings, in_squares
 from core.framebuffer.sample_positions import ROTATED_GRID
-from core.geometry_stages import Geometry, process_geometry
 from core.pipeline import fragment_values, fragments_of, owner_of
 from core.raster.coverage import Fragments
-from core.raster.schedule import Raster
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Floats
+from core.records.cached import cached_property
+from core.records.frame import STAGES, Frame, StageCount
+from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 
 

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiased.sample_counts import side_of
-from core.arrays import Floats, Integers
+from core.antialiasing.sample_counts import side_of
 from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
-from core.raster.edge_functions import edge_value
-from core.steps import Steps, ends_of
+from core.raster.edges.edge_functions import edge_value
+from core.records.arrays import Floats, Integers
+from core.records.steps import Steps, ends_of
 from core.trace.raster_rows import occurrence
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.source import TraceSource

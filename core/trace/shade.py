@@ -5,20 +5,20 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
 from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
-from core.listing import Listing, listing
+from core.records.arrays import Floats, Integers
+from core.records.listing import Listing, listing
+from core.records.steps import Operation, Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
-from core.steps import Operation, Steps, ends_of
+from core.stages.vertex_light import material_of, viewpoint
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
-from core.vertex_light import material_of, viewpoint
 
 TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {
     "nearest": nearest_color,

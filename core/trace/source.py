@@ -5,26 +5,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers, Singles
-from core.cached import cached_property
-from core.frame import STAGES, Frame, StageCount
 from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments
 from core.geometry.vertex_stage import transform_vertices
-from core.geometry_stages import Geometry, drawing_order, process_geometry
-from core.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.methods import table
 from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.fills import suited_fill
-from core.raster.line_intensities import writes_depth
-from core.raster.line_records import LineSteps
-from core.raster.schedule import Boxes, Raster, Runs, make_raster
-from core.raster.wireframe import LineFragments, draw_outlines, join_batches
+from core.raster.fills.tested import suited_fill
+from core.raster.lines.intensities import writes_depth
+from core.raster.lines.records import LineSteps
+from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
+from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster
+from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.cached import cached_property
+from core.records.frame import STAGES, Frame, StageCount
 from core.scene import AnyScene
 from core.settings import Settings
-from core.surface import Surface, shade_fragments
-from core.texture_slopes import texture_slopes
+from core.stages.fragment_color import Surface, shade_fragments
+from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
+from core.stages.texture_slopes import texture_slopes
+from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
 
@@ -68,7 +68,7 @@ class TraceSource:
 
     @property
     def fill(self) -> str:
-        """The fill that runs: see ``core.raster.fills.suited_fill``."""
+        """The fill that runs: see ``core.raster.fills.tested.suited_fill``."""
         return suited_fill(self.settings.fill, self.settings.coverage)
 
     @cached_property

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.listing import Listing, listing
-from core.raster.edge_functions import edge_value
+from core.raster.edges.edge_functions import edge_value
 from core.raster.spans.lane_rows import is_in_lane
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
+from core.records.arrays import Flags, Floats, Integers
+from core.records.listing import Listing, listing
 from core.trace.row_table import KIND, RowTable
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Integers
-from core.steps import ends_of
+from core.records.arrays import Flags, Integers
+from core.records.steps import ends_of
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Integers, read_only
-from core.cached import cached_property
-from core.listing import Listing
-from core.steps import Operation, Steps
+from core.records.arrays import Flags, Integers, read_only
+from core.records.cached import cached_property
+from core.records.listing import Listing
+from core.records.steps import Operation, Steps
 
 Value = float | int | bool | str | NDArray[Any]
 MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.mipmap_samples import LevelSamples, sample_mipmaps
 from core.fragments.textures import sample_texture, uses_mipmaps
 from core.fragments.uv_slopes import slope_numerators, slopes_at, slopes_of_one_value
-from core.raster.line_slopes import affine_line_slopes_at, line_slopes_at
-from core.raster.wireframe import LineFragments, line_parameter, values_at_ends
+from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
+from core.raster.lines.wireframe import LineFragments, line_parameter, values_at_ends
+from core.records.arrays import Floats, Integers
+from core.records.steps import Operation
 from core.scene import Texture
-from core.steps import Operation
 from core.trace.source import TraceSource
 
 SLOPE_LISTINGS: dict[str, Callable[..., Any]] = {

@@ -8,9 +8,9 @@ M. Zwicker, *Computergrafik*, lecture "Visibility", Bern 2016.
 
 import numpy as np
 
-from core.arrays import Floats
 from core.methods import method
-from core.primitives import DrawingOrder
+from core.records.arrays import Floats
+from core.records.primitives import DrawingOrder
 
 
 @method(

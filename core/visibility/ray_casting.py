@@ -19,9 +19,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.methods import method
-from core.primitives import DrawingOrder
+from core.records.arrays import Flags, Floats, Integers
+from core.records.primitives import DrawingOrder
 from core.visibility.ray_planes import RayPlanes, exact_plane
 
 FIRST, BY_FLOATS, EXACTLY = 0, 1, 2

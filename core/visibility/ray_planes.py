@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 
 RAY_UNIT = 128
 """Steps of m and n that are told apart: those of samples at multiples of 1/256 of a pixel."""

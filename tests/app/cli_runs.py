@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from app.cli import run_command_line
+from app.cli.commands import run_command_line
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.compare_page import ComparePage
-from app.main_window import MainWindow
+from app.pages.compare.page import ComparePage
+from app.window.main_window import MainWindow
 from core.settings import Settings
-from core.study.record import Dial, ErrorMeasure, Point, Study, WorkKind
+from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, WorkKind
 
 WRONG = "wrong-visible"
 

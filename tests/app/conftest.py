@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import open_document
-from app.main_window import MainWindow
+from app.session.document import open_document
+from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
-from widgets.theme import LIGHT, apply_theme
+from widgets.basics.theme import LIGHT, apply_theme
 
 
 @pytest.fixture

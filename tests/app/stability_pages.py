@@ -4,10 +4,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.main_window import MainWindow
-from app.stability_page import StabilityPage
+from app.pages.stability.page import StabilityPage
+from app.window.main_window import MainWindow
 from core.study.stability import Atlas
-from widgets.atlas_records import CellPlace
+from widgets.atlas.records import CellPlace
 
 EXCLUSIVE = "fill_rule=exclusive"
 

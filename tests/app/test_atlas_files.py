@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.atlas_export import atlas_json
-from app.atlas_files import AtlasFileError, load_atlas
-from app.main_window import MainWindow
-from app.stability_page import StabilityPage
+from app.export.atlas import atlas_json
+from app.files.atlas_files import AtlasFileError, load_atlas
+from app.pages.stability.page import StabilityPage
+from app.window.main_window import MainWindow
 from core.study.stability import Axis, experiments, stress
 from tests.app.stability_pages import EXCLUSIVE, click, point_at, run, stability_page, wait_for_case
-from widgets.atlas_records import CellPlace
+from widgets.atlas.records import CellPlace
 
 
 @pytest.fixture

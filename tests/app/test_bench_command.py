@@ -40,9 +40,9 @@ def test_help_names_every_workload() -> None:
 
 def test_threads_are_set_before_numpy_asks() -> None:
     code = (
-        "import os, sys, app.cli_bench; assert 'numpy' not in sys.modules; "
-        "app.cli_bench.set_threads(); import numpy; app.cli_bench.set_threads(); "
-        "os.environ['OMP_NUM_THREADS'] = '7'; app.cli_bench.set_threads()"
+        "import os, sys, app.cli.bench; assert 'numpy' not in sys.modules; "
+        "app.cli.bench.set_threads(); import numpy; app.cli.bench.set_threads(); "
+        "os.environ['OMP_NUM_THREADS'] = '7'; app.cli.bench.set_threads()"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=bootstrap.ROOT, timeout=60

@@ -13,8 +13,8 @@ from app.bench.meshes import TO_LIGHT, textured_floor, viewed
 from app.bench.random_triangles import large_triangle, random_triangles
 from app.bench.records import ColdStart, Lighting, Lines, ViewedMesh, Work
 from app.bench.reference import make_reference
+from core.fast_path.workers import Sharing
 from core.geometry.matrices import projection, world_to_camera
-from core.picture.workers import Sharing
 from core.scene import Camera
 from lessons import shapes
 

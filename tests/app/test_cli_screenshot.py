@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.atlas_export import atlas_json
+from app.export.atlas import atlas_json
 from core.study.stability import Axis, experiments, stress
 from tests.app.cli_runs import ROOT, refused, run_program
 
@@ -38,7 +38,7 @@ SHOTS = {
 """Name of a picture of the window to what it shows."""
 ONE_AFTER_THE_OTHER = """
 import json, sys
-from app.cli import run_command_line
+from app.cli.commands import run_command_line
 sys.exit(sum(run_command_line(["screenshot", *arguments]) for arguments in json.loads(sys.argv[1])))
 """
 

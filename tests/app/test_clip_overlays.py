@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.clip_overlays import clip_overlays, cross_segments
+from app.pages.step.clip_overlays import clip_overlays, cross_segments
 from app.views.clip_diagram import clip_state, is_in_ndc
 from core import ClipScene, Settings, trace
-from core.steps import Level
+from core.records.steps import Level
 from tests.core.strategies import clip_of_window
 
 SIZE = (12, 9)

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document import open_document
-from app.session import Session
+from app.session.document import open_document
+from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state, is_in_ndc
 from core import ClipScene, Settings
 from core.geometry.culling import plane_distances

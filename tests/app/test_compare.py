@@ -9,9 +9,9 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.compare_presenter import compare, settings_difference
-from app.document import open_document
-from app.main_window import MainWindow
+from app.pages.step.ab_presenter import compare, settings_difference
+from app.session.document import open_document
+from app.window.main_window import MainWindow
 from core import Settings, render
 from core.scene import Scene
 from lessons.scenes import make_scene

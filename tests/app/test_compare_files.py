@@ -11,11 +11,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.compare_page import ComparePage
-from app.main_window import MainWindow
-from app.save_dialog import SaveDialog
-from app.study_charts import TIME
-from app.study_files import load_study, save_study
+from app.files.save_dialog import SaveDialog
+from app.files.study_files import load_study, save_study
+from app.pages.compare.charts import TIME
+from app.pages.compare.page import ComparePage
+from app.window.main_window import MainWindow
 from core.study import measure
 from tests.app.compare_pages import WRONG, compare_page, hand_made, measured
 

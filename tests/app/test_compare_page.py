@@ -9,13 +9,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.compare_page import ComparePage
-from app.main_window import MainWindow
-from app.study_charts import TIME
-from app.study_desk import StudyOrder
-from core.study.families import study_families
+from app.pages.compare.charts import TIME
+from app.pages.compare.jobs import StudyOrder
+from app.pages.compare.page import ComparePage
+from app.window.main_window import MainWindow
+from core.study.accuracy.families import study_families
 from tests.app.compare_pages import WRONG, compare_page, hand_made, measured
-from widgets.theme import LIGHT, PRESENTER
+from widgets.basics.theme import LIGHT, PRESENTER
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.compare_page import ComparePage
-from app.main_window import MainWindow
+from app.pages.compare.page import ComparePage
+from app.window.main_window import MainWindow
 from tests.app.compare_pages import WRONG, click, compare_page, measured, wait_for_pictures
 
 

@@ -9,14 +9,15 @@ from PySide6.QtGui import QGuiApplication, QImage, QPainter
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QWidget
 
-from app.export import copy_widget, export_widget, widget_image
-from app.file_writing import FileWriteError
+from app.export.views import copy_widget, export_widget, widget_image
+from app.files.file_writing import FileWriteError
 from core import Settings, render
+from core.explain.records import Formula
 from lessons.scenes import make_scene
-from widgets.formula import Formula, FormulaView
-from widgets.grid_buffer import GridBuffer
-from widgets.grid_view import GridView
-from widgets.pixel_grid import PixelGrid
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import GridView
+from widgets.inspector.formula_view import FormulaView
 
 SVG = "{http://www.w3.org/2000/svg}"
 

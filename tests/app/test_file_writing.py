@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from app.file_writing import FileWriteError, whole_file
+from app.files.file_writing import FileWriteError, whole_file
 
 
 def test_the_file_appears_when_it_is_whole(tmp_path):

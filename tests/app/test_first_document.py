@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document import LEAST_AREA, open_document, window_corners_of
+from app.session.document import LEAST_AREA, open_document, window_corners_of
 from core import Camera, DirectionalLight, Scene
 from lessons.shapes import torus
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import open_document
-from app.grid_records import OUTLINE_LIMIT, buffers_of, mask_overlays
-from app.main_window import MainWindow
+from app.pages.step.grid_records import OUTLINE_LIMIT, buffers_of, mask_overlays
+from app.session.document import open_document
+from app.window.main_window import MainWindow
 from core import STAGES, ClipScene
 from lessons.scenes import make_scene
-from widgets.grid_overlay import MaskOverlay
+from widgets.grid.overlay import MaskOverlay
 
 
 @pytest.mark.parametrize("stage", STAGES)

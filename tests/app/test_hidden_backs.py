@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document import open_document
+from app.session.document import open_document
 from app.views.hidden_backs import FEWEST, HiddenBacks
 from app.views.scene_picture import DrawnScene, SceneShot, draw_scene
 from app.views.view_space import make_space, viewing_camera
 from core import Camera, Scene
+from core.fast_path.workers import BandWorkers
 from core.geometry.vertex_stage import transform_vertices
-from core.picture.workers import BandWorkers
 from lessons.scenes import make_scene
 from lessons.shapes import cube, torus
-from widgets.orbit import fitted
-from widgets.theme import LIGHT
+from widgets.basics.theme import LIGHT
+from widgets.space.orbit import fitted
 
 
 def scene_with(mesh) -> Scene:

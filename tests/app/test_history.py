@@ -1,6 +1,6 @@
 """Undo keeps values, and a gesture is undone as one."""
 
-from app.history import LIMIT, History
+from app.session.history import LIMIT, History
 
 
 def test_undo_and_redo_walk_the_values() -> None:

@@ -4,7 +4,7 @@ from weakref import ref
 
 from pytestqt.qtbot import QtBot
 
-from app.workers import Job
+from app.background.workers import Job
 
 
 class Large:

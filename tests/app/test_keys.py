@@ -6,12 +6,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
 from pytestqt.qtbot import QtBot
 
-from app.key_focus import has_use_for
-from app.keys import ACTIONS, key_text
-from app.main_window import MainWindow
-from app.menus import MENUS
+from app.window.key_focus import has_use_for
+from app.window.keys import ACTIONS, key_text
+from app.window.main_window import MainWindow
+from app.window.menus import MENUS
 from core import STAGES
-from widgets.theme import DARK, current_theme
+from widgets.basics.theme import DARK, current_theme
 
 
 def test_no_key_stands_twice() -> None:

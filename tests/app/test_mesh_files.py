@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app import mesh_process
-from app.mesh_files import (
+from app.files import mesh_process
+from app.files.mesh_files import (
     EXTENSIONS,
     MeshFileError,
     OpeningCancelledError,
@@ -19,7 +19,7 @@ from app.mesh_files import (
     load_meshes,
     open_mesh,
 )
-from app.mesh_formats import reading
+from app.files.mesh_formats import reading
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import Mesh
 from lessons.shapes import cube, knot, torus
@@ -40,7 +40,7 @@ def test_the_files_that_open():
 
 
 def test_starting_the_program_does_not_import_trimesh():
-    code = "import sys, app.mesh_files; print('trimesh' in sys.modules, 'PySide6' in sys.modules)"
+    code = "import sys, app.files.mesh_files; print('trimesh' in sys.modules, 'PySide6' in sys.modules)"
     root = Path(__file__).parents[2]
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
     assert run.stdout.split() == ["False", "False"]
@@ -144,7 +144,7 @@ def test_a_file_above_the_limit_of_memory_is_refused_before_it_is_read(tmp_path,
 
 
 def test_the_limit_lets_two_million_triangles_in():
-    from app.mesh_formats import gltf, obj, off, ply, stl
+    from app.files.mesh_formats import gltf, obj, off, ply, stl
 
     # Bytes of a triangle and half a vertex, as exporters write them at this size.
     assert 2e6 * 120 * obj.MEMORY_PER_BYTE < reading.MEMORY_LIMIT
@@ -202,7 +202,7 @@ def test_a_reader_that_dies_is_an_error(tmp_path, monkeypatch):
 
 
 def test_what_a_reader_prints_does_not_disturb_the_result(tmp_path, monkeypatch):
-    noisy = "import app.mesh_files as m; r = m.read_file\n" + (
+    noisy = "import app.files.mesh_files as m; r = m.read_file\n" + (
         "def noisy(path, report):\n    print('noise', flush=True)\n    return r(path, report)\n"
         "m.read_file = noisy\n"
     )

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from app.mesh_files import MeshFileError, load_meshes
-from app.mesh_formats.polygons import fan, share_vertices
+from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_formats.polygons import fan, share_vertices
 from core.framebuffer.display import linear_light
 from tests.app.mesh_writing import GltfWriter, ply_binary, ply_text, stl_binary, stl_text, write, write_image
 

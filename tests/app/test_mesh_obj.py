@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_files import MeshFileError, load_meshes
 from core.framebuffer.display import linear_light
 from tests.app.mesh_writing import SQUARE, write, write_image
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.message_words import sentence_case, sentences
+from app.window.message_words import sentence_case, sentences
 
 
 @pytest.mark.parametrize(

@@ -11,19 +11,19 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from app.document import open_document
-from app.main_window import MainWindow
-from app.pages import StepRequest
-from app.preferences import Preferences, load_preferences
+from app.pages.page_bar import StepRequest
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from app.window.preferences import Preferences, load_preferences
 from core import Settings
-from core.study.record import Opening
+from core.study.accuracy.record import Opening
 from lessons.scenes import built_in_scene, make_scene
 
 
 def test_starting_the_window_does_not_wait_for_other_pages() -> None:
     program = (
-        "import sys, app.window_start\n"
-        "print([name for name in ('pyqtgraph', 'core.study.families') if name in sys.modules])"
+        "import sys, app.window.start\n"
+        "print([name for name in ('pyqtgraph', 'core.study.accuracy.families') if name in sys.modules])"
     )
     root = Path(__file__).resolve().parents[2]
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=root)

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.open_any import open_any
+from app.files.open_any import open_any
 from core.study import Tolerance, plan
 from core.study.planner.measuring import difference, shown
 from tests.app.cli_runs import refused, run_program

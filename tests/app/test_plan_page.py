@@ -10,20 +10,20 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.compare_page import ComparePage
-from app.main_window import MainWindow
-from app.plan_page import PlanPage
-from app.plan_points import chosen_points, plan_candidates
-from app.plan_words import details, headline, rows_of
-from app.study_words import names_of
+from app.pages.compare.page import ComparePage
+from app.pages.compare.words import names_of
+from app.pages.plan.page import PlanPage
+from app.pages.plan.points import chosen_points, plan_candidates
+from app.pages.plan.words import details, headline, rows_of
+from app.window.main_window import MainWindow
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
-from core.study.family import Candidate, settings_of
+from core.study.accuracy.family import Candidate, settings_of
+from core.study.accuracy.whole_picture import PIPELINE
 from core.study.planner.choices.costs import LectureOrder
-from core.study.planner.look import touched
 from core.study.planner.planning import STAGES
-from core.study.whole_picture import PIPELINE
+from core.study.planner.scene_analysis import conservative_coverage as touched
 from lessons.scenes import built_in_scene
-from widgets.plan_rows import Verdict
+from widgets.plan.rows import Verdict
 
 CTRL = Qt.KeyboardModifier.ControlModifier
 

@@ -3,8 +3,8 @@
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.main_window import MainWindow
-from app.prediction_presenter import question_about
+from app.pages.step.prediction_presenter import question_about
+from app.window.main_window import MainWindow
 from core import STAGES
 
 

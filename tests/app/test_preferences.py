@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from app.file_writing import FileWriteError
-from app.preferences import (
+from app.files.file_writing import FileWriteError
+from app.window.preferences import (
     FILE_NAME,
     RECENT_LIMIT,
     Preferences,

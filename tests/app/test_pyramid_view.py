@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.document import open_document
-from app.session import Session
+from app.session.document import open_document
+from app.session.session import Session
 from app.views.pointed_pixel import PointedPixel, fragment_at
 from app.views.pyramid_diagram import hit_point, homogeneous_corners, pyramid_diagram, pyramid_frame
 from core import ClipScene, Settings

@@ -2,11 +2,11 @@
 
 import pytest
 
-from app.rail_entries import COMPUTED, rail_entries
+from app.pages.step.rail_entries import COMPUTED, rail_entries
 from core import STAGES, Settings, render
-from core.frame import StageCount
+from core.records.frame import StageCount
 from lessons.scenes import make_scene
-from widgets.pipeline_rail import StageEntry, StageState
+from widgets.timeline.pipeline_rail import StageEntry, StageState
 
 
 def entries_of(counts: dict[str, StageCount], is_predicting: bool = False) -> dict[str, StageEntry]:

@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
-from app.cli import COMMANDS
-from app.keys import ACTIONS, key_text
+from app.cli.commands import COMMANDS
+from app.window.keys import ACTIONS, key_text
 
 README = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
 BY_MOUSE = {"click", "wheel", "right drag"}

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import TEACHING_LIMIT, Document, focus_on, open_document
-from app.scene_edits import move_corner
-from app.session import Session
-from app.tracing import QUICK_SECONDS
+from app.session.document import TEACHING_LIMIT, Document, focus_on, open_document
+from app.session.scene_edits import move_corner
+from app.session.session import Session
+from app.session.tracing import QUICK_SECONDS
 from core import ClipScene, Settings
 from core.trace import Trace, source
-from core.trace.edited.retrace import Retrace
+from core.trace.incremental.retrace import Retrace
 
 SIZE = (48, 36)
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app.pixel_stories import story_of
+from app.pages.step.pixel_stories import story_of
 from core import Settings, render
+from core.explain.history.pieces import piece_reason, pieces_verdict
+from core.explain.history.samples import of_sample, samples_name, samples_verdict
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
-from widgets.why_pieces import piece_reason, pieces_verdict
-from widgets.why_samples import of_sample, samples_name, samples_verdict
 
 
 def edge_pixel(settings: Settings) -> tuple[TraceSource, int, int]:

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMessageBox
 from pytestqt.qtbot import QtBot
 
-from app.save_dialog import SaveDialog
+from app.files.save_dialog import SaveDialog
 
 KINDS = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
 

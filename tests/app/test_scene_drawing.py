@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from app.document import open_document
+from app.session.document import open_document
 from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
 from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines, visible_part
@@ -18,14 +18,14 @@ from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
 from core import STAGES, Settings, render
+from core.fast_path import Route, Split, draw_picture
+from core.fast_path.record import Coloring, Visibility
+from core.fast_path.workers import BandTime, BandWorkers, Sharing
 from core.geometry.culling import plane_distances
 from core.geometry.vertex_stage import transform_vertices
-from core.picture import Route, Split, draw_picture
-from core.picture.record import Coloring, Visibility
-from core.picture.workers import BandTime, BandWorkers, Sharing
 from lessons.scenes import make_scene
-from widgets.orbit import fitted
-from widgets.theme import LIGHT
+from widgets.basics.theme import LIGHT
+from widgets.space.orbit import fitted
 
 
 @given(arrays(np.float64, (3, 2, 4), elements=st.integers(-256, 256).map(lambda number: number / 64)))

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.scene_edits import (
+from app.session.scene_edits import (
     clip_of_window,
     join_shared,
     move_corner,
@@ -17,7 +17,7 @@ from app.scene_edits import (
 from core import ClipScene, Scene
 from core.geometry.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
-from widgets.scene_outline import OutlineGroup
+from widgets.basics.scene_outline import OutlineGroup
 
 number = st.floats(-500, 500)
 

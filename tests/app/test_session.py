@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import TeachingRaster, fit_region, focus_on, open_document
-from app.scene_edits import move_corner
-from app.session import Session
+from app.session.document import TeachingRaster, fit_region, focus_on, open_document
+from app.session.scene_edits import move_corner
+from app.session.session import Session
 from core import STAGES, ClipScene
-from core.steps import Level
+from core.records.steps import Level
 from lessons.scenes import make_scene
 
 

@@ -7,13 +7,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.atlas_svg import atlas_svg
-from app.main_window import MainWindow
-from app.severity_curves import BELOW_ZERO, NOTHING_RUN, severity_chart
-from app.stability_page import StabilityPage
+from app.export.atlas_svg import atlas_svg
+from app.pages.stability.page import StabilityPage
+from app.pages.stability.severity_curves import BELOW_ZERO, NOTHING_RUN, severity_chart
+from app.window.main_window import MainWindow
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
-from widgets.atlas_records import CellPlace
-from widgets.chart_records import ChartEmpty, ChartPicture
+from widgets.atlas.records import CellPlace
+from widgets.charts.records import ChartEmpty, ChartPicture
 
 AXIS = Axis("gap", "Gap", "pixels", (0.001, 0.01, 0.1), True)
 WEAK, STRONG = "coverage=float16", "coverage=exact"

@@ -10,16 +10,16 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.main_window import MainWindow
-from app.stability_desk import StressOrder
-from app.stability_page import StabilityPage
-from app.state_files import load_state
+from app.files.state_files import load_state
+from app.pages.stability.jobs import StressOrder
+from app.pages.stability.page import StabilityPage
+from app.window.main_window import MainWindow
 from core.study.stability import Axis, Outcome, experiments, stress
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.resolution import axes_at
 from tests.app.stability_pages import EXCLUSIVE, LEFT, click, run, stability_page, status, wait_for_case
-from widgets.atlas_records import UNKNOWN, CellPlace
-from widgets.dial_table import HEAD
+from widgets.atlas.format_probe import HEAD
+from widgets.atlas.records import UNKNOWN, CellPlace
 
 
 @pytest.fixture

@@ -7,16 +7,16 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app.document import focus_on, open_document
-from app.session import Session
+from app.session.document import focus_on, open_document
+from app.session.session import Session
 from app.views.scene_picture import fractions
 from app.views.stage_views import StageViews
 from app.views.view_space import thinned, viewed_scene, viewing_camera
 from core import Settings, render
+from core.fast_path.workers import BandWorkers
 from core.geometry.vertex_stage import transform_vertices
-from core.picture.workers import BandWorkers
 from lessons.scenes import make_scene
-from widgets.theme import DARK, LIGHT, apply_theme
+from widgets.basics.theme import DARK, LIGHT, apply_theme
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

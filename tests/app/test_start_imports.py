@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cli_window import BEFORE_QT
+from app.cli.window import BEFORE_QT
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -32,8 +32,8 @@ def test_what_is_imported_before_qt_needs_no_qt(module: str) -> None:
 
 
 def test_a_scene_opens_without_pillow_and_trimesh() -> None:
-    imported = imported_by("from app.open_any import open_any; open_any('cube')")
-    assert "app.mesh_formats.images" in imported
+    imported = imported_by("from app.files.open_any import open_any; open_any('cube')")
+    assert "app.files.mesh_formats.images" in imported
     assert not {"PIL", "trimesh"} & imported
 
 

@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from app.document import Document, TeachingRaster, open_document
-from app.file_writing import FileWriteError
-from app.open_any import open_any
-from app.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
+from app.files.file_writing import FileWriteError
+from app.files.open_any import open_any
+from app.files.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
+from app.session.document import Document, TeachingRaster, open_document
 from core import STAGES, Settings, render
 from core.methods import table
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture

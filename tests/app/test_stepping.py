@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.main_window import MainWindow
-from app.stepping_presenter import EVENT_TITLES
+from app.pages.step.stepping_presenter import EVENT_TITLES
+from app.window.main_window import MainWindow
 from core import STAGES
-from core.steps import Level
-from widgets.marks import Mark
+from core.records.steps import Level
+from widgets.basics.marks import Mark
 
 
 @pytest.mark.parametrize("event", ["covered", "rejected"])

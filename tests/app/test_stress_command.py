@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from app.atlas_export import atlas_csv, atlas_json
-from app.atlas_svg import atlas_svg
-from app.atlas_text import MARKS, WORDS, atlas_text
-from app.state_files import load_state
+from app.export.atlas import atlas_csv, atlas_json
+from app.export.atlas_svg import atlas_svg
+from app.export.atlas_text import MARKS, WORDS, atlas_text
+from app.files.state_files import load_state
 from core.study.stability import Axis, Outcome, experiments, stress
 from tests.app.cli_runs import refused, run_program
 

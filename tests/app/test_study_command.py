@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from app.study_files import load_study
+from app.files.study_files import load_study
 from core.study import study_families
 from tests.app.cli_runs import refused, run_program
 

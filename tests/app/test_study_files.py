@@ -12,15 +12,15 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from app.study_axes import axis_of, ticks
-from app.study_chart import study_svg
-from app.study_export import export_study, study_csv
-from app.study_files import StudyFileError, load_study, save_study
-from app.study_labels import Box, place_labels, spread_apart
-from app.study_words import digits, time_text
+from app.export.study import export_study, study_csv
+from app.export.study_axes import axis_of, ticks
+from app.export.study_chart import study_svg
+from app.export.study_labels import Box, place_labels, spread_apart
+from app.files.study_files import StudyFileError, load_study, save_study
+from app.pages.compare.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
-from core.study.record import Dial
+from core.study.accuracy.record import Dial
 
 
 @pytest.fixture(scope="module")

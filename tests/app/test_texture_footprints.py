@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document import focus_on, open_document
-from app.session import Session
+from app.session.document import focus_on, open_document
+from app.session.session import Session
 from app.views.texture_footprint import (
     PIXEL_SQUARE,
     no_texture_reason,

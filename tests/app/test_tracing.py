@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
-from app.main_window import MainWindow
-from app.session import Session
+from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
+from app.session.session import Session
+from app.window.main_window import MainWindow
 from core import ClipScene, Settings
 from lessons.scenes import make_scene
 

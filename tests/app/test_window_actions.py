@@ -8,11 +8,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from app.keys import ACTIONS, KeyAction
-from app.main_window import MainWindow
-from app.save_dialog import SaveDialog
-from core.steps import Level
-from widgets.theme import current_theme
+from app.files.save_dialog import SaveDialog
+from app.window.keys import ACTIONS, KeyAction
+from app.window.main_window import MainWindow
+from core.records.steps import Level
+from widgets.basics.theme import current_theme
 
 
 def seen(window: MainWindow) -> tuple[object, ...]:

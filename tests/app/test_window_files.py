@@ -9,11 +9,11 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.main_window import MainWindow
-from app.preferences import load_preferences
-from app.window_start import first_document
+from app.window.main_window import MainWindow
+from app.window.preferences import load_preferences
+from app.window.start import first_document
+from core.records.steps import Level
 from core.scene import Scene
-from core.steps import Level
 
 TETRAHEDRON = """
 v 0 0 0

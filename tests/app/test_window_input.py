@@ -9,10 +9,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
 from pytestqt.qtbot import QtBot
 
-from app.document import open_document
-from app.main_window import MainWindow
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from core.records.steps import Level
 from core.scene import ClipScene, Scene
-from core.steps import Level
 from lessons.scenes import make_scene
 
 

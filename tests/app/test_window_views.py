@@ -8,13 +8,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.document import focus_on, open_document
-from app.main_window import MainWindow
-from app.scene_edits import clip_of_window
+from app.session.document import focus_on, open_document
+from app.session.scene_edits import clip_of_window
+from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
-from core.steps import Level
+from core.records.steps import Level
 from lessons.scenes import built_in_scene, scene_names
-from widgets.theme import DARK, LIGHT, PRESENTER, apply_theme
+from widgets.basics.theme import DARK, LIGHT, PRESENTER, apply_theme
 
 SIZE = (24, 16)
 

@@ -2,7 +2,7 @@
 
 from pytestqt.qtbot import QtBot
 
-from app.main_window import MainWindow
+from app.window.main_window import MainWindow
 
 
 def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot) -> None:

@@ -23,10 +23,10 @@ start = time.perf_counter()
 sys.path.insert(0, {root!r})
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from app.document import open_document
-from app.main_window import MainWindow
+from app.session.document import open_document
+from app.window.main_window import MainWindow
 from lessons.scenes import make_scene
-from widgets.theme import LIGHT, apply_theme
+from widgets.basics.theme import LIGHT, apply_theme
 application = QApplication(["rasterscope"])
 apply_theme(application, LIGHT)
 window = MainWindow(open_document(make_scene("single-triangle"), "Single triangle"))
@@ -59,13 +59,13 @@ def first_paint() -> list[float]:
 def main() -> int:
     """Measure and print."""
     report("first paint", first_paint(), "2000 ms")
-    from app.document import open_document
-    from app.main_window import MainWindow
+    from app.session.document import open_document
+    from app.window.main_window import MainWindow
     from core import Settings, render
-    from core.steps import Level
+    from core.records.steps import Level
     from lessons.scenes import make_scene
     from lessons.shapes import torus
-    from widgets.theme import LIGHT, apply_theme
+    from widgets.basics.theme import LIGHT, apply_theme
 
     application = QApplication.instance() or QApplication(["rasterscope"])
     assert isinstance(application, QApplication)

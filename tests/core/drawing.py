@@ -5,9 +5,9 @@ import numpy as np
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import cover
-from core.raster.edge_functions import EdgeFunctions, orient, set_up_edges
-from core.raster.schedule import Raster, Runs, make_raster
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import EdgeFunctions, orient, set_up_edges
+from core.raster.edges.snapping import place_corners
+from core.raster.pixel_runs import Raster, Runs, make_raster
 
 TESTING_FILLS = [name for name in table.names("fill") if "projected" not in table.get("fill", name).needs]
 """Fills that draw any triangle; the others are wrong by design or clip first."""

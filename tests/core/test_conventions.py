@@ -5,7 +5,7 @@ import pytest
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, Texture, draw_triangles, render
 from core.methods import table
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
 from core.scene import triangulate
 from tests.core.drawing import cover_each, text
 from tests.core.strategies import clip_of_window

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import core
-from core.listing import listing
 from core.methods import table
+from core.records.listing import listing
 
 FOLDER = Path(core.__file__).parent
 MODULES = sorted(module.name for module in pkgutil.walk_packages([str(FOLDER)], "core."))

@@ -21,26 +21,26 @@ scene = ClipScene(clip, np.ones((1, 3, 4)), (8, 8))
 print(draw_picture(scene, Settings(cull="back", interpolation="flat", depth="fixed-38")).route.color)
 """
 UNUSED = (
-    "core.antialiased.centers",
+    "core.antialiasing.single_sample",
     "core.fragments.lighting",
     "core.fragments.textures",
     "core.framebuffer.blending",
-    "core.geometry.line_clipping",
-    "core.picture.blended",
-    "core.picture.lit",
-    "core.picture.multisampled",
-    "core.picture.smooth_colors",
-    "core.picture.supersampled",
+    "core.geometry.line_clipping.clipping",
+    "core.fast_path.blended",
+    "core.fast_path.lit",
+    "core.fast_path.multisampled",
+    "core.fast_path.smooth_colors",
+    "core.fast_path.supersampled",
     "core.pipeline",
     "core.raster.coverage",
-    "core.raster.lines",
-    "core.raster.wireframe",
-    "core.steps",
+    "core.raster.lines.drawing",
+    "core.raster.lines.wireframe",
+    "core.records.steps",
     "core.study",
     "core.trace.source",
     "core.trace.tracers",
     "core.visibility.ray_casting",
-    "core.why",
+    "core.pixel_history",
 )
 """Parts of the core that a picture of plain triangles has no use for."""
 ON_DEMAND = (
@@ -70,7 +70,7 @@ def run_fresh(code: str) -> list[str]:
 def test_the_first_picture_imports_nothing_that_it_does_not_use() -> None:
     route, *imported = run_fresh(DRAW + "import sys\nprint(*sys.modules, sep='\\n')")
     assert route == "palette"
-    assert "core.picture.opaque" in imported
+    assert "core.fast_path.opaque" in imported
     assert not set(UNUSED) & set(imported)
 
 
@@ -93,10 +93,12 @@ def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
     code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
-    assert {"core.framebuffer.blending", "core.visibility.painters", "core.raster.float_formats"} <= set(
-        imported
-    )
-    assert "core.raster.exact_format" not in imported
+    assert {
+        "core.framebuffer.blending",
+        "core.visibility.painters",
+        "core.raster.number_formats.floats",
+    } <= set(imported)
+    assert "core.raster.number_formats.exact" not in imported
 
 
 def test_defaults_are_methods_of_the_table() -> None:

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Settings, trace
-from core.conditions import TEXT_LIMIT, parse_condition, variable_names
-from core.run_to import BACK, FORWARD, next_at_pixel, next_event, next_marked
+from core.trace.conditions import TEXT_LIMIT, parse_condition, variable_names
+from core.trace.run_to import BACK, FORWARD, next_at_pixel, next_event, next_marked
 from core.trace.stage_trace import MARKS
 from tests.core.trace.trace_cases import SCENES
 

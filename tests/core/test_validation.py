@@ -17,10 +17,10 @@ from core import (
     Texture,
     draw_triangles,
 )
-from core.arrays import checked, checked_size, read_only
-from core.listing import listing
 from core.methods import Method, MethodTable, table
-from core.raster.fill_rule import owns
+from core.raster.edges.fill_rule import owns
+from core.records.arrays import checked, checked_size, read_only
+from core.records.listing import listing
 from core.settings import families, settings_from_texts
 
 TRIANGLE = np.array([[[0.0, 0, 0, 1], [1, 0, 0, 1], [0, 1, 0, 1]]])
@@ -285,7 +285,7 @@ def test_a_name_is_registered_once() -> None:
 
 
 def test_a_method_must_stand_in_a_file_of_its_family() -> None:
-    methods = MethodTable({"fill": ("core.raster.fills", "core.raster.scanline")})
+    methods = MethodTable({"fill": ("core.raster.fills.tested", "core.raster.fills.scanline")})
     row = Method("fill", "blocks", "Blocks", test_a_name_is_registered_once, "source", "everything")
     with pytest.raises(
         ValueError, match=r"of fill must stand in core\.raster\.fills, core\.raster\.scanline, got blocks in"

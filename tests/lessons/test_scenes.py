@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core import render
 from core.geometry.vertex_stage import transform_vertices
-from core.raster.snapping import SUBPIXELS, snap
+from core.raster.edges.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
 from lessons.scenes import (
     CATALOGUE,

@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from app.opengl_case import Case
-from app.opengl_draw import OpenGLMissingError, OpenGLRenderer, Picture
-from app.opengl_families import FAMILIES, make_case
+from app.opengl_check.case import Case
+from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer, Picture
+from app.opengl_check.families import FAMILIES, make_case
 from core.scene import Texture
 
 FOLDER = Path(__file__).parent / "cases"

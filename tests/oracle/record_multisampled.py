@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from app.opengl_case import Case
-from app.opengl_families import make_case
+from app.opengl_check.case import Case
+from app.opengl_check.families import make_case
 
 FOLDER = Path(__file__).parent / "multisampled"
 SAMPLES = 4

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.opengl_case import Case, clip_positions
-from app.opengl_check import describe, run_opengl_check
-from app.opengl_compare import compare
-from app.opengl_draw import OpenGLMissingError, OpenGLRenderer
-from app.opengl_families import FAMILIES, make_case
+from app.opengl_check.case import Case, clip_positions
+from app.opengl_check.command import describe, run_opengl_check
+from app.opengl_check.compare import compare
+from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
+from app.opengl_check.families import FAMILIES, make_case
 from tests.oracle.record_cases import read_case, write_case
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -103,7 +103,7 @@ def test_command_writes_a_line_for_every_family(renderer):
 
 @pytest.mark.usefixtures("renderer")
 def test_process_that_used_opengl_ends_well():
-    code = "from app.opengl_check import run_opengl_check as run; raise SystemExit(run(['mesh'], count=2))"
+    code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run(['mesh'], count=2))"
     result = run_python(code)
     assert (result.returncode, result.stderr) == (0, "")
     assert result.stdout.splitlines()[-1] == "All families agree within the tolerances."
@@ -140,7 +140,7 @@ def test_missing_moderngl_is_one_line(capsys, monkeypatch):
 )
 def test_missing_opengl_is_one_line():
     pytest.importorskip("moderngl")
-    code = "from app.opengl_check import run_opengl_check as run; raise SystemExit(run())"
+    code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run())"
     result = run_python(code, GLCONTEXT_LINUX_LIBEGL="libEGL-that-is-not-there.so")
     assert result.returncode == 2
     assert result.stdout == ""

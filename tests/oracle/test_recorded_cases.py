@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import core
-from app.opengl_check import describe
-from app.opengl_compare import PIXELS_ALLOWED, compare, draw_with_core
-from app.opengl_families import FAMILIES
+from app.opengl_check.command import describe
+from app.opengl_check.compare import PIXELS_ALLOWED, compare, draw_with_core
+from app.opengl_check.families import FAMILIES
 from core.methods import table
 from tests.oracle.record_cases import FOLDER, read_case
 

@@ -5,6 +5,7 @@ import pytest
 
 from core import ClipScene, Settings
 from core.methods import table
+from core.study.accuracy.workloads import flat_scene
 from core.study.stability import Outcome, StressCancelledError, experiments
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, as_given
 from core.study.stability.coverage.dial_pixel import (
@@ -16,7 +17,6 @@ from core.study.stability.coverage.dial_pixel import (
 )
 from core.study.stability.coverage.number_formats import FORMATS, sliver
 from core.study.stability.coverage.precision_dial import FILL_RULE
-from core.study.workloads import flat_scene
 from tests.stability.failing_cells import FAILING_CELLS
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from core import ClipScene
 from core.scene import AnyScene
-from core.study.family import settings_of
+from core.study.accuracy.family import settings_of
 from core.study.stability import Outcome, experiments
 from core.study.stability.shrink import shrink_cell
 from tests.stability.failing_cells import FAILING_CELLS

@@ -5,7 +5,7 @@ import pytest
 
 from core.pipeline import render
 from core.settings import Settings
-from core.study.family import settings_of
+from core.study.accuracy.family import settings_of
 from core.study.stability import Axis, Outcome, experiments, stress
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import Settings
-from core.study.family import settings_of
+from core.study.accuracy.family import settings_of
 from core.study.stability import Outcome, experiments
 from core.study.stability.coverage.meshes import MESHES, audit
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random

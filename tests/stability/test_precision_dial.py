@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
-from core.raster.exact_coverage import exact_coverage
+from core.raster.edges.exact_coverage import exact_coverage
 from core.study.stability.coverage.number_formats import FORMATS, far_corners, sliver
 from core.study.stability.coverage.precision_dial import (
     AREA,

@@ -6,11 +6,11 @@ import pytest
 import core
 from core import ClipScene, Settings
 from core.study.stability import Outcome, StressCancelledError, Verdict, experiments
+from core.study.stability.minimization.numbers import digit_count, simpler_numbers
+from core.study.stability.minimization.search import Search
+from core.study.stability.minimization.segments import SEGMENTS, Segment, first_edge, simpler_coordinates
+from core.study.stability.minimization.triangles import TRIANGLES
 from core.study.stability.shrink import shrink_cell
-from core.study.stability.smaller.numbers import digit_count, simpler_numbers
-from core.study.stability.smaller.search import Search
-from core.study.stability.smaller.segments import SEGMENTS, Segment, first_edge, simpler_coordinates
-from core.study.stability.smaller.triangles import TRIANGLES
 from tests.stability.shrunk_tests import run_test
 
 CASES = [

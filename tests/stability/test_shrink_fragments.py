@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
+from core.study.accuracy.workloads import flat_scene
 from core.study.stability import Outcome, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.fragments.blending_order import LayersCase, layered_glass
 from core.study.stability.fragments.nearest import NearestCase
 from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.fragments.thin_triangles import ThinCase, needle
+from core.study.stability.minimization.triangles import in_clip_space
 from core.study.stability.shrink import shrink_cell
-from core.study.stability.smaller.triangles import in_clip_space
-from core.study.workloads import flat_scene
 from tests.stability.shrunk_tests import run_test
 
 CASES = [

@@ -10,14 +10,14 @@ from core.study.stability import Outcome, experiments
 from core.study.stability.fragments.highlights import HighlightCase, highlight_case, shining_sphere
 from core.study.stability.fragments.opposite_normals import NormalsCase, flattened_tube
 from core.study.stability.fragments.texels import TextureCase, textured_square
-from core.study.stability.scene_text import scene_text
-from core.study.stability.shrink import shrink_cell
-from core.study.stability.smaller.meshes import LIT_MESHES, with_smaller_picture
-from core.study.stability.smaller.textures import (
+from core.study.stability.minimization.meshes import LIT_MESHES, with_smaller_picture
+from core.study.stability.minimization.textures import (
     TEXTURED_TRIANGLES,
     with_simpler_texels,
     with_smaller_texture,
 )
+from core.study.stability.scene_text import scene_text
+from core.study.stability.shrink import shrink_cell
 from tests.stability.shrunk_tests import run_test
 from tests.stability.tube import evenly_lit
 

@@ -6,9 +6,9 @@ from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.grid_buffer import GridBuffer
-from widgets.grid_geometry import GridGeometry
-from widgets.pixel_grid import PixelGrid
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.pixel_grid import PixelGrid
 
 LEFT = Qt.MouseButton.LeftButton
 TRIANGLE = GridGeometry(np.array([[2.0, 2.0], [20.0, 3.0], [8.0, 13.0]]), np.array([[0, 1, 2]]))

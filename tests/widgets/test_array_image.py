@@ -3,10 +3,17 @@ import pytest
 from numpy.typing import NDArray
 from PySide6.QtGui import QColor, QImage
 
-from widgets.colormaps import colormap_table
-from widgets.grid_buffer import GridBuffer
-from widgets.image import buffer_image, display_image, fitted_range, mask_image, srgb_table, value_range
-from widgets.theme import LIGHT
+from widgets.basics.colormaps import colormap_table
+from widgets.basics.image import (
+    buffer_image,
+    display_image,
+    fitted_range,
+    mask_image,
+    srgb_table,
+    value_range,
+)
+from widgets.basics.theme import LIGHT
+from widgets.grid.buffer import GridBuffer
 
 
 def name_at(image: QImage, column: int, row: int) -> str:

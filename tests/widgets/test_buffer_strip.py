@@ -3,11 +3,11 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from widgets.buffer_strip import BufferStrip
-from widgets.grid_buffer import GridBuffer
-from widgets.grid_geometry import GridGeometry
-from widgets.grid_view import GridView
-from widgets.pixel_grid import PixelGrid
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer_strip import BufferStrip
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import GridView
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

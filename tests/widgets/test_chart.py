@@ -8,11 +8,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from widgets.chart import Chart
-from widgets.chart_records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
-from widgets.label_places import LabelPlaces
-from widgets.series_marks import SHAPES, series_color, series_icon, series_shape
-from widgets.theme import DARK, LIGHT, apply_theme, contrast
+from widgets.basics.label_places import LabelPlaces
+from widgets.basics.theme import DARK, LIGHT, apply_theme, contrast
+from widgets.charts.chart import Chart
+from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
+from widgets.charts.series_marks import SHAPES, series_color, series_icon, series_shape
 
 TIME, ERROR = ChartAxis("Time per line", "s"), ChartAxis("Misclassified pixels", "per million")
 

@@ -6,8 +6,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from widgets.chart_legend import ChartLegend
-from widgets.chart_records import ChartSeries
+from widgets.charts.legend import ChartLegend
+from widgets.charts.records import ChartSeries
 
 SERIES = tuple(
     ChartSeries(f"method{n}", f"Method {n}", n, np.array([1.0 + n]), np.array([1.0])) for n in range(20)

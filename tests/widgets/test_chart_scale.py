@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.chart_scale import scale_of, time_text
+from widgets.charts.scale import scale_of, time_text
 
 VALUES = st.lists(st.floats(0, 1e300) | st.just(float("inf")), min_size=1, max_size=12)
 

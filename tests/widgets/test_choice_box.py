@@ -4,8 +4,8 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from widgets.choice_box import MOST_SEEN, ChoiceBox
-from widgets.theme import LIGHT, PRESENTER, Theme, apply_theme
+from widgets.basics.choice_box import MOST_SEEN, ChoiceBox
+from widgets.basics.theme import LIGHT, PRESENTER, Theme, apply_theme
 
 
 @pytest.mark.parametrize("theme", [LIGHT, PRESENTER], ids=lambda theme: theme.name)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from core.explain.depth_texts import DEPTH_TEXTS, NEARNESS, depth_text
 from core.methods import table
-from widgets.depth_texts import DEPTH_TEXTS, NEARNESS, depth_text
 
 
 def test_every_depth_method_has_a_text() -> None:

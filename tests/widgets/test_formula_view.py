@@ -4,9 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication
 
-from widgets.formula import Formula, FormulaView
-from widgets.latex import (
-    Typesetter,
+from core.explain.latex import (
     color_vertices,
     may_begin_line,
     plain_text,
@@ -14,7 +12,10 @@ from widgets.latex import (
     vertex_of,
     without_macros,
 )
-from widgets.theme import DARK, LIGHT, apply_theme
+from core.explain.records import Formula
+from widgets.basics.theme import DARK, LIGHT, apply_theme
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.typesetter import Typesetter
 
 EDGE = Formula(r"E_0 = a_0 \cdot x + b_0 \cdot y + c_0", r"1.5 = -0.25 \cdot 13.5 + 0.125 \cdot 7.5 + 4")
 MATRIX = Formula(r"\begin{bmatrix} a_0 & b_0 \\ a_1 & b_1 \end{bmatrix}^{-1}")

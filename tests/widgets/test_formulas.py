@@ -8,14 +8,22 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import Settings
+from core.explain.formulas.equation import (
+    digits_that_add_up,
+    equation,
+    lattice_latex,
+    number_latex,
+    signed_latex,
+)
+from core.explain.formulas.table import FORMULAS, WITHOUT_FORMULA, formula
+from core.explain.latex import split_cells
+from core.explain.records import Formula
+from core.explain.sentences.table import SENTENCES
+from core.explain.step_values import StepValues
 from core.trace import Explanation
 from tests.widgets.explained_steps import ALL_SCENES, Step, explained, rare_trace
-from widgets.equation import digits_that_add_up, equation, lattice_latex, number_latex, signed_latex
-from widgets.formula import Formula, FormulaView
-from widgets.formulas import FORMULAS, WITHOUT_FORMULA, formula
-from widgets.latex import Typesetter, split_cells
-from widgets.sentences import SENTENCES
-from widgets.step_values import StepValues
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.typesetter import Typesetter
 
 SUMS = re.compile(
     r"transform\..*-to-|clip\..*\.distances|raster\.test\.edge|interpolate\..*\.(total|value)"

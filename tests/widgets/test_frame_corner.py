@@ -2,7 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-from widgets.frame_corner import FrameCorner, SizeChoice
+from widgets.space.frame_corner import FrameCorner, SizeChoice
 
 CHOICES = (SizeChoice("view", "Size of the view"), SizeChoice("64x48", "64 × 48"))
 

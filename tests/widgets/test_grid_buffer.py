@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.grid_buffer import GridBuffer, number_text
+from widgets.grid.buffer import GridBuffer, number_text
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,8 @@ import pytest
 from PySide6.QtCore import QRect
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from widgets.grid_overlay import (
+from widgets.basics.theme import DARK, LIGHT, Theme
+from widgets.grid.overlay import (
     BlockOverlay,
     BlockState,
     CountOverlay,
@@ -16,9 +17,8 @@ from widgets.grid_overlay import (
     changed_cells,
     union,
 )
-from widgets.grid_view import FIT, place
-from widgets.overlay_paint import paint_above, paint_below
-from widgets.theme import DARK, LIGHT, Theme
+from widgets.grid.overlay_paint import paint_above, paint_below
+from widgets.grid.view import FIT, place
 
 COLUMNS, ROWS = 6, 4
 

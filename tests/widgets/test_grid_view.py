@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QPointF, QRect, QRectF
 
-from widgets.grid_view import FIT, GridView, clamped, panned, place, zoomed
+from widgets.grid.view import FIT, GridView, clamped, panned, place, zoomed
 
 AREA = QRect(30, 5, 600, 400)
 

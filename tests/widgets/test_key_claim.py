@@ -3,8 +3,9 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QLineEdit, QVBoxLayout, QWidget
 
-from widgets.listing import ListingText, ListingView
-from widgets.variables import Variable, VariablesView
+from core.explain.records import Variable
+from widgets.inspector.listing import ListingText, ListingView
+from widgets.inspector.variables import VariablesView
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
-from widgets.key_help import KeyEntry, KeyHelp
+from widgets.basics.key_help import KeyEntry, KeyHelp
 
 KEYS = [
     KeyEntry("Stepping", "Left, Right", "Step back, forward"),

@@ -8,15 +8,16 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import ClipScene, Settings, trace
+from core.explain.formulas.table import FORMULAS, formula
+from core.explain.latex import split_cells
+from core.explain.sentences.lines import SENTENCES as LINE_SENTENCES
+from core.explain.sentences.table import SENTENCES, sentence
+from core.explain.step_values import StepValues
 from core.methods import table
 from lessons.scenes import make_scene
 from tests.core.strategies import clip_of_window
 from tests.widgets.explained_steps import RARE_CLIP, Step, scene_and_window
-from widgets.formulas import FORMULAS, formula
-from widgets.latex import Typesetter, split_cells
-from widgets.sentences import SENTENCES, sentence
-from widgets.sentences_lines import SENTENCES as LINE_SENTENCES
-from widgets.step_values import StepValues
+from widgets.inspector.typesetter import Typesetter
 
 LINES = list(table.names("line"))
 CORNERS = [(1.5, 1.5), (9.5, 3.5), (5.5, 8.5)]

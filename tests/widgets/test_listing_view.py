@@ -2,8 +2,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 
-from widgets.listing import ListingText, ListingView, token_formats
-from widgets.theme import current_theme
+from widgets.basics.theme import current_theme
+from widgets.inspector.listing import ListingText, ListingView, token_formats
 
 SOURCE = '''def inside(a0, x, y):
     """Decide."""

@@ -2,7 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from widgets.message_bar import Message, MessageBar, MessageKind, Progress
+from widgets.basics.message_bar import Message, MessageBar, MessageKind, Progress
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.orbit import STEEPEST, Orbit, fitted, framed, panned, turned, zoomed
+from widgets.space.orbit import STEEPEST, Orbit, fitted, framed, panned, turned, zoomed
 
 ANGLES = st.floats(-3.0, 3.0)
 ORBITS = st.builds(

@@ -5,10 +5,10 @@ import pytest
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QImage, QPainter, QRegion
 
-from widgets.grid_geometry import GridGeometry, outline_lines, paint_focus, paint_outlines
-from widgets.grid_view import GridPlacement, GridView, place
-from widgets.outline_layer import OutlineLayer
-from widgets.theme import DARK, LIGHT, Theme
+from widgets.basics.theme import DARK, LIGHT, Theme
+from widgets.grid.geometry import GridGeometry, outline_lines, paint_focus, paint_outlines
+from widgets.grid.outline_layer import OutlineLayer
+from widgets.grid.view import GridPlacement, GridView, place
 
 pytestmark = pytest.mark.usefixtures("qapp")
 AREA = QRect(0, 0, 160, 120)

@@ -5,7 +5,8 @@ from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox
 
-from widgets.grid_overlay import (
+from widgets.basics.theme import DARK, LIGHT
+from widgets.grid.overlay import (
     BlockOverlay,
     BlockState,
     CountOverlay,
@@ -15,8 +16,7 @@ from widgets.grid_overlay import (
     SegmentOverlay,
     SpanOverlay,
 )
-from widgets.overlay_legend import OverlayLegend, swatch
-from widgets.theme import DARK, LIGHT
+from widgets.grid.overlay_legend import OverlayLegend, swatch
 
 MASK = np.ones((2, 2), np.bool_)
 OVERLAYS: list[Overlay] = [

@@ -5,8 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 
-from widgets.pipeline_rail import PipelineRail, StageEntry, StageState
-from widgets.theme import LIGHT, apply_theme
+from widgets.basics.theme import LIGHT, apply_theme
+from widgets.timeline.pipeline_rail import PipelineRail, StageEntry, StageState
 
 NAMES = [
     "Transform",

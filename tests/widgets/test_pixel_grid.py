@@ -12,13 +12,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
-from widgets.grid_buffer import GridBuffer
-from widgets.grid_geometry import GridGeometry, handle_part
-from widgets.grid_overlay import Mark, MaskOverlay
-from widgets.grid_paint import ruler_labels
-from widgets.grid_view import FIT, GridView
-from widgets.pixel_grid import PixelGrid
-from widgets.theme import current_theme
+from widgets.basics.theme import current_theme
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.geometry import GridGeometry, handle_part
+from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.paint import ruler_labels
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import FIT, GridView
 
 
 @pytest.fixture

@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from tests.widgets.pixel_grids import LEFT, TRIANGLE, at, drag, shown_grid, wheel
-from widgets.grid_view import FIT, GridView
-from widgets.pixel_grid import PixelGrid
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import FIT, GridView
 
 
 @pytest.fixture

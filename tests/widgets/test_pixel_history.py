@@ -2,9 +2,9 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QGuiApplication
 
-from widgets.marks import Mark
-from widgets.pixel_history import HistoryEntry, PixelHistory, PixelStory, PixelValue
-from widgets.pixel_history_row import is_stacked, value_columns
+from widgets.basics.marks import Mark
+from widgets.inspector.history_row import is_stacked, value_columns
+from widgets.inspector.history_view import HistoryEntry, PixelHistory, PixelStory, PixelValue
 
 GROUND = PixelValue((30, 34, 40, 255), 1.0)
 ORANGE = PixelValue((220, 120, 60, 255), 0.421337)

@@ -1,7 +1,8 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from widgets.prediction import AnswerKind, PredictionView, Question, Verdict
+from core.explain.records import AnswerKind, Question, Verdict
+from widgets.inspector.prediction import PredictionView
 
 NUMBER = Question("What is the depth?", AnswerKind.NUMBER, tolerance="within 0.01")
 CHOICE = Question("Is the pixel covered?", AnswerKind.CHOICE)

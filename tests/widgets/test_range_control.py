@@ -4,9 +4,9 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QPushButton
 
-from widgets.grid_buffer import GridBuffer
-from widgets.histogram import Histogram
-from widgets.range_control import RangeControl
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.histogram import Histogram
+from widgets.grid.range_control import RangeControl
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from tests.widgets.pixel_grids import picture, shown_grid
-from widgets.colormaps import id_table
-from widgets.grid_buffer import GridBuffer
-from widgets.grid_view import GridView
-from widgets.pixel_grid import PixelGrid
-from widgets.sample_dots import SampleDots, between_samples
-from widgets.theme import current_theme
+from widgets.basics.colormaps import id_table
+from widgets.basics.theme import current_theme
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.sample_dots import SampleDots, between_samples
+from widgets.grid.view import GridView
 
 
 @pytest.fixture

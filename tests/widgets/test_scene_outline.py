@@ -2,7 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QToolButton
 
-from widgets.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
+from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 
 
 def groups(x: float = 2.25) -> tuple[OutlineGroup, ...]:

@@ -7,10 +7,10 @@ from PySide6.QtGui import QColor, QContextMenuEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from widgets.frame_corner import SizeChoice
-from widgets.orbit import turned
-from widgets.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
-from widgets.theme import current_theme
+from widgets.basics.theme import current_theme
+from widgets.space.frame_corner import SizeChoice
+from widgets.space.orbit import turned
+from widgets.space.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

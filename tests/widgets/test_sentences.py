@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from core import STAGES, Settings
-from core.steps import Level
+from core.explain.number_text import counted, joined, pair_text, position_text, spoken
+from core.explain.sentences.table import SENTENCES, initial_sentence, sentence, summary_sentence
+from core.explain.step_values import StepValues
+from core.records.steps import Level
 from core.trace import Explanation
 from lessons.scenes import scene_names
 from tests.widgets.explained_steps import ALL_SCENES, explained, rare_trace
-from widgets.number_text import counted, joined, pair_text, position_text, spoken
-from widgets.sentences import SENTENCES, initial_sentence, sentence, summary_sentence
-from widgets.step_values import StepValues
 
 NUMBERS = {
     "transform.object-to-world.x": "after_x",

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
+from core.explain.sentences.table import sentence
 from core.trace import Explanation, pixel_cuts
 from tests.widgets.explained_steps import rare_trace
-from widgets.sentences import sentence
 
 # The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:
 # E0 = -6 x - 6 y + 48 (right edge), E1 = 6 x - 6 (left edge), E2 = 6 y - 6 (level bottom edge).

@@ -3,7 +3,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from widgets.settings_panel import Setting, SettingChoice, SettingsPanel
+from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 
 
 def settings(fill: str = "blocks", line_refusal: str = "polygons are filled") -> list[Setting]:

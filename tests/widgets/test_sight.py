@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from widgets.orbit import Orbit, refocused, turned, zoomed
-from widgets.sight import Sight
+from widgets.space.orbit import Orbit, refocused, turned, zoomed
+from widgets.space.view_depth import Sight
 
 ANGLE = 0.7
 ORBIT = Orbit(0.3, 0.2, (1.0, 2.0, -3.0), 4.0)

@@ -5,10 +5,10 @@ from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.diagram import Diagram, Patch, Spot, Stroke, Word
-from widgets.label_places import LabelPlaces
-from widgets.space_paint import clip_polygon
-from widgets.space_view import SpaceView
+from widgets.basics.label_places import LabelPlaces
+from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
+from widgets.space.paint import clip_polygon
+from widgets.space.view import SpaceView
 
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
 DIAGRAM = Diagram(

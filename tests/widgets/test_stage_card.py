@@ -1,7 +1,8 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from widgets.stage_card import StageCard, StageCardView
+from core.explain.records import StageCard
+from widgets.timeline.stage_card import StageCardView
 
 CARD = StageCard(
     "Clip", "Triangles in clip space", "Triangles in front", "Cuts off what lies behind.", "Zwicker 2016"

@@ -4,10 +4,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES
-from core.methods import table
-from core.settings import families
-from widgets.stage_card import StageCardView
-from widgets.stage_texts import (
+from core.explain.stage_texts import (
     FAMILY_TITLES,
     SHORT_TITLES,
     STAGE_CARDS,
@@ -15,6 +12,9 @@ from widgets.stage_texts import (
     method_text,
     stage_card,
 )
+from core.methods import table
+from core.settings import families
+from widgets.timeline.stage_card import StageCardView
 
 
 def test_the_texts_follow_the_stages() -> None:

@@ -5,10 +5,11 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES, Settings
+from core.explain.records import Variable
+from core.explain.variables.table import HIDDEN, TEXTS, step_variables
 from core.trace import Explanation
 from tests.widgets.explained_steps import ALL_SCENES, explained, rare_trace
-from widgets.step_variables import HIDDEN, TEXTS, step_variables
-from widgets.variables import Variable, VariablesView, value_text
+from widgets.inspector.variables import VariablesView, value_text
 
 
 def at(stage: str, key: str, place: int = 0, settings: Settings | None = None) -> dict[str, Variable]:

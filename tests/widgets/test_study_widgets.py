@@ -8,15 +8,15 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from widgets.dial_control import DialChoice
-from widgets.elided_label import ElidedLabel
-from widgets.family_list import FamilyEntry, FamilyList
-from widgets.flow_layout import FlowLayout
-from widgets.grid_buffer import GridBuffer
-from widgets.message_bar import Progress
-from widgets.study_controls import StudyChoices, StudyControls
-from widgets.study_pictures import PicturesRecord, StudyPictures
-from widgets.study_table import Cell, StudyTable, TableRecord
+from widgets.basics.elided_label import ElidedLabel
+from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.message_bar import Progress
+from widgets.charts.dial_control import DialChoice
+from widgets.charts.family_list import FamilyEntry, FamilyList
+from widgets.charts.study_controls import StudyChoices, StudyControls
+from widgets.charts.study_pictures import PicturesRecord, StudyPictures
+from widgets.charts.study_table import Cell, StudyTable, TableRecord
+from widgets.grid.buffer import GridBuffer
 
 LENGTH = DialChoice("length", "Length", "pixels", (4, 8, 16, 64), 16)
 CHOICES = StudyChoices(

@@ -3,8 +3,8 @@
 import numpy as np
 from pytestqt.qtbot import QtBot
 
-from widgets.texture_levels import TextureLevels
-from widgets.texture_picture import TexturePicture
+from widgets.space.texture_levels import TextureLevels
+from widgets.space.texture_picture import TexturePicture
 
 
 def shown(qtbot: QtBot, *sizes: int) -> TextureLevels:

@@ -5,9 +5,9 @@ from PySide6.QtGui import QColor, QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from widgets.texture_paint import outside_image
-from widgets.texture_picture import TexelFootprint, TexturePicture
-from widgets.texture_view import TextureView
+from widgets.space.texture_paint import outside_image
+from widgets.space.texture_picture import TexelFootprint, TexturePicture
+from widgets.space.texture_view import TextureView
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 PIXELS = np.zeros((20, 40, 3), np.float32)

@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QCheckBox
 
-from widgets.theme import (
+from widgets.basics.theme import (
     DARK,
     LIGHT,
     THEMES,

@@ -6,12 +6,12 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from core.steps import Level
-from widgets.marks import Mark
-from widgets.theme import current_theme
-from widgets.timeline import SPEEDS, Timeline, TimelineRun
-from widgets.timeline_bar import TimelineBar
-from widgets.timeline_run import column_counts, flag_height, lane_height
+from core.records.steps import Level
+from widgets.basics.marks import Mark
+from widgets.basics.theme import current_theme
+from widgets.timeline.bar import TimelineBar
+from widgets.timeline.run_picture import column_counts, flag_height, lane_height
+from widgets.timeline.transport import SPEEDS, Timeline, TimelineRun
 
 RUN = TimelineRun(
     512,

@@ -4,8 +4,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
-from widgets.number_text import fraction_text, full_text, number_text, parse_number
-from widgets.typed_value import TypedValue
+from core.explain.number_text import fraction_text, full_text, number_text, parse_number
+from widgets.basics.typed_value import TypedValue
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 
-from widgets.equation import number_latex
-from widgets.theme import current_theme
-from widgets.variables import Variable, VariablesView, value_text
+from core.explain.formulas.equation import number_latex
+from core.explain.records import Variable
+from widgets.basics.theme import current_theme
+from widgets.inspector.variables import VariablesView, value_text
 
 
 @pytest.fixture

@@ -9,12 +9,7 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings
-from core.methods import table
-from core.settings import families
-from core.trace.source import TraceSource
-from core.why import Link, PixelHistory, why
-from tests.core.strategies import ANY_TRIANGLES, clip_of_window
-from widgets.why_sentences import (
+from core.explain.history.sentences import (
     COUNTED,
     SENTENCES,
     chain_sentences,
@@ -24,6 +19,11 @@ from widgets.why_sentences import (
     link_sentence,
     verdict_sentence,
 )
+from core.methods import table
+from core.pixel_history import Link, PixelHistory, why
+from core.settings import families
+from core.trace.source import TraceSource
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 
 SIZE = (16, 12)
 LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.raster.pixel_runs import Raster
 from core.raster.spans.lane_rows import rows_in_order
 from core.raster.spans.lanes import TieOwners, set_up_lanes
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Floats, Integers
 
 BIG_AREA = 1 << 15
 """Pixels; triangles of more are drawn in bands."""

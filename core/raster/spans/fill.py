@@ -8,9 +8,9 @@ row from the homogeneous edge functions (``scanline``), by the same decisions.
 import numpy as np
 
 from core.methods import method
-from core.raster.edge_functions import EdgeFunctions
-from core.raster.scanline import scanline
-from core.raster.schedule import Boxes, Raster, Runs
+from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.fills.scanline import scanline
+from core.raster.pixel_runs import Boxes, Raster, Runs
 from core.raster.spans.lane_rows import is_in_lane, lane_rows, owners_of
 
 

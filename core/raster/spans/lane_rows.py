@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Integers
-from core.raster.edge_functions import EdgeFunctions
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.pixel_runs import Raster
 from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes
 from core.raster.spans.rows import Carried, bounds_of_rows
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Flags, Integers
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,11 +21,11 @@ from functools import cache
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.methods import table
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
-from core.sorting import largest_first
+from core.numeric.sorting import largest_first
+from core.raster.pixel_runs import Raster
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Floats, Integers
 
 GUARD = 2.0**-35
 """Columns; larger than the rounding of a crossing, smaller than its distance from a whole number that it is not."""

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Flags, Integers
+from core.records.arrays import Flags, Integers
 
 Words = NDArray[np.uint64]
 Bounds = tuple[int, int, int, int]

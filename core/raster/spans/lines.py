@@ -7,9 +7,9 @@ several lines cover keeps the colour of the last.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from core.arrays import Integers, checked, checked_size
-from core.raster.line_records import COORDINATE_LIMIT
+from core.raster.lines.records import COORDINATE_LIMIT
 from core.raster.spans.line_words import Bounds, set_up_line_words
+from core.records.arrays import Integers, checked, checked_size
 from core.scene import SIZE_LIMIT
 
 LINES = 8192

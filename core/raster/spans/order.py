@@ -14,13 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Integers
-from core.raster.edge_functions import EdgeFunctions
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.pixel_runs import Raster
 from core.raster.spans.lane_rows import LaneRows, height_of_lanes, lane_rows, lanes_of_edges
 from core.raster.spans.lanes import TieOwners
 from core.raster.spans.rows import Carried, walk_rows
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Integers
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,8 +4,8 @@ A word has the depth above (``fixed_depth``: 39 bits) and 24 bits for the number
 least word of a pixel is its nearest fragment and, of equally near ones, the triangle that was drawn first:
 ``numpy.minimum`` is the depth test.
 
-Words are integer planes (``core.integer_planes``): walking one pixel by pixel, row by row, or computing it at once
-gives the same bits.
+Words are integer planes (``core.numeric.integer_planes``): walking one pixel by pixel, row by row, or computing it
+at once gives the same bits.
 """
 
 from collections.abc import Iterator
@@ -14,13 +14,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Integers
-from core.integer_planes import IntegerPlanes
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.numeric.integer_planes import IntegerPlanes
+from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import Lanes, TieOwners
 from core.raster.spans.rows import Carried, bounds_of_rows, longest_first
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Integers
 
 FEW = 96
 """Spans: below this the rest of them is written out pixel by pixel, since a pass costs as much as for thousands."""

@@ -10,13 +10,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import Lanes, TieOwners
 from core.raster.spans.packed import FEW, write_out
 from core.raster.spans.rows import Carried, Spans, walk_rows
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Flags, Floats, Integers
 
 PAYLOAD_BITS = 32
 """Bits below the 31 bits of a float32 that is 0 or more."""

@@ -14,11 +14,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Floats, Integers
-from core.raster.schedule import Raster
-from core.raster.spans.arena import Arena
+from core.numeric.sorting import largest_first
+from core.raster.pixel_runs import Raster
 from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, Lanes, TieOwners
-from core.sorting import largest_first
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Floats, Integers
 
 GROUP = 4096
 """Crossings of one edge side that are computed in one go: enough to hide the cost of the calls."""

@@ -10,7 +10,7 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978 (exact area).
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.records.arrays import Floats, Integers
 
 HALF_WIDTH = 0.5
 """Half the width of the ideal line, in pixels."""

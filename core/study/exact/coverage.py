@@ -16,7 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 
 STEPS = 256
 """Steps of the snapping lattice in one pixel."""

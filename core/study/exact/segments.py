@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 
 Ends = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]
 

@@ -7,9 +7,9 @@ T. Whitted, *An improved illumination model for shaded display*, 1980 (ray and s
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.fragments.lighting import light_surface
 from core.geometry.matrices import camera_axes
+from core.records.arrays import Flags, Floats
 from core.scene import Camera, Scene
 
 

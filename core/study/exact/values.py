@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats, Integers
+from core.records.arrays import Floats, Integers
 from core.study.exact.coverage import ExactSpans, exact_spans, homogeneous_corner
 
 Whole = NDArray[Any]

@@ -4,7 +4,6 @@ A plan looks at the scene (``look``), bounds what cheaper methods would change (
 (``choices``), says why (``words``), and is measured (``measuring``).
 """
 
-from core.study.planner.everything import everything_on
 from core.study.planner.measuring import check_plan, measure_plan, plan_and_check
 from core.study.planner.planning import look_at, plan
 from core.study.planner.records import (
@@ -17,6 +16,7 @@ from core.study.planner.records import (
     Tessellation,
     Tolerance,
 )
+from core.study.planner.reference_settings import everything_on
 
 __all__ = [
     "Decision",

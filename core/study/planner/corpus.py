@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, DirectionalLight, Light, Material, Mesh, PointLight, Scene, Texture
-from core.study.workloads import (
+from core.study.accuracy.workloads import (
     checkerboard,
     flat_scene,
     overlapping_triangles,

@@ -6,17 +6,17 @@ from time import perf_counter
 
 import numpy as np
 
-from core.arrays import Floats, Integers
+from core.fast_path import draw_picture
 from core.framebuffer.display import to_display
-from core.picture import draw_picture
 from core.pipeline import render
+from core.records.arrays import Floats, Integers
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
+from core.study.accuracy.speed_accuracy import collector_off
 from core.study.planner.planning import plan
+from core.study.planner.progress import Watch, unwatched
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
-from core.study.planner.watching import Watch, unwatched
 from core.study.planner.words.phrases import in_bytes, opened, phrase
-from core.study.speed_accuracy import collector_off
 
 ROUNDS = 5
 

@@ -11,12 +11,12 @@ from core.study.planner.bounds.translucency import is_translucent
 from core.study.planner.choices.costs import Costs, TriedCosts
 from core.study.planner.choices.surface_choice import SurfaceChoice, SurfaceChooser
 from core.study.planner.choices.value_choice import ValueChoice, choose_values
-from core.study.planner.everything import everything_on
-from core.study.planner.look.surfaces import may_be_seen
-from core.study.planner.look.tessellation import tessellations
-from core.study.planner.look.touched import Touched, touch
+from core.study.planner.progress import Pause, Watch, unpaused, unwatched
 from core.study.planner.records import Decision, Findings, Plan, Tolerance
-from core.study.planner.watching import Pause, Watch, unpaused, unwatched
+from core.study.planner.reference_settings import everything_on
+from core.study.planner.scene_analysis.conservative_coverage import Touched, touch
+from core.study.planner.scene_analysis.surfaces import may_be_seen
+from core.study.planner.scene_analysis.tessellation import tessellations
 from core.study.planner.words.facts import facts_of
 from core.study.planner.words.surface_reasons import surface_reasons
 from core.study.planner.words.value_reasons import value_reasons

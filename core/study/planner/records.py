@@ -5,7 +5,7 @@ from math import floor
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import AnyScene
 from core.settings import Settings
 

@@ -3,7 +3,7 @@
 import re
 from textwrap import wrap
 
-from core.arrays import Floats, Integers
+from core.records.arrays import Floats, Integers
 from core.settings import Settings
 
 LINE_LENGTH = 100

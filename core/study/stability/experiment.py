@@ -6,9 +6,9 @@ from typing import Any, Protocol
 
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.record import Opening
+from core.study.accuracy.record import Opening
+from core.study.stability.minimization.kind import Kind
 from core.study.stability.record import ExperimentInfo, Outcome
-from core.study.stability.smaller.kind import Kind
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Experiment(Protocol):
 
     @property
     def stage(self) -> str:
-        """Where the stepper opens, a name of ``core.frame.STAGES``."""
+        """Where the stepper opens, a name of ``core.records.frame.STAGES``."""
 
     @property
     def kind(self) -> Kind[Any]:

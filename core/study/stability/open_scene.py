@@ -2,12 +2,12 @@
 
 from functools import cache
 
-from core.arrays import Floats
 from core.geometry.vertex_stage import transform_vertices
+from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
+from core.study.accuracy.workloads import flat_scene
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_lattice
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import flat_scene
 
 NAME = "open-scene"
 COLUMNS = (8.0, 16.0, 24.0, 32.0, 48.0)

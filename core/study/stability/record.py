@@ -7,7 +7,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 
 
 class Outcome(IntEnum):

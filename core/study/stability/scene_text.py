@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from core.arrays import Floats, read_only
+from core.records.arrays import Floats, read_only
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Scene, Texture
 from core.study.stability.case_text import clip_text
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.record import Opening
+from core.study.accuracy.record import Opening
 from core.study.stability.case_text import case_text
 from core.study.stability.experiment import Experiment, Verdict, experiments
-from core.study.stability.smaller.search import Search
+from core.study.stability.minimization.search import Search
 
 MOST_RUNS = 3000
 """Runs after which shrinking stops with what it has."""
@@ -34,7 +34,7 @@ class Shrunk:
     sentence: str
     """What the method does to it."""
     stage: str
-    """Where it opens in the stepper, a name of ``core.frame.STAGES``."""
+    """Where it opens in the stepper, a name of ``core.records.frame.STAGES``."""
     pixel: tuple[int, int] | None
     """Column and row of the first pixel that is wrong; ``None``: it is about no pixel."""
     run_count: int

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.antialiased.supersampling import bands_of, supersample
-from core.arrays import Singles, read_only
-from core.raster.schedule import make_raster
+from core.antialiasing.supersampling import bands_of, supersample
+from core.raster.pixel_runs import make_raster
+from core.records.arrays import Singles, read_only
 from core.scene import AnyScene
 from core.settings import Settings
 

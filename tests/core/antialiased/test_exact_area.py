@@ -10,10 +10,10 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.antialiased.exact_area import draw_pieces
-from core.frame import STAGES, StageCount
-from core.geometry_stages import process_geometry
-from core.raster.schedule import make_raster
+from core.antialiasing.exact_area import draw_pieces
+from core.raster.pixel_runs import make_raster
+from core.records.frame import STAGES, StageCount
+from core.stages.vertices import process_geometry
 from lessons.scenes import make_scene
 from tests.core.antialiased.many_samples import many_samples
 from tests.core.framebuffer.test_pixel_pieces import area, clipped

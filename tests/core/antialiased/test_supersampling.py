@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, render
-from core.antialiased import supersampling
+from core.antialiasing import supersampling
 from core.framebuffer.display import to_display
 from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
 
 SIDES = {"ssaa-4": 2, "ssaa-16": 4, "ssaa-n": 3}

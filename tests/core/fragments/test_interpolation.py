@@ -17,7 +17,7 @@ from core.fragments.interpolation import (
     take_provoking_value,
     value_plane,
 )
-from core.raster.snapping import place_corners
+from core.raster.edges.snapping import place_corners
 from tests.core.exact_reference import determinant, homogeneous_window
 from tests.core.strategies import clip_of_window, homogeneous_triangles, perspective_triangles
 

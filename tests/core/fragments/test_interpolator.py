@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core.fragments.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, set_up_planes
 from core.fragments.mixing import BLOCK, LocalNumbers
-from core.primitives import CornerValues
+from core.records.primitives import CornerValues
 
 MODES = ["perspective", "affine", "flat"]
 

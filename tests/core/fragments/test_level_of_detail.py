@@ -15,14 +15,14 @@ from core.fragments.mipmap_samples import mipmap_colors, sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
 from core.fragments.uv_slopes import uv_slopes
-from core.frame import STAGES, StageCount
-from core.geometry_stages import process_geometry
 from core.methods import table
-from core.primitives import CornerValues, own_corners
 from core.raster.coverage import Fragments
-from core.raster.schedule import make_raster
-from core.raster.snapping import place_corners
-from core.texture_slopes import texture_slopes
+from core.raster.edges.snapping import place_corners
+from core.raster.pixel_runs import make_raster
+from core.records.frame import STAGES, StageCount
+from core.records.primitives import CornerValues, own_corners
+from core.stages.texture_slopes import texture_slopes
+from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
 from tests.core.exact_reference import determinant, homogeneous_window
 from tests.core.strategies import perspective_triangles

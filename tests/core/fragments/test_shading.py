@@ -13,8 +13,8 @@ from core.fragments.shading import (
     shaded_color,
     trace_lighting,
 )
-from core.listing import listing
 from core.methods import table
+from core.records.listing import listing
 from core.scene import DirectionalLight, Material, PointLight
 
 DOWN = DirectionalLight([0, 0, -1], [1.0, 0.5, 0.25])

@@ -13,8 +13,8 @@ from core.fragments.textures import (
     texture_colors,
     wrapped_index,
 )
-from core.listing import listing
 from core.methods import table
+from core.records.listing import listing
 from core.scene import Texture
 
 ORACLE = Path(__file__).resolve().parents[4] / "shared" / "oracle"

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render
 from core.framebuffer.blending import additive, additive_pixel, opaque, over, over_pixel
 from core.framebuffer.display import to_display
-from core.listing import listing
 from core.methods import table
+from core.records.listing import listing
 
 channel = st.floats(0, 4, width=32)
 share = st.floats(0, 1)

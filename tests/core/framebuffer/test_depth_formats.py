@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, render
 from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, as_unsigned, logarithmic_depth
-from core.framebuffer.logarithm import log2, log2_of
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.methods import table
-from core.study.hidden_surfaces import wrong_visible
+from core.numeric.logarithm import log2, log2_of
+from core.study.accuracy.hidden_surfaces import wrong_visible
 from tests.core.strategies import clip_of_window
 
 FORMATS = table.names("depth")

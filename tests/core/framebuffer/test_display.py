@@ -15,7 +15,7 @@ from core.framebuffer.display import (
     to_display,
     write_pixels,
 )
-from core.listing import listing
+from core.records.listing import listing
 
 
 def formula(linear):

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.framebuffer.pixel_pieces import area_of, centroid_of, join_pieces, split_pieces, whole_pixels
+from core.antialiasing.pixel_pieces import area_of, centroid_of, join_pieces, split_pieces, whole_pixels
 
 COEFFICIENT = st.integers(-600, 600)
 LINE = st.tuples(COEFFICIENT, COEFFICIENT, COEFFICIENT).filter(lambda line: line[0] != 0 or line[1] != 0)

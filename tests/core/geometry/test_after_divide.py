@@ -7,13 +7,13 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_triangles, render, trace
-from core.geometry.after_divide import clip_divided
 from core.geometry.culling import plane_distances
-from core.geometry.polygon_clipping import PolygonClipping
-from core.geometry.sutherland_hodgman import ALL_PLANES, clip_polygons
+from core.geometry.polygon_clipping.after_divide import clip_divided
+from core.geometry.polygon_clipping.methods import PolygonClipping
+from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES, clip_polygons
 from core.methods import table
-from core.primitives import Primitives
-from core.steps import Level
+from core.records.primitives import Primitives
+from core.records.steps import Level
 from core.trace.clip_divide import DIVIDE_OPERATIONS
 from tests.core.strategies import ANY_TRIANGLES, perspective_triangles
 

@@ -9,9 +9,9 @@ from core import ClipScene, Settings, render
 from core.geometry.culling import PLANES, REASONS, CullVerdicts, cull, cull_verdict, plane_distances
 from core.geometry.outcodes import outcodes
 from core.methods import table
-from core.primitives import Primitives, index_corners
-from core.raster.edge_functions import orient
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import orient
+from core.raster.edges.snapping import place_corners
+from core.records.primitives import Primitives, index_corners
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles
 
 FRONT = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.5, 0, 1]]

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClippedLines, clip_lines
-from core.geometry.line_clip_records import LINE_CLIP_LIMIT
+from core.geometry.line_clipping.records import LINE_CLIP_LIMIT
 from core.methods import table
 
 WINDOW = (0.0, 0.0, 16.0, 11.0)

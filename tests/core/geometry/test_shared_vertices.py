@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings
 from core.fragments.shading import centroids, is_seen_from_behind, light_surface
-from core.frame import STAGES, StageCount
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import rotation
 from core.geometry.vertex_stage import place_meshes, transform_vertices
-from core.geometry_stages import Geometry, process_geometry, timed
 from core.methods import table
-from core.raster.edge_functions import orient, set_up_edges
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import orient, set_up_edges
+from core.raster.edges.snapping import place_corners
+from core.records.frame import STAGES, StageCount
+from core.stages.vertices import Geometry, process_geometry, timed
 
 NUMBERS = st.one_of(
     st.sampled_from([0.0, -0.0, 1.0, -1.0, 0.5, 1e-300, -1e-30, 1e30, 1e60, -1e60]), st.floats(-4, 4)

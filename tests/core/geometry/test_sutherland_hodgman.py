@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
 from core.geometry.culling import plane_distances
-from core.geometry.sutherland_hodgman import (
+from core.geometry.polygon_clipping.sutherland_hodgman import (
     ALL_PLANES,
     CASES,
     DEPTH_PLANES,
@@ -20,7 +20,7 @@ from core.geometry.sutherland_hodgman import (
     clip_primitives,
     distance_from,
 )
-from core.primitives import Primitives
+from core.records.primitives import Primitives
 from tests.core.drawing import cover_each
 from tests.core.strategies import ANY_TRIANGLES, homogeneous_triangles, perspective_triangles
 

@@ -3,11 +3,11 @@
 import numpy as np
 
 from core import STAGES, Settings, render
-from core.frame import StageCount
+from core.fast_path.depth_free import THIN
 from core.framebuffer.display import to_display
-from core.geometry_stages import process_geometry
-from core.picture.cleared import THIN
+from core.records.frame import StageCount
 from core.scene import AnyScene
+from core.stages.vertices import process_geometry
 
 
 def exact_bytes(scene: AnyScene, settings: Settings, encoding: str) -> np.ndarray:

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Settings, draw_picture
-from core.raster.spans.arena import Arena
+from core.raster.spans.scratch_buffers import Arena
 from tests.core.picture.numbered import numbered
 from tests.core.raster.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, Texture, draw_picture
+from core.fast_path.blended import strip_height
 from core.methods import table
-from core.picture.blended import strip_height
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window

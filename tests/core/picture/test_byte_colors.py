@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Material, Picture, Settings, draw_picture, render
-from core.frame import StageCount
+from core.fast_path import byte_colors
+from core.fast_path.byte_colors import VertexBytes, chord_error, perspective_error, product_error
 from core.framebuffer.display import srgb
-from core.geometry_stages import process_geometry
-from core.picture import byte_colors
-from core.picture.byte_colors import VertexBytes, chord_error, perspective_error, product_error
+from core.records.frame import StageCount
+from core.stages.vertices import process_geometry
 from tests.core.picture.band_scenes import SPANS, ball
 from tests.core.picture.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import projected

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Settings, draw_picture, render
+from core.fast_path import Split
 from core.methods import table
-from core.picture import Split
 from lessons.shapes import cube, knot, sphere, torus
 from tests.core.picture.numbered import assert_same, numbered, numbers
 from tests.core.picture.references import exact_bytes

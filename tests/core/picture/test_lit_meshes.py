@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
-from core.picture.lit.by_mesh import MOST
+from core.fast_path.lit.by_mesh import MOST
 from lessons.shapes import cube, sphere, torus
 from tests.core.picture.references import exact_bytes
 

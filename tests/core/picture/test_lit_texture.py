@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
+from core.fast_path.lit.corner_places import CornerPlaces
+from core.fast_path.lit.textured import position_error
 from core.methods import table
-from core.picture.lit.corner_places import CornerPlaces
-from core.picture.lit.textured import position_error
 from lessons.shapes import floor, knot, sphere, torus
 from tests.core.picture.references import exact_bytes
 

@@ -9,10 +9,10 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_picture, render
+from core.fast_path import multisampled
 from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
-from core.picture import multisampled
-from core.raster.number_format import number_format
+from core.raster.number_formats.number_format import number_format
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of

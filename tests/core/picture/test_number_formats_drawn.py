@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, render, trace
+from core.fast_path.draw import is_drawn_by_spans
 from core.framebuffer.display import to_display
 from core.methods import table
-from core.picture.draw import is_drawn_by_spans
-from core.why import why
+from core.pixel_history import why
 from tests.core.strategies import clip_of_window
 
 SIZE = (300, 40)

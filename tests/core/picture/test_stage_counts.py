@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from core import STAGES, ClipScene, Settings, render
-from core.picture import draw_picture
-from core.picture.record import Coloring, Visibility
-from core.picture.workers import BandWorkers
-from core.picture.workers.worth import COLOR, FRAGMENT
+from core.fast_path import draw_picture
+from core.fast_path.record import Coloring, Visibility
+from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.cost_model import COLOR, FRAGMENT
 from lessons.scenes import make_scene
 
 SETTINGS = {

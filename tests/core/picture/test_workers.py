@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from core import Camera, draw_picture
-from core.picture import Route
-from core.picture.workers import BandWorkers
-from core.picture.workers.sharing import have_colors_of_whole, joined_route
+from core.fast_path import Route
+from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.sharing import have_colors_of_whole, joined_route
 from tests.core.picture.band_scenes import SCENES, SPANS, ball, textured_ball
 
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from core import Mesh, draw_picture
-from core.picture.workers import BandWorkers
-from core.picture.workers.worker import memory_prefix
+from core.fast_path.workers import BandWorkers
+from core.fast_path.workers.worker import memory_prefix
 from tests.core.picture.band_scenes import SPANS, ball
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -125,7 +125,7 @@ def test_workers_that_nobody_holds_any_more_end() -> None:
 PROGRAM = """
     import numpy as np
     from core import Camera, Mesh, Scene, Settings
-    from core.picture.workers import BandWorkers
+    from core.fast_path.workers import BandWorkers
 
     print("main part", flush=True)
     corners = np.array([[-1.0, -1, 0], [1, -1, 0], [0, 1, 0]])
@@ -243,7 +243,7 @@ def test_an_interrupted_picture_leaves_no_answer_behind(monkeypatch: pytest.Monk
             raise KeyboardInterrupt
 
         with monkeypatch.context() as patch:
-            patch.setattr("core.picture.workers.order.draw_picture", interrupt)
+            patch.setattr("core.fast_path.workers.order.draw_picture", interrupt)
             with pytest.raises(KeyboardInterrupt):
                 workers.draw(scene, SPANS)
         assert not any(is_running(pid) for pid in interrupted)

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from core.picture.workers.pace import ALONE_FOR, EVIDENCE, Pace
-from core.picture.workers.worth import Load
+from core.fast_path.workers.cost_model import Load
+from core.fast_path.workers.throttle import ALONE_FOR, EVIDENCE, Pace
 
 LOAD = Load(1000, 1_000_000, 600_000, 600_000)
 HEAVY = replace(LOAD, color="deferred")

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.raster.binning import block_verdict, bound, classify, one_level, two_levels
-from core.raster.schedule import BEHIND, INSIDE, LEAF, MIXED, OUTSIDE, PROJECTED, SPLIT, make_raster
+from core.raster.pixel_runs import BEHIND, INSIDE, LEAF, MIXED, OUTSIDE, PROJECTED, SPLIT, make_raster
 from tests.core.drawing import cover_each, edges_of
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES, REGIONS, clip_of_window
 

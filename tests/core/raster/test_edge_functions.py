@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from core.methods import table
 from core.raster.coverage import examine_pixels
-from core.raster.edge_functions import covers, cross, edge_coefficients, edge_value, is_inside, orient
-from core.raster.fill_rule import exclusive, inclusive, owns, shared_edge
-from core.raster.schedule import make_raster
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import covers, cross, edge_coefficients, edge_value, is_inside, orient
+from core.raster.edges.fill_rule import exclusive, inclusive, owns, shared_edge
+from core.raster.edges.snapping import place_corners
+from core.raster.pixel_runs import make_raster
 from tests.core.drawing import edges_of, facing_of, runs_of
 from tests.core.exact_reference import determinant, facing, homogeneous_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles, lattice_triangles

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.methods import table
-from core.raster.exact_coverage import exact_coverage, misclassified
+from core.raster.edges.exact_coverage import exact_coverage, misclassified
 from tests.core import exact_reference
 from tests.core.drawing import cover_each
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window

@@ -10,7 +10,7 @@ from core.methods import table
 from core.raster import coverage
 from core.raster.binning import bound
 from core.raster.coverage import cover, examine_pixels
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
 from tests.core.drawing import TESTING_FILLS, cover_each, edges_of, pixels, runs_of, text
 from tests.core.exact_reference import exact_coverage
 from tests.core.strategies import (

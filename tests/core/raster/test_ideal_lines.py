@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.ideal_lines import cover_ideal_lines, line_distance
+from core.raster.lines.ideal import cover_ideal_lines, line_distance
 
 COORDINATE = st.one_of(
     st.integers(-8, 24).map(float), st.integers(-16, 48).map(lambda n: n / 2), st.floats(-8, 24)

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.raster.coverage import cover, examine_pixels
-from core.raster.exact_coverage import misclassified
-from core.raster.incremental import add_up, step_covers, stepped_values
-from core.raster.schedule import ADDED_A, ADDED_B, EVALUATED, make_raster
+from core.raster.edges.exact_coverage import misclassified
+from core.raster.fills.incremental import add_up, step_covers, stepped_values
+from core.raster.pixel_runs import ADDED_A, ADDED_B, EVALUATED, make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 

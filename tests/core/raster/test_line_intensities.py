@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, draw_triangles, render, trace
-from core.blend_choice import blend_choice
 from core.framebuffer.depth import depth_test
 from core.framebuffer.display import to_display
 from core.framebuffer.packed_keys import rounded_depth_test
 from core.methods import table
-from core.raster.line_intensities import WRITTEN_INTENSITY, run_rightwards
-from core.raster.lines import draw_lines, has_intensities
+from core.pixel_history import why
+from core.raster.lines.drawing import draw_lines, has_intensities
+from core.raster.lines.intensities import WRITTEN_INTENSITY, run_rightwards
+from core.stages.blend_choice import blend_choice
 from core.trace.source import TraceSource
-from core.why import why
 from lessons.scenes import make_scene
 from tests.core.strategies import clip_of_window
 

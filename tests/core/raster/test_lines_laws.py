@@ -7,8 +7,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from core.listing import listing
-from core.raster.lines import LISTINGS, draw_lines, has_intensities
+from core.raster.lines.drawing import LISTINGS, draw_lines, has_intensities
+from core.records.listing import listing
 
 ON_PIXELS = ["bresenham", "bresenham-lecture", "bresenham-float"]
 ANY_ENDS = ["midpoint", "dda", "dda-float32", "diamond-exit"]

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.methods import table
-from core.raster.line_records import COORDINATE_LIMIT, round_half_up
-from core.raster.lines import LISTINGS, draw_lines, interpolate_line, segment_parameter
+from core.raster.lines.drawing import LISTINGS, draw_lines, interpolate_line, segment_parameter
+from core.raster.lines.records import COORDINATE_LIMIT, round_half_up
 
 METHODS = [
     "bresenham",

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import cover, examine_pixels
-from core.raster.exact_format import nearest_float, unit_shift, whole_numbers
-from core.raster.fills import suited_fill
-from core.raster.inverse_format import inverse_coefficients, invert
-from core.raster.number_format import number_format
-from core.raster.schedule import make_raster
+from core.raster.fills.tested import suited_fill
+from core.raster.number_formats.exact import nearest_float, unit_shift, whole_numbers
+from core.raster.number_formats.inverse import inverse_coefficients, invert
+from core.raster.number_formats.number_format import number_format
+from core.raster.pixel_runs import make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of, text
 from tests.core.exact_reference import determinant, exact_coverage, homogeneous_window
 from tests.core.strategies import (

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.ideal_lines import cover_ideal_lines, line_distance
-from core.raster.line_records import COORDINATE_LIMIT
-from core.raster.lines import draw_lines
-from core.raster.smooth_lines import FILTER_TABLE, cone_intensity
+from core.raster.lines.drawing import draw_lines
+from core.raster.lines.ideal import cover_ideal_lines, line_distance
+from core.raster.lines.records import COORDINATE_LIMIT
+from core.raster.lines.smooth import FILTER_TABLE, cone_intensity
 from tests.core.raster.test_lines_pictures import centers
 
 SMOOTH = ["wu", "gupta-sproull"]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.snapping import SNAP_LIMIT, SUBPIXELS, keep, place_corners, snap, snap_one
+from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS, keep, place_corners, snap, snap_one
 from tests.core.exact_reference import snapped_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 

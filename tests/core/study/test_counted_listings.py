@@ -5,11 +5,16 @@ from collections import Counter
 import pytest
 
 from core.methods import table
-from core.raster.lines import LISTINGS
+from core.raster.lines.drawing import LISTINGS
 from core.settings import Settings
-from core.study.counted_listings import COUNTED, count_line_operations, counting_listing, listing_ends
-from core.study.counted_numbers import CountedNumber, plain
-from core.study.workloads import random_lines
+from core.study.accuracy.counted_listings import (
+    COUNTED,
+    count_line_operations,
+    counting_listing,
+    listing_ends,
+)
+from core.study.accuracy.counted_numbers import CountedNumber, plain
+from core.study.accuracy.workloads import random_lines
 from core.trace.lines import PIXEL_METHODS
 
 SIZE = (64, 64)

@@ -5,6 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from core.study.accuracy.workloads import clip_of_window, window_mesh
 from core.study.exact.coverage import (
     columns_inside,
     count_pixels,
@@ -14,7 +15,6 @@ from core.study.exact.coverage import (
     triangle_lines,
     whole_corner,
 )
-from core.study.workloads import clip_of_window, window_mesh
 from tests.core.exact_reference import exact_coverage
 
 SIZE = (9, 7)

@@ -21,10 +21,10 @@ from core.study import (
     study_families,
     study_family,
 )
-from core.study import speed_accuracy as module
-from core.study.family import settings_of
-from core.study.frame_task import check_pixel_tests
-from core.study.whole_picture import SAMPLED_COLOR, PictureTask, scaled, standard_scene
+from core.study.accuracy import speed_accuracy as module
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.frame_task import check_pixel_tests
+from core.study.accuracy.whole_picture import SAMPLED_COLOR, PictureTask, scaled, standard_scene
 from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
@@ -250,7 +250,7 @@ def test_wrong_input_is_told(options: dict, message: str) -> None:
 
 
 def test_a_method_that_refuses_is_a_point_without_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("core.study.frame_task.MOST_TESTS", 1000)
+    monkeypatch.setattr("core.study.accuracy.frame_task.MOST_TESTS", 1000)
     refused: list[Point] = []
     study = measure(
         "fill",
@@ -272,7 +272,7 @@ def test_what_goes_wrong_in_a_method_is_not_hidden(monkeypatch: pytest.MonkeyPat
     def broken(*_arguments) -> None:
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr("core.study.frame_task.render", broken)
+    monkeypatch.setattr("core.study.accuracy.frame_task.render", broken)
     with pytest.raises(RuntimeError, match="a bug"):
         measured("fill")
     assert gc.isenabled()
@@ -282,7 +282,7 @@ def test_a_lack_of_memory_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     def too_large(*_arguments) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("core.study.frame_task.render", too_large)
+    monkeypatch.setattr("core.study.accuracy.frame_task.render", too_large)
     assert {point.refused for point in measured("fill").points} == {
         "There is not enough memory for this work."
     }

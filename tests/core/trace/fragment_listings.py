@@ -12,10 +12,10 @@ from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
-from core.raster.line_slopes import affine_line_slopes_at, line_slopes_at
+from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
+from core.stages.vertex_light import viewpoint
 from core.trace import StageTrace, Trace
 from core.trace.texture_columns import slope_kind
-from core.vertex_light import viewpoint
 from tests.core.trace.executed_rows import equal, rows_of_kind
 
 

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from core.geometry.after_divide import divide_corner
 from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
-from core.geometry.sutherland_hodgman import clip_edge, clip_edge_in_order
-from core.raster.edge_functions import anchored_coefficients, edge_coefficients
-from core.raster.float_formats import rounded_corner
-from core.raster.inverse_format import inverse_coefficients
-from core.raster.snapping import snap_one
+from core.geometry.polygon_clipping.after_divide import divide_corner
+from core.geometry.polygon_clipping.sutherland_hodgman import clip_edge, clip_edge_in_order
+from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.edges.snapping import snap_one
+from core.raster.number_formats.floats import rounded_corner
+from core.raster.number_formats.inverse import inverse_coefficients
 from core.trace import Trace
 from core.trace.transform import divide_and_map
 from tests.core.trace.executed_rows import equal, rows_of_kind

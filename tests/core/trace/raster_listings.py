@@ -3,10 +3,10 @@
 import numpy as np
 
 from core.raster.binning import block_verdict
-from core.raster.edge_functions import covers
-from core.raster.incremental import increments, step_covers
-from core.raster.scanline import span
-from core.raster.scanline_lecture import draw_triangle, round_half_up
+from core.raster.edges.edge_functions import covers
+from core.raster.fills.incremental import increments, step_covers
+from core.raster.fills.scanline import span
+from core.raster.fills.scanline_lecture import draw_triangle, round_half_up
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.trace import StageTrace, Trace

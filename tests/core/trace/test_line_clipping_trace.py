@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
 from core.methods import table
-from core.raster.lines import LISTINGS as LINE_LISTINGS
-from core.steps import Level
+from core.raster.lines.drawing import LISTINGS as LINE_LISTINGS
+from core.records.steps import Level
 from core.trace import StageTrace
 from core.trace.line_clipping import CLIP_OPERATIONS, LISTINGS
 from core.trace.lines import PIXEL_METHODS

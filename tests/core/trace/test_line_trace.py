@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.methods import table
-from core.raster.lines import LISTINGS, has_intensities
-from core.raster.smooth_lines import FILTER_TABLE
-from core.raster.wireframe import interpolate_affine_along, interpolate_along
-from core.steps import Level
+from core.raster.lines.drawing import LISTINGS, has_intensities
+from core.raster.lines.smooth import FILTER_TABLE
+from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
+from core.records.steps import Level
 from core.trace import StageTrace
 from core.trace.lines import PIXEL_METHODS
 from core.trace.raster_rows import LINE_OPERATIONS

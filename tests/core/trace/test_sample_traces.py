@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.raster.edge_functions import covers
+from core.raster.edges.edge_functions import covers
 from core.trace import pixel_cuts
 from tests.core.trace.trace_cases import SCENES
 

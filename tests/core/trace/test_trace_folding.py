@@ -7,9 +7,9 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, render, trace
-from core.frame import Frame
 from core.framebuffer.display import to_display
 from core.methods import table
+from core.records.frame import Frame
 from core.settings import families
 from core.trace import Trace
 from core.trace.source import TraceSource

@@ -9,11 +9,11 @@ from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
-from core.antialiased.exact_area import piece_sum
-from core.antialiased.sample_counts import side_of
+from core.antialiasing.exact_area import piece_sum
+from core.antialiasing.pixel_pieces import SQUARE
+from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
+from core.antialiasing.sample_counts import side_of
 from core.framebuffer.display import srgb_byte
-from core.framebuffer.pixel_pieces import SQUARE
-from core.framebuffer.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.framebuffer.resolve import weighted_mean
 from core.methods import table
 from core.trace import StageTrace, Trace, TraceSource

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, trace
 from core.methods import table
-from core.steps import Level, Operation, Steps, ends_of
+from core.records.steps import Level, Operation, Steps, ends_of
 from core.trace import StageTrace
 from core.trace.stage_trace import MARKS
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region

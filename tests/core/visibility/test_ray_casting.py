@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, render, trace
 from core.methods import table
-from core.study.hidden_surfaces import visible_triangles, wrong_visible
+from core.study.accuracy.hidden_surfaces import visible_triangles, wrong_visible
 from core.visibility.ray_planes import exact_plane, set_up_ray_planes
 from tests.core.drawing import text
 from tests.core.exact_reference import exact, exact_coverage

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, render, trace
 from core.methods import table
-from core.raster.lines import has_intensities
+from core.pixel_history import PixelHistory, why
+from core.raster.lines.drawing import has_intensities
 from core.settings import families
 from core.trace.source import TraceSource
-from core.why import PixelHistory, why
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_scene
@@ -207,7 +207,7 @@ def test_the_geometry_of_the_whole_scene_is_kept_while_one_triangle_is_traced(mo
     scene = SCENES["clip"]
     first = why(TraceSource(scene, Settings(), 3), 5, 4)
     with monkeypatch.context() as patch:
-        patch.setattr("core.why.candidates.process_geometry", None)
+        patch.setattr("core.pixel_history.candidates.process_geometry", None)
         again = why(TraceSource(scene, Settings(), 7, before="cleared"), 5, 4)
     assert [e.reason.key for e in again.events] == [e.reason.key for e in first.events]
     other = why(TraceSource(scene, Settings(cull="back"), 7), 5, 4)

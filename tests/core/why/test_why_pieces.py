@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
+from core.pixel_history.pieces import pixel_pieces
 from core.trace.source import TraceSource
-from core.why.pieces import pixel_pieces
 
 AREA = Settings(antialiasing="area")
 

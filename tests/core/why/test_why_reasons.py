@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
+from core.pixel_history import PixelHistory, why
+from core.pixel_history.events import LISTED_LIMIT
 from core.trace.source import TraceSource
-from core.why import PixelHistory, why
-from core.why.events import LISTED_LIMIT
 from tests.core.strategies import clip_of_window
 
 SIZE = (16, 12)

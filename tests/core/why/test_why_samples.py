@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import Settings, render
+from core.pixel_history import why
 from core.trace.source import TraceSource
-from core.why import why
 from tests.core.trace.trace_cases import SCENES, name_of
 
 CHOICES = [

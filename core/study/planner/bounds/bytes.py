@@ -8,8 +8,8 @@ A byte is rounded, so bytes differ by less than the rounded-up difference of the
 
 import numpy as np
 
-from core.arrays import Floats
 from core.framebuffer.display import srgb
+from core.records.arrays import Floats
 
 
 def byte_error(dark: Floats, error: Floats) -> Floats:

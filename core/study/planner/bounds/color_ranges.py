@@ -11,15 +11,15 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.fragments.interpolation import value_plane
+from core.records.arrays import Flags, Floats, Integers
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
+from core.stages.vertex_light import viewpoint
 from core.study.planner.bounds.light_ranges import Cones, LightRange, Reflectances, cones, light_range
 from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around
-from core.study.planner.look.touched import MARGIN, Touched
-from core.study.planner.watching import Pause, unpaused
-from core.vertex_light import viewpoint
+from core.study.planner.progress import Pause, unpaused
+from core.study.planner.scene_analysis.conservative_coverage import MARGIN, Touched
 
 Levels = tuple[Floats, Floats]
 """The least and the largest level of detail (Q,)."""

@@ -6,13 +6,13 @@ normals and the ways to the lights and the eye turn by, see ``light_changes``.
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import Scene
 from core.study.planner.bounds.bytes import times
 from core.study.planner.bounds.light_changes import LightError, moved_light_error
 from core.study.planner.bounds.lit_patches import lit_primitives, lit_triangles
 from core.study.planner.bounds.shading_bounds import spread_of
-from core.study.planner.look.touched import Touched
+from core.study.planner.scene_analysis.conservative_coverage import Touched
 
 
 def interpolated_light_error(touched: Touched, scene: Scene, share: Floats, shading: str) -> LightError:

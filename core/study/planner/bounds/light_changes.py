@@ -29,8 +29,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.geometry.vertex_stage import unit
+from core.records.arrays import Flags, Floats
 from core.scene import DirectionalLight, Scene
 from core.study.planner.bounds.light_ranges import Cones, angle, angles_between, cones, halfway
 from core.study.planner.bounds.lit_patches import LitPatches

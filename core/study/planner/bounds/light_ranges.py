@@ -11,8 +11,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.geometry.vertex_stage import unit
+from core.records.arrays import Floats, Integers
 from core.scene import DirectionalLight, Light
 
 HAIR = 1e-12

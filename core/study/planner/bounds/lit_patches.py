@@ -4,15 +4,15 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.lighting import planes
 from core.fragments.shading import face_normals
 from core.geometry.vertex_stage import unit
+from core.records.arrays import Floats, Integers
 from core.scene import Scene
+from core.stages.vertex_light import viewpoint
 from core.study.planner.bounds.color_ranges import MOST_WEIGHT, materials, weights_below_zero
 from core.study.planner.bounds.light_ranges import Reflectances
-from core.study.planner.look.touched import Touched
-from core.vertex_light import viewpoint
+from core.study.planner.scene_analysis.conservative_coverage import Touched
 
 
 @dataclass(frozen=True, eq=False)

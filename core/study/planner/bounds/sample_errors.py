@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.study.planner.bounds.bytes import byte_width
 from core.study.planner.bounds.color_ranges import ColorRanges
 from core.study.planner.bounds.translucency import Range, blended_mixture
-from core.study.planner.look.closer import pairs_of, sample_pairs
-from core.study.planner.look.patterns import EVERYTHING, Pattern
-from core.study.planner.look.surfaces import Surfaces
-from core.study.planner.look.touched import Touched
+from core.study.planner.scene_analysis.conservative_coverage import Touched
+from core.study.planner.scene_analysis.per_sample_check import pairs_of, sample_pairs
+from core.study.planner.scene_analysis.sample_patterns import EVERYTHING, Pattern
+from core.study.planner.scene_analysis.surfaces import Surfaces
 
 BATCH = 512
 """Pixels that are looked at first; each further batch is twice as large."""

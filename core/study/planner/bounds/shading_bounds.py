@@ -15,13 +15,13 @@ T. Bishop, D. Weimer, *Fast Phong shading*, 1986.
 
 import numpy as np
 
-from core.arrays import Floats
 from core.geometry.vertex_stage import unit
+from core.records.arrays import Floats
 from core.scene import DirectionalLight, Scene
 from core.study.planner.bounds.light_changes import LightError, bent_light_error
 from core.study.planner.bounds.light_ranges import LightRange, cones, light_range
 from core.study.planner.bounds.lit_patches import LitPatches, lit_primitives, lit_triangles, normals_of_faces
-from core.study.planner.look.touched import Touched
+from core.study.planner.scene_analysis.conservative_coverage import Touched
 
 
 def shading_error(touched: Touched, scene: Scene, name: str) -> LightError:

@@ -10,9 +10,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.arrays import Floats, Integers, Singles
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import texture_colors
+from core.records.arrays import Floats, Integers, Singles
 from core.scene import Texture
 from core.study.planner.words.phrases import figure
 

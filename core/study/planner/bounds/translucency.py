@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.scene import AnyScene, Scene, Texture
 from core.study.planner.bounds.color_ranges import ColorRanges, weights_below_zero
-from core.study.planner.look.closer import sample_pairs
-from core.study.planner.look.patterns import Pattern
-from core.study.planner.look.touched import Touched
+from core.study.planner.scene_analysis.conservative_coverage import Touched
+from core.study.planner.scene_analysis.per_sample_check import sample_pairs
+from core.study.planner.scene_analysis.sample_patterns import Pattern
 
 Range = tuple[Floats, Floats]
 """The least and the largest of something."""

@@ -9,17 +9,17 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.fragments.lighting import Reflectance, light_surface
+from core.records.arrays import Floats, Integers
 from core.scene import Scene
+from core.stages.vertex_light import viewpoint
 from core.study.planner.bounds.bytes import times
 from core.study.planner.bounds.color_ranges import ColorRanges
 from core.study.planner.bounds.light_changes import LightError
 from core.study.planner.bounds.lit_patches import LitPatches, lit_primitives, normals_of_faces
-from core.study.planner.look.closer import sample_pairs
-from core.study.planner.look.patterns import Pattern
-from core.study.planner.look.touched import Touched, is_cut
-from core.vertex_light import viewpoint
+from core.study.planner.scene_analysis.conservative_coverage import Touched, is_cut
+from core.study.planner.scene_analysis.per_sample_check import sample_pairs
+from core.study.planner.scene_analysis.sample_patterns import Pattern
 
 MOST = 2048
 """Pairs that are looked at sample by sample: those of the largest bounds."""

@@ -19,7 +19,7 @@ P. Heckbert, H. Moreton, *Interpolation for polygon texture mapping and shading*
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import AnyScene, Scene, Texture
 from core.study.planner.bounds.bytes import times
 from core.study.planner.bounds.color_ranges import ColorRanges, areas_below_zero, as_rgb, textures_of, w_ratio
@@ -27,8 +27,8 @@ from core.study.planner.bounds.interpolated_light import interpolated_light_erro
 from core.study.planner.bounds.texture_ranges import texture_ranges
 from core.study.planner.bounds.translucency import ROUNDING
 from core.study.planner.bounds.tried_light import tried_error
-from core.study.planner.look.patterns import Pattern
-from core.study.planner.look.touched import Touched, is_cut
+from core.study.planner.scene_analysis.conservative_coverage import Touched, is_cut
+from core.study.planner.scene_analysis.sample_patterns import Pattern
 
 EQUAL = 1e-12
 """Ratios of w no farther from 1 are 1, but for rounding."""

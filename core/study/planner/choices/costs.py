@@ -14,10 +14,10 @@ from sys import platform
 from time import perf_counter, thread_time
 from typing import Protocol
 
-from core.picture import draw_picture
+from core.fast_path import draw_picture
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.speed_accuracy import collector_off
+from core.study.accuracy.speed_accuracy import collector_off
 
 ROUNDS = 3
 """Timed drawings of each, in turn, after one that does not count; fewer once it is plain."""

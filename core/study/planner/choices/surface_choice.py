@@ -8,23 +8,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Flags, Integers
 from core.geometry.vertex_stage import CornerPositionsOnDemand
 from core.methods import table
+from core.records.arrays import Flags, Integers
 from core.scene import AnyScene
 from core.settings import Settings, with_method
 from core.study.planner.bounds.color_ranges import ColorRanges, color_ranges, joined_ranges
 from core.study.planner.bounds.sample_errors import SampleError, sample_error
 from core.study.planner.bounds.translucency import alphas, is_translucent
 from core.study.planner.choices.costs import Costs
-from core.study.planner.look.closer import doubtful_backs, doubtful_depths
-from core.study.planner.look.covered_once import is_covered_once
-from core.study.planner.look.orders import doubtful_pixels
-from core.study.planner.look.patterns import PATTERNS, Pattern
-from core.study.planner.look.surfaces import Surfaces, format_margin, surfaces
-from core.study.planner.look.touched import Touched, is_cut
+from core.study.planner.progress import Pause, unpaused
 from core.study.planner.records import Tolerance
-from core.study.planner.watching import Pause, unpaused
+from core.study.planner.scene_analysis.conservative_coverage import Touched, is_cut
+from core.study.planner.scene_analysis.covered_once import is_covered_once
+from core.study.planner.scene_analysis.orders import doubtful_pixels
+from core.study.planner.scene_analysis.per_sample_check import doubtful_backs, doubtful_depths
+from core.study.planner.scene_analysis.sample_patterns import PATTERNS, Pattern
+from core.study.planner.scene_analysis.surfaces import Surfaces, format_margin, surfaces
 
 DEPTHS = ("z-16", "z-24", "z-float32")
 """Formats by the bits that they keep."""

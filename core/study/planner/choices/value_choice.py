@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.records.arrays import Flags, Floats
 from core.scene import AnyScene, Scene
 from core.settings import Settings, with_method
 from core.study.planner.bounds.bytes import byte_error, times
@@ -18,9 +18,9 @@ from core.study.planner.bounds.shading_bounds import shading_error
 from core.study.planner.bounds.tried_light import tried_error
 from core.study.planner.bounds.value_bounds import filter_error, interpolation_error, share_of_range
 from core.study.planner.choices.costs import Costs
-from core.study.planner.look.patterns import Pattern
-from core.study.planner.look.touched import Touched, is_cut
-from core.study.planner.watching import Pause, unpaused
+from core.study.planner.progress import Pause, unpaused
+from core.study.planner.scene_analysis.conservative_coverage import Touched, is_cut
+from core.study.planner.scene_analysis.sample_patterns import Pattern
 
 FILTERS = ("nearest", "bilinear")
 SHADINGS = ("unlit", "flat", "gouraud")

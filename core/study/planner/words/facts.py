@@ -4,16 +4,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.arrays import Floats, Integers
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
+from core.records.arrays import Floats, Integers
 from core.scene import AnyScene, Scene
-from core.solids import is_closed
+from core.stages.closed_meshes import is_closed
 from core.study.planner.bounds.color_ranges import ColorRanges, normal_cones, w_ratio
 from core.study.planner.bounds.texture_ranges import step_text
-from core.study.planner.look.convexity import is_convex
-from core.study.planner.look.surfaces import format_margin, surfaces
-from core.study.planner.look.touched import Touched
 from core.study.planner.records import Fact
+from core.study.planner.scene_analysis.conservative_coverage import Touched
+from core.study.planner.scene_analysis.convexity import is_convex
+from core.study.planner.scene_analysis.surfaces import format_margin, surfaces
 
 
 def facts_of(touched: Touched, colors: ColorRanges, scene: AnyScene) -> tuple[Fact, ...]:

@@ -4,12 +4,12 @@ from math import acos, pi
 
 import numpy as np
 
-from core.arrays import Flags
+from core.records.arrays import Flags
 from core.scene import AnyScene, Scene
 from core.study.planner.bounds.color_ranges import ColorRanges, materials, normal_cones, w_ratio
 from core.study.planner.choices.surface_choice import SurfaceChoice
 from core.study.planner.choices.value_choice import ValueChoice
-from core.study.planner.look.touched import Touched
+from core.study.planner.scene_analysis.conservative_coverage import Touched
 from core.study.planner.words.phrases import bound, counted, figure, listed, opened, phrase
 
 USELESS = 128

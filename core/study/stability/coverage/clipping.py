@@ -4,9 +4,9 @@ import numpy as np
 
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import flat_scene, random_source
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import flat_scene, random_source
 
 SIZE = (32, 32)
 NOT_SNAPPED = Settings(fill="bounding-box", coverage="exact")

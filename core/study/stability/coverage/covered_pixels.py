@@ -7,22 +7,22 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Integers
-from core.frame import STAGES, StageCount
-from core.geometry_stages import Geometry, process_geometry
 from core.pipeline import covered
-from core.raster.number_format import number_format
-from core.raster.schedule import make_raster
+from core.raster.number_formats.number_format import number_format
+from core.raster.pixel_runs import make_raster
+from core.records.arrays import Integers
+from core.records.frame import STAGES, StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.vertices import Geometry, process_geometry
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.record import Opening
 from core.study.exact.coverage import count_pixels, exact_spans
-from core.study.family import settings_of
-from core.study.record import Opening
 from core.study.stability.case_text import clip_text, cover_text, settings_text
 from core.study.stability.experiment import Verdict
+from core.study.stability.minimization.kind import Kind
+from core.study.stability.minimization.triangles import TRIANGLES, Triangles
 from core.study.stability.record import ExperimentInfo, Outcome
-from core.study.stability.smaller.kind import Kind
-from core.study.stability.smaller.triangles import TRIANGLES, Triangles
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""

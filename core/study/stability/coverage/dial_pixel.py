@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Flags, Integers
-from core.frame import STAGES, StageCount
-from core.geometry_stages import process_geometry
 from core.pipeline import covered
-from core.raster.edge_functions import edge_value, set_up_edges
-from core.raster.schedule import make_raster
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import edge_value, set_up_edges
+from core.raster.edges.snapping import place_corners
+from core.raster.pixel_runs import make_raster
+from core.records.arrays import Flags, Integers
+from core.records.frame import STAGES, StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.vertices import process_geometry
 from core.study.stability.coverage.covered_pixels import Wanted, count_cover
 from core.study.stability.coverage.number_formats import FORMATS
 from core.study.stability.coverage.precision_dial import DialReading, precision_dial, read_format

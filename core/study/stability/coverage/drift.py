@@ -3,10 +3,10 @@
 import numpy as np
 
 from core.scene import ClipScene
+from core.study.accuracy.workloads import on_lattice
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_lattice
 from core.study.stability.coverage.number_formats import powers, scene_of_window
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import on_lattice
 
 LENGTHS = powers(4, 13)
 

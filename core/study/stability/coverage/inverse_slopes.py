@@ -11,19 +11,19 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from core.arrays import Integers
-from core.raster.scanline_lecture import draw_triangle
+from core.raster.fills.scanline_lecture import draw_triangle
+from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.record import Opening
 from core.study.exact.coverage import facing, whole_corner
-from core.study.family import settings_of
-from core.study.record import Opening
 from core.study.stability.coverage.covered_pixels import count_cover, cover_test, on_its_lattice
 from core.study.stability.coverage.number_formats import scene_of_window
 from core.study.stability.experiment import Verdict
+from core.study.stability.minimization.kind import Kind
+from core.study.stability.minimization.triangles import TRIANGLES, Triangles, put_together, take_apart
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.stability.smaller.kind import Kind
-from core.study.stability.smaller.triangles import TRIANGLES, Triangles, put_together, take_apart
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,19 +7,19 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Floats
-from core.geometry.line_clipping import clip_lines
+from core.geometry.line_clipping.clipping import clip_lines
+from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.record import Opening
+from core.study.accuracy.workloads import on_lattice, outline_scene
 from core.study.exact.segments import Ends, clipped_ends
-from core.study.family import settings_of
-from core.study.record import Opening
 from core.study.stability.experiment import Verdict
+from core.study.stability.minimization import segments
+from core.study.stability.minimization.kind import Kind
+from core.study.stability.minimization.segments import SEGMENTS, Segment, first_edge
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.stability.smaller import segments
-from core.study.stability.smaller.kind import Kind
-from core.study.stability.smaller.segments import SEGMENTS, Segment, first_edge
-from core.study.workloads import on_lattice, outline_scene
 
 SIDE = 64
 ULP = 2.0**-46

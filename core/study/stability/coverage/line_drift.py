@@ -8,18 +8,18 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.arrays import Floats, Integers
-from core.raster.lines import draw_lines
+from core.raster.lines.drawing import draw_lines
+from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.record import Opening
+from core.study.accuracy.record import Opening
+from core.study.accuracy.workloads import outline_scene
 from core.study.stability.coverage.number_formats import powers
 from core.study.stability.experiment import Verdict
+from core.study.stability.minimization import segments
+from core.study.stability.minimization.kind import Kind
+from core.study.stability.minimization.segments import SEGMENTS, Segment, first_edge
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.stability.smaller import segments
-from core.study.stability.smaller.kind import Kind
-from core.study.stability.smaller.segments import SEGMENTS, Segment, first_edge
-from core.study.workloads import outline_scene
 
 LENGTHS = powers(4, 13)
 FIRST_ROW = 8192.0

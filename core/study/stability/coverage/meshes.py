@@ -4,9 +4,10 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from core.arrays import Integers
+from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import flat_scene, on_lattice, random_source, window_mesh
 from core.study.stability.coverage.covered_pixels import (
     CoverageExperiment,
     count_cover,
@@ -14,7 +15,6 @@ from core.study.stability.coverage.covered_pixels import (
 )
 from core.study.stability.coverage.number_formats import powers, scene_of_window
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import flat_scene, on_lattice, random_source, window_mesh
 
 SIDE = 32
 """Columns and rows of the pictures."""

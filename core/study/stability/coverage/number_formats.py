@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
 from core.scene import ClipScene
+from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import clip_of_window, flat_scene, on_lattice, random_source
 
 SIZE = (64, 64)
 """A power of two: window positions that are multiples of 1/256 pixel are exact in clip space."""

@@ -10,11 +10,11 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.arrays import Flags, Floats
-from core.raster.bit_patterns import FIXED, bit_pattern
-from core.raster.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
-from core.raster.number_format import NumberFormat
-from core.raster.snapping import place_corners
+from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
+from core.raster.edges.snapping import place_corners
+from core.raster.number_formats.bit_patterns import FIXED, bit_pattern
+from core.raster.number_formats.number_format import NumberFormat
+from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.study.exact.coverage import Corner, facing, homogeneous_corner
 from core.study.stability.coverage.covered_pixels import CoverageExperiment

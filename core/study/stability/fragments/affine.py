@@ -7,10 +7,10 @@ J. Blinn, *Hyperbolic interpolation*, 1992.
 
 import numpy as np
 
-from core.arrays import Flags, Floats
-from core.cached import cached_property
 from core.fragments.corrected_affine import largest_affine_error
 from core.pipeline import render
+from core.records.arrays import Flags, Floats
+from core.records.cached import cached_property
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_values
@@ -22,8 +22,8 @@ from core.study.stability.fragments.shrinkable_cases import (
     check_in_view_volume,
     pixels_text,
 )
+from core.study.stability.minimization.triangles import VALUED_TRIANGLES
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.stability.smaller.triangles import VALUED_TRIANGLES
 
 ROWS = 4
 """Rows of the picture: all of them are alike."""

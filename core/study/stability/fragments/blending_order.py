@@ -10,15 +10,15 @@ from itertools import permutations
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import COLORS
 from core.study.exact.values import exact_fragments
 from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
 from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
+from core.study.stability.minimization.triangles import VALUED_TRIANGLES
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.stability.smaller.triangles import VALUED_TRIANGLES
-from core.study.workloads import COLORS
 
 SIDE = 4
 """Pixels on a side of the picture: all of them are alike."""

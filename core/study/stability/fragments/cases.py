@@ -7,13 +7,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.pipeline import render
+from core.records.arrays import Flags, Floats
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.family import settings_of
-from core.study.frame_task import first_pixel
-from core.study.record import Opening
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.frame_task import first_pixel
+from core.study.accuracy.record import Opening
 from core.study.stability.experiment import Verdict
 from core.study.stability.record import ExperimentInfo, Outcome
 

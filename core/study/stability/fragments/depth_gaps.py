@@ -11,17 +11,17 @@ K. Akeley, J. Su, *Minimum triangle separation for correct z-buffer occlusion*, 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats
-from core.cached import cached_property
 from core.pipeline import render
+from core.records.arrays import Floats
+from core.records.cached import cached_property
 from core.scene import Camera, Scene
 from core.settings import Settings
-from core.study.hidden_surfaces import visible_triangles
+from core.study.accuracy.hidden_surfaces import visible_triangles
+from core.study.accuracy.workloads import layered_walls, random_source, wall_scene
 from core.study.stability.fragments.cases import Case, Judgement, judge_order
 from core.study.stability.fragments.nearest import NearestCase
 from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import layered_walls, random_source, wall_scene
 
 SIDE = 32
 """Pixels on a side of the picture."""

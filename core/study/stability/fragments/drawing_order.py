@@ -7,11 +7,11 @@ M. Newell, R. Newell, T. Sancha, *A solution to the hidden surface problem*, 197
 
 import numpy as np
 
-from core.arrays import Floats
+from core.records.arrays import Floats
+from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
 from core.study.stability.fragments.nearest import NearestCase
 from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.workloads import clip_of_window, flat_scene, on_lattice, random_source
 
 SIDE = 64
 """Pixels on a side of the picture: a power of two, so that places on the lattice are exact in clip space."""

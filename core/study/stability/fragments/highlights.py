@@ -9,18 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.pipeline import render
+from core.records.arrays import Flags, Floats
 from core.scene import Material, Scene
 from core.settings import Settings
+from core.study.accuracy.workloads import random_source, sphere_scene
 from core.study.exact.sphere import sphere_picture
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Judgement
 from core.study.stability.fragments.lit_cases import faces_the_eye, mesh_and_normals
 from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases
+from core.study.stability.minimization.meshes import LIT_MESHES
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.stability.smaller.meshes import LIT_MESHES
-from core.study.workloads import random_source, sphere_scene
 
 SIDE = 96
 """Pixels on a side of the picture."""

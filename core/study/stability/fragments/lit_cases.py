@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.geometry.vertex_stage import transform_vertices
+from core.records.arrays import Flags, Floats
 from core.scene import Mesh, Scene
 
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
-from core.cached import cached_property
 from core.methods import table
 from core.pipeline import render
+from core.records.arrays import Flags, Floats, Integers
+from core.records.cached import cached_property
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_fragments, exact_visible

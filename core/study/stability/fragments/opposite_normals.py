@@ -8,18 +8,18 @@ K. Shoemake, *Animating rotation with quaternion curves*, 1985 (turning evenly a
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
 from core.fragments.lighting import light_surface
 from core.pipeline import render
+from core.records.arrays import Flags, Floats, Integers
 from core.scene import Camera, DirectionalLight, Material, Mesh, Scene
 from core.settings import Settings
+from core.stages.vertex_light import viewpoint
 from core.study.exact.values import exact_values
 from core.study.stability.fragments.cases import Judgement, judge_colors
 from core.study.stability.fragments.lit_cases import clip_corners, faces_the_eye, mesh_and_normals
 from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
+from core.study.stability.minimization.meshes import LIT_MESHES
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.stability.smaller.meshes import LIT_MESHES
-from core.vertex_light import viewpoint
 
 SIZE = (65, 3)
 """An odd number of columns: the centre of the middle one is where opposite normals interpolate to 0."""

@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Flags, Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
-from core.study.family import settings_of
-from core.study.frame_task import first_pixel
+from core.study.accuracy.family import settings_of
+from core.study.accuracy.frame_task import first_pixel
 from core.study.stability.case_text import settings_text
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Case, CaseExperiment
+from core.study.stability.minimization.kind import Kind
+from core.study.stability.minimization.triangles import TRIANGLES
 from core.study.stability.scene_text import scene_text
-from core.study.stability.smaller.kind import Kind
-from core.study.stability.smaller.triangles import TRIANGLES
 
 
 class AnyCase(Case):

@@ -7,16 +7,16 @@ so any such triangles can be judged, and made smaller.
 
 import numpy as np
 
-from core.arrays import Flags, Floats
 from core.fragments.footprint_mean import footprint_means
+from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import checkerboard, random_source
 from core.study.exact.values import exact_values
 from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
 from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, listed_pixels
+from core.study.stability.minimization.textures import TEXTURED_TRIANGLES
 from core.study.stability.record import Axis, ExperimentInfo
-from core.study.stability.smaller.textures import TEXTURED_TRIANGLES
-from core.study.workloads import checkerboard, random_source
 
 SIDE = 24
 """Pixels on a side of the picture."""

@@ -8,9 +8,10 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978 (exact area).
 
 import numpy as np
 
-from core.arrays import Flags, Floats
+from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import clip_of_window
 from core.study.exact.areas import area_in_pixels
 from core.study.stability.experiment import Verdict
 from core.study.stability.fragments.cases import Judgement, drawn_colors
@@ -20,7 +21,6 @@ from core.study.stability.fragments.shrinkable_cases import (
     check_in_view_volume,
 )
 from core.study.stability.record import Axis, ExperimentInfo, Outcome
-from core.study.workloads import clip_of_window
 
 SIZE = (16, 32)
 FOOT, TIP = 8.0, 1024.0

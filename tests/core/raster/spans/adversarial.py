@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.raster.coverage import cover
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
 from tests.core.drawing import edges_of, runs_of
 from tests.core.meshes import fan
 from tests.core.strategies import clip_of_window

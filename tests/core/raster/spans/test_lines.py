@@ -5,8 +5,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from core.raster.bresenham import bresenham, bresenham_listing
-from core.raster.line_records import COORDINATE_LIMIT, Segments
+from core.raster.lines.bresenham import bresenham, bresenham_listing
+from core.raster.lines.records import COORDINATE_LIMIT, Segments
 from core.raster.spans import lines
 from core.raster.spans.line_words import set_up_line_words
 from core.raster.spans.lines import find_line_pixels, paint_lines

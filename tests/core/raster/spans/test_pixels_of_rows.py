@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.schedule import make_raster
+from core.raster.pixel_runs import make_raster
 from core.raster.spans.lane_rows import LaneRows, pixels_of_rows
 
 

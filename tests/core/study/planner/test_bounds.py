@@ -11,8 +11,15 @@ from core.framebuffer.display import srgb
 from core.geometry.vertex_stage import unit
 from core.pipeline import render
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
-from core.solids import is_closed
+from core.stages.closed_meshes import is_closed
 from core.study import Plan, Tolerance, everything_on, look_at, plan, plan_and_check
+from core.study.accuracy.workloads import (
+    checkerboard,
+    overlapping_triangles,
+    sphere_mesh,
+    sphere_scene,
+    textured_quad,
+)
 from core.study.planner import measuring
 from core.study.planner.bounds.bytes import byte_error, byte_width
 from core.study.planner.bounds.color_ranges import color_ranges
@@ -20,11 +27,10 @@ from core.study.planner.bounds.light_ranges import Reflectances, light_range
 from core.study.planner.bounds.shading_bounds import shading_error
 from core.study.planner.bounds.texture_ranges import magnified_range, minified_range, range_around, step_text
 from core.study.planner.bounds.value_bounds import share_of_range
-from core.study.planner.look.orders import overlap
-from core.study.planner.look.surfaces import format_margin, surfaces
-from core.study.planner.look.tessellation import sagitta, sphere_edges, tessellations
-from core.study.planner.look.touched import components, touch
-from core.study.workloads import checkerboard, overlapping_triangles, sphere_mesh, sphere_scene, textured_quad
+from core.study.planner.scene_analysis.conservative_coverage import components, touch
+from core.study.planner.scene_analysis.orders import overlap
+from core.study.planner.scene_analysis.surfaces import format_margin, surfaces
+from core.study.planner.scene_analysis.tessellation import sagitta, sphere_edges, tessellations
 
 
 def test_a_tolerance_says_what_it_wants() -> None:

@@ -6,9 +6,9 @@ import pytest
 
 from core.settings import Settings, with_method
 from core.study import Tolerance, everything_on, plan
+from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.choices.costs import PIXELS, LectureOrder, TriedCosts
 from core.study.planner.planning import STAGES
-from core.study.workloads import sphere_scene
 from tests.core.study.planner.needy_scenes import highlight
 
 

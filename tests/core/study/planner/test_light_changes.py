@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.arrays import Floats
 from core.pipeline import render
+from core.records.arrays import Floats
 from core.scene import Camera, DirectionalLight, Light, Material, Mesh, PointLight, Scene
 from core.settings import Settings
 from core.study import Tolerance, everything_on, plan
+from core.study.accuracy.workloads import sphere_mesh, sphere_scene
 from core.study.planner.bounds.bytes import times
 from core.study.planner.bounds.interpolated_light import interpolated_light_error
 from core.study.planner.bounds.light_changes import LightError
@@ -17,9 +18,8 @@ from core.study.planner.bounds.shading_bounds import shading_error
 from core.study.planner.bounds.tried_light import light_error_at_samples
 from core.study.planner.bounds.value_bounds import share_of_range
 from core.study.planner.choices.costs import LectureOrder
-from core.study.planner.look.patterns import PATTERNS
-from core.study.planner.look.touched import Touched, is_cut, touch
-from core.study.workloads import sphere_mesh, sphere_scene
+from core.study.planner.scene_analysis.conservative_coverage import Touched, is_cut, touch
+from core.study.planner.scene_analysis.sample_patterns import PATTERNS
 
 LIGHTS = [DirectionalLight(np.array([0.3, -1.0, -0.4])), PointLight(np.array([1.5, 2.0, 2.0]))]
 NEAR = Camera(np.array([0.3, 0.5, 1.6]), np.zeros(3), near=0.1)

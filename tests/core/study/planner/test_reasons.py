@@ -7,13 +7,13 @@ import pytest
 
 from core.methods import table
 from core.study import Tolerance, plan
+from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.choices.surface_choice import DEPTHS, FEWER, ORDERS
 from core.study.planner.choices.value_choice import FILTERS, INTERPOLATIONS, SHADINGS
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.planning import STAGES
 from core.study.planner.words.phrases import PHRASES, bound, counted, figure, listed
-from core.study.workloads import sphere_scene
 
 CHOICES = {
     "cull": ("back",),

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.arrays import Floats
 from core.methods import table
+from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study import Tolerance, everything_on, plan
@@ -15,10 +15,10 @@ from core.study.planner.bounds.sample_errors import sample_error
 from core.study.planner.bounds.translucency import alphas, is_translucent
 from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.corpus import corpus_scene
-from core.study.planner.look.patterns import PATTERNS
-from core.study.planner.look.surfaces import format_margin, surfaces
-from core.study.planner.look.touched import touch
 from core.study.planner.measuring import difference, shown
+from core.study.planner.scene_analysis.conservative_coverage import touch
+from core.study.planner.scene_analysis.sample_patterns import PATTERNS
+from core.study.planner.scene_analysis.surfaces import format_margin, surfaces
 
 ALL = (255, 10**9)
 """A tolerance by which every pixel is looked at, and none is too far off."""

@@ -6,17 +6,17 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from core.arrays import Floats, Integers
 from core.pipeline import render
+from core.records.arrays import Floats, Integers
 from core.scene import Camera, Mesh, Scene
-from core.solids import is_closed
+from core.stages.closed_meshes import is_closed
 from core.study import everything_on, look_at, plan
+from core.study.accuracy.workloads import sphere_mesh, sphere_scene
 from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.corpus import corpus_scene
-from core.study.planner.look.convexity import is_convex
-from core.study.planner.look.covered_once import is_covered_once, outline
-from core.study.planner.look.touched import touch
-from core.study.workloads import sphere_mesh, sphere_scene
+from core.study.planner.scene_analysis.conservative_coverage import touch
+from core.study.planner.scene_analysis.convexity import is_convex
+from core.study.planner.scene_analysis.covered_once import is_covered_once, outline
 
 GOLDEN = (1 + 5**0.5) / 2
 

@@ -3,9 +3,9 @@
 import pytest
 
 from core.study import Tolerance, check_plan, measure_plan, plan
+from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.choices.costs import LectureOrder
 from core.study.planner.measuring import alone_settings
-from core.study.workloads import sphere_scene
 from lessons.scenes import built_in_scene
 
 

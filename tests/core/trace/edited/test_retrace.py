@@ -16,7 +16,7 @@ from core.methods import table
 from core.scene import AnyScene
 from core.settings import families
 from core.trace import Trace, source
-from core.trace.edited.retrace import Retrace
+from core.trace.incremental.retrace import Retrace
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
 

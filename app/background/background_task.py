@@ -1,0 +1,198 @@
+"""Work that a page is asked for and does in the background: shown as it goes on, then done, cancelled or failed."""
+
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job
+from widgets.basics.message_bar import Progress
+
+PERCENT = 100
+
+
+@dataclass(frozen=True)
+class WorkWords:
+    """What is said of work that comes to nothing."""
+
+    cancelled: str
+    """As ``Measuring was cancelled``."""
+    failed: str
+    """As ``It could not be measured``."""
+    kept: str
+    """As ``what was measured before is as it was``."""
+    running: str = ""
+    """Of work that there is a list of, after the name of what runs: ``is still being measured``."""
+
+
+class ShowsProgress(Protocol):
+    """The controls that start and cancel the work."""
+
+    def show_progress(self, progress: Progress | None) -> None:
+        """Show how far it is; ``None``: nothing is being done."""
+
+
+class AskedWork(QObject):
+    """Follows one job: what came before stays, and comes back unless a result takes its place."""
+
+    message_sent = Signal(str)
+    refused = Signal(str)
+    shown_changed = Signal()
+    """Something else is shown: what was chosen in it is gone."""
+    progressed = Signal(object)
+    """How far the work has come, a ``Progress``; ``None``: nothing is being done any more."""
+
+    def __init__(
+        self, job: Job, controls: ShowsProgress, words: WorkWords, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._job, self._progress_shown, self._words = job, controls, words
+        job.progressed.connect(self._show_progress)
+        job.part_done.connect(self._take_part)
+        job.succeeded.connect(self._take_result)
+        job.failed.connect(self._fail)
+        job.ended.connect(self._end)
+
+    @Slot()
+    def cancel(self) -> None:
+        """Stop; what there was before is shown again."""
+        if self._job.is_running:
+            self._job.cancel()
+            self._come_to_nothing()
+            self.message_sent.emit(f"{self._words.cancelled}; {self._words.kept}.")
+
+    @Slot(object, str)
+    def _show_progress(self, fraction: float | None, doing: str) -> None:
+        done = 0 if fraction is None else round(fraction * PERCENT)
+        self._tell_progress(Progress(self._doing(doing), done, 0 if fraction is None else PERCENT))
+
+    def _tell_progress(self, progress: Progress | None) -> None:
+        """Show how far it is, on the page and to those who listen."""
+        self._progress_shown.show_progress(progress)
+        self.progressed.emit(progress)
+
+    def _doing(self, doing: str) -> str:
+        """Return what is being done as it is shown."""
+        return doing
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self._come_to_nothing()
+        kept = self._words.kept
+        self.refused.emit(f"{self._words.failed}: {error} {kept[:1].upper()}{kept[1:]}.")
+
+    @Slot()
+    def _end(self) -> None:
+        """Go back to what was there before; a result or a reason may follow."""
+        self._tell_progress(None)
+        self._put_back()
+
+    def _take_part(self, part: Any) -> None:
+        """Show a part of the result."""
+        raise NotImplementedError
+
+    def _take_result(self, result: Any) -> None:
+        """Show the result; the end has been told before, and has put back what was shown earlier."""
+        raise NotImplementedError
+
+    def _put_back(self) -> None:
+        """Show again what there was before."""
+        raise NotImplementedError
+
+    def _come_to_nothing(self) -> None:
+        """Forget what was chosen in work that was cancelled or failed; there may be nothing to choose in it."""
+
+
+class WorkChoice(Protocol):
+    """One thing of a list that can be asked for."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the list."""
+
+    @property
+    def title(self) -> str:
+        """What it is called in the list."""
+
+    @property
+    def result(self) -> Any:
+        """What came of it last; ``None``: nothing."""
+
+
+Choice = TypeVar("Choice", bound=WorkChoice)
+
+
+class ListedWork(AskedWork, Generic[Choice]):
+    """Work of several kinds, in a list: the choices and results of all are kept, those of one are shown."""
+
+    shown_text_changed = Signal(str)
+    """What is shown, in words."""
+
+    def __init__(
+        self,
+        job: Job,
+        controls: ShowsProgress,
+        words: WorkWords,
+        choices: dict[str, Choice],
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(job, controls, words, parent)
+        self._choices = choices
+        self._current = next(iter(choices))
+        self._running = ""
+        """Name of what is being done; empty: nothing."""
+
+    @property
+    def choice(self) -> Choice:
+        """What is shown."""
+        return self._choices[self._current]
+
+    @property
+    def is_partial(self) -> bool:
+        """Whether what is shown is being done now."""
+        return self._running == self._current
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all that can be shown, in their order."""
+        return list(self._choices)
+
+    def _is_free(self) -> bool:
+        """Return whether nothing is being done; else say what is: it is not dropped for something else."""
+        if self._running:
+            title = self._choices[self._running].title
+            self.message_sent.emit(
+                f"{title} {self._words.running}: wait until it is done, or cancel it first (Shift+F5)."
+            )
+        return not self._running
+
+    def _doing(self, doing: str) -> str:
+        """Name what is being done while something else is shown."""
+        if not self._running or self.is_partial:
+            return doing
+        return f"{self._choices[self._running].title}: {doing}"
+
+    def show_neighbour(self, direction: int) -> None:
+        """Show the next of the list, or the one before."""
+        self._show_named(self.names[(self.names.index(self._current) + direction) % len(self.names)])
+
+    def _show_named(self, name: str) -> None:
+        if name != self._current:
+            self._turn_to(name)
+
+    def _turn_to(self, name: str) -> None:
+        """Show one of the list, afresh."""
+        self._current = name
+        self._point_nowhere()
+        self.refresh()
+        self.shown_changed.emit()
+
+    def _point_nowhere(self) -> None:
+        """Forget what is pointed at."""
+        raise NotImplementedError
+
+    def refresh(self) -> None:
+        """Show the list, the controls and the result."""
+        raise NotImplementedError

@@ -1,0 +1,112 @@
+"""What several commands take: FILE, sizes and settings."""
+
+import argparse
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+
+from app.cli.commands import PROGRAM, UsageError
+from app.files.open_any import Opened, open_any
+from core import Settings
+from core.scene import SIZE_LIMIT
+from core.settings import settings_from_texts
+
+FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
+MOST_ROUNDS = 1000
+
+
+def size_from_text(text: str) -> tuple[int, int]:
+    """Return width and height of a text such as ``640x480``."""
+    found = re.fullmatch(r"(\d{1,9})[x×](\d{1,9})", text)
+    if not found:
+        raise argparse.ArgumentTypeError(f"must be WIDTHxHEIGHT such as 640x480, got {text}")
+    width, height = int(found[1]), int(found[2])
+    if not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):
+        raise argparse.ArgumentTypeError(f"must be 1 to {SIZE_LIMIT} pixels each way, got {text}")
+    return width, height
+
+
+def setting_from_text(text: str) -> tuple[str, str]:
+    """Return family and method of a text such as ``fill=blocks``."""
+    family, sign, name = text.partition("=")
+    if not (family and sign and name):
+        raise argparse.ArgumentTypeError(f"must be family=method such as fill=blocks, got {text}")
+    return family, name
+
+
+def add_file(parser: argparse.ArgumentParser) -> None:
+    """Let the command take FILE."""
+    parser.add_argument("file", metavar="FILE", help=FILE_HELP)
+
+
+SETTINGS_HELP = (
+    "choose methods (rasterscope methods lists them), block_size=N, correction_interval=N or samples_across=N; "
+    "the others are those of the state file, or the defaults"
+)
+
+
+def add_settings(parser: argparse.ArgumentParser, what: str = SETTINGS_HELP) -> None:
+    """Let the command take ``--set``; ``what`` says what is set."""
+    parser.add_argument(
+        *("--set", "-s"),
+        metavar="family=method",
+        type=setting_from_text,
+        nargs="+",
+        action="extend",
+        default=[],
+        help=what,
+    )
+
+
+def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Settings:
+    """Return ``settings`` with some chosen on the command line, or raise UsageError."""
+    texts = {name: str(getattr(settings, name)) for name in Settings.__dataclass_fields__}
+    try:
+        return settings_from_texts(texts | dict(chosen))
+    except ValueError as problem:
+        raise UsageError(f"argument --set: {problem}") from problem
+
+
+def open_file(options: argparse.Namespace) -> Opened:
+    """Open FILE; what of it could not be had is told on stderr, progress too where somebody watches."""
+    shows_progress = sys.stderr.isatty()
+    opened = open_any(options.file, show_progress if shows_progress else None)
+    if shows_progress:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    for warning in opened.warnings:
+        print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
+    return opened
+
+
+@contextmanager
+def overflow_told() -> Iterator[None]:
+    """Tell in one line, at the end, if numbers got too large in the block; nothing stops for that."""
+    problems: set[str] = set()
+
+    def note(problem: str, flag: int) -> None:
+        problems.add(problem)
+
+    with np.errstate(over="call", invalid="call", divide="call", call=note):
+        yield
+    if problems:
+        print(
+            f"{PROGRAM}: warning: some numbers are too large or too small to reckon with "
+            f"({', '.join(sorted(problems))}); what depends on them is undefined",
+            file=sys.stderr,
+        )
+
+
+def show_progress(fraction: float | None, doing: str) -> None:
+    """Write how far the work is over the line before."""
+    done = "" if fraction is None else f" {100 * fraction:.0f} %"
+    print(f"\r\x1b[K{doing}{done}", end="", file=sys.stderr, flush=True)
+
+
+def rounds_from_text(text: str) -> int:
+    """Return a number of rounds."""
+    if not text.isdecimal() or not 1 <= int(text) <= MOST_ROUNDS:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MOST_ROUNDS}, got {text}")
+    return int(text)

@@ -1,0 +1,58 @@
+"""``rasterscope bench``: the core against other libraries, on the same triangles.
+
+NumPy is imported only after the numbers of threads are set: it asks for them once.
+"""
+
+import argparse
+from pathlib import Path
+
+from app.bench.threads import set_threads
+from app.cli.commands import UsageError
+
+DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
+pictures, time them in turn, and write a table. The libraries are in the extra bench."""
+EXAMPLES = """examples:
+  rasterscope bench
+  rasterscope bench --quick --workload B C
+  rasterscope bench -o docs         (writes benchmark.csv, benchmark.svg and benchmark.png there)
+
+Exit code: 0 measured, 1 the core did not draw what it should, or something could not be done, 2 wrong usage.
+"""
+ROUNDS, QUICK_ROUNDS = 9, 2
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    parser.add_argument(
+        "--workload", metavar="NAME", nargs="+", default=[], help="only these: A1 A2 B C D E F G H I"
+    )
+    parser.add_argument(
+        "--rounds", metavar="N", type=rounds_from_text, help=f"turns of every contender ({ROUNDS})"
+    )
+    parser.add_argument("--quick", action="store_true", help=f"{QUICK_ROUNDS} rounds, to see whether it runs")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder for table and chart; default: none")
+
+
+def rounds_from_text(text: str) -> int:
+    """Return a number of rounds."""
+    if not text.isdecimal() or not 1 <= int(text) <= 1000:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 1000, got {text}")
+    return int(text)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure; 0 if the core drew what it should."""
+    if options.quick and options.rounds is not None:
+        raise UsageError("argument --quick: not allowed with --rounds")
+    folder = None if options.output is None else Path(options.output)
+    if folder is not None and not folder.is_dir():
+        raise UsageError(f"argument -o: there is no folder {folder}")
+    set_threads()
+    from app.bench.run import chosen_workloads, run_benchmark
+
+    try:
+        workloads = chosen_workloads(options.workload)
+    except ValueError as problem:
+        raise UsageError(f"argument --workload: {problem}") from problem
+    rounds = QUICK_ROUNDS if options.quick else options.rounds or ROUNDS
+    return run_benchmark(workloads, rounds, folder)

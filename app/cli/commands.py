@@ -1,0 +1,174 @@
+"""The command line: which commands there are, how one is chosen, and how what goes wrong is told.
+
+A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
+called, so that no command waits for what another one needs.
+"""
+
+import argparse
+import importlib
+import io
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from app import __version__
+
+PROGRAM = "rasterscope"
+USAGE_ERROR = 2
+INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command without a window, or one that needs none to be seen."""
+
+    name: str
+    summary: str
+    module: str
+
+
+COMMANDS = (
+    Command("render", "draw a scene into a PNG file, and its buffers into an npz file", "app.cli.render"),
+    Command("trace", "write what one stage did, row by row, as JSON, CSV or npz", "app.cli.trace"),
+    Command("methods", "list the methods that settings choose from", "app.cli.methods"),
+    Command("scenes", "list the built-in scenes", "app.cli.scenes"),
+    Command("screenshot", "save a picture of the window without showing it", "app.cli.screenshot"),
+    Command("opengl-check", "compare the core with the OpenGL of this machine", "app.cli.opengl_check"),
+    Command("study", "measure the methods of a family: speed against accuracy", "app.cli.study"),
+    Command("stress", "map where methods fail, and make failing cases small", "app.cli.stress"),
+    Command("plan", "choose no more than a scene needs, within a tolerance", "app.cli.plan"),
+    Command("bench", "measure the core against other libraries", "app.cli.bench"),
+)
+
+EXAMPLES = """examples:
+  rasterscope                         open the window where it was left
+  rasterscope teapot.obj              open a mesh
+  rasterscope lesson.rasterscope      open a state that was saved
+  rasterscope shared-edge             open a built-in scene
+  rasterscope render cube -o cube.png --size 640x480 --set shading=gouraud
+  rasterscope trace cube --triangle 3 --stage raster --format csv
+"""
+
+FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF), a state file (.rasterscope) or the name of a built-in
+scene; a file with the name of a command or scene opens as ./name.
+"""
+
+
+class UsageError(ValueError):
+    """The command line is not as it should be; the message is one line."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise UsageError instead of writing several lines."""
+        raise UsageError(f"{message} ({self.prog} --help explains)")
+
+
+def run_command_line(arguments: Sequence[str]) -> int:
+    """Run the command, or open the window; return the exit code.
+
+    Returns
+    -------
+    int
+        0: all went well; 1: something could not be done; 2: the command line is wrong; 130: Ctrl+C.
+        What went wrong is one line on stderr.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    program = PROGRAM
+    try:
+        command = next((c for c in COMMANDS if arguments and c.name == arguments[0]), None)
+        program = f"{PROGRAM} {command.name}" if command else PROGRAM
+        code = _run_command(command, arguments[1:]) if command else _run_window(arguments)
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Whoever reads the output has gone, as ``head`` does.
+        _silence_stdout()
+        return 1
+    except UsageError as problem:
+        return _fail(program, problem, USAGE_ERROR)
+    except MemoryError:
+        return _fail(program, "there is not enough memory for this", 1)
+    except OSError as problem:
+        _silence_stdout()
+        text = problem if problem.strerror is None else _os_error_text(problem)
+        return _fail(program, text, 1)
+    except (ValueError, ImportError) as problem:
+        return _fail(program, problem, 1)
+
+
+def _run_command(command: Command, arguments: Sequence[str]) -> int:
+    module: Any = importlib.import_module(command.module)
+    parser = Parser(
+        prog=f"{PROGRAM} {command.name}",
+        description=module.DESCRIPTION,
+        epilog=module.EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    module.add_arguments(parser)
+    options = _parse(parser, arguments)
+    if options is None:
+        return 0
+    code: int = module.run(options)
+    return code
+
+
+def _run_window(arguments: Sequence[str]) -> int:
+    rows = "".join(f"  {command.name:<14}{command.summary}\n" for command in COMMANDS)
+    parser = Parser(
+        prog=PROGRAM,
+        usage=f"{PROGRAM} [FILE]\n       {PROGRAM} COMMAND ...",
+        description="Step through the rasterization pipeline, pixel by pixel, forwards and backwards.",
+        epilog=f"commands ({PROGRAM} COMMAND --help explains each):\n{rows}\n{EXAMPLES}\n{FILES}\n"
+        "Exit code: 0 done, 1 something could not be done (one line on stderr says what), 2 wrong usage.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    if len(arguments) > 1 and not {"-h", "--help", "--version"} & set(arguments):
+        names = ", ".join(command.name for command in COMMANDS)
+        parser.error(f"one FILE or a command ({names}) is wanted, got {' '.join(arguments)}")
+    parser.add_argument("file", metavar="FILE", nargs="?", help="what to open in the window")
+    parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
+    options = _parse(parser, arguments)
+    if options is None:
+        return 0
+    from app.cli.window import run
+
+    return run(options.file)
+
+
+def _parse(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace | None:
+    """Return the options, or ``None`` if help or version were asked for and have been written."""
+    try:
+        return parser.parse_args(arguments)
+    except SystemExit:
+        return None
+
+
+def _fail(program: str, problem: object, code: int) -> int:
+    text = " ".join(str(problem).split()) or type(problem).__name__
+    print(f"{program}: {text}", file=sys.stderr)
+    return code
+
+
+def _os_error_text(problem: OSError) -> str:
+    reason = str(problem.strerror).lower()
+    if problem.filename is None:
+        return f"the output cannot be written: {reason}"
+    return f"{problem.filename} cannot be read or written: {reason}"
+
+
+def _silence_stdout() -> None:
+    """Drop what is still to be written, so that the end of the process does not fail on it again."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        with open(os.devnull, "wb") as nothing:
+            os.dup2(nothing.fileno(), sys.stdout.fileno())

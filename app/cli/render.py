@@ -1,0 +1,107 @@
+"""``rasterscope render``: a picture and its buffers, without a window."""
+
+import argparse
+import os
+from dataclasses import replace
+
+import numpy as np
+
+from app.cli.arguments import (
+    add_file,
+    add_settings,
+    chosen_settings,
+    open_file,
+    overflow_told,
+    size_from_text,
+)
+from app.cli.commands import UsageError
+from app.files.drawing_memory import check_memory
+from app.files.file_writing import whole_file
+from core import Frame, render
+from core.framebuffer.display import Bytes, to_display
+from core.records.arrays import Singles
+from core.stages.blend_choice import blend_choice
+
+DESCRIPTION = (
+    """Draw a scene into a PNG file (sRGB, straight alpha), its buffers into an npz file, or both."""
+)
+EXAMPLES = """The npz file has three arrays; row 0 is the bottom row.
+  color      (H, W, 4) float32, linear, as the blend method leaves it
+  depth      (H, W) float32, as the depth method stores it
+  primitive  (H, W) int32, number of the triangle seen, -1 for none
+
+examples:
+  rasterscope render teapot.obj -o teapot.png
+  rasterscope render teapot.obj -o teapot.png --size 640x480 --set shading=flat cull=back
+  rasterscope render shared-edge -o edge.png --set fill=blocks block_size=4 --buffers edge.npz
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    add_file(parser)
+    parser.add_argument("-o", "--output", metavar="out.png", help="the picture")
+    parser.add_argument(
+        "--size",
+        metavar="WxH",
+        type=size_from_text,
+        help="pixels of the picture; default: those of the scene",
+    )
+    add_settings(parser)
+    parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Draw and write."""
+    for path, name, ending in ((options.output, "-o", ".png"), (options.buffers, "--buffers", ".npz")):
+        if path is not None and not path.lower().endswith(ending) and not is_device(path):
+            raise UsageError(f"argument {name}: the name of the file must end with {ending}, got {path}")
+    if options.output is None and options.buffers is None:
+        raise UsageError("nothing would be written: -o out.png, --buffers out.npz or both are wanted")
+
+    opened = open_file(options)
+    settings = chosen_settings(opened.document.settings, options.set)
+    scene = opened.document.scene
+    if options.size is not None:
+        scene = replace(scene, size=options.size)
+    blend, _ = blend_choice(settings)
+    check_memory(scene.size, settings)
+    with overflow_told():
+        frame = render(scene, settings)
+
+    if options.output is not None:
+        write_picture(options.output, frame, blend)
+    if options.buffers is not None:
+        with whole_file(options.buffers) as file:
+            np.savez(file, color=frame.color, depth=frame.depth, primitive=frame.primitive)
+    return 0
+
+
+def write_picture(path: str, frame: Frame, blend: str) -> None:
+    """Write the colours of a frame as a PNG file, top row first."""
+    from PIL import Image
+
+    pixels = picture_bytes(frame.color, blend)
+    with whole_file(path) as file:
+        Image.fromarray(np.ascontiguousarray(pixels[::-1])).save(file, "PNG")
+
+
+def picture_bytes(color: Singles, blend: str) -> Bytes:
+    """Return the sRGB bytes (H, W, 4) uint8 of a frame with straight alpha, as image files want them.
+
+    Parameters
+    ----------
+    color : (H, W, 4) float32
+        As the method ``blend`` leaves it: ``opaque`` stores straight alpha, others premultiplied colours.
+    """
+    if blend != "opaque":
+        alpha = color[..., 3:]
+        is_partial = (alpha > 0) & (alpha < 1)
+        straight = np.divide(color[..., :3], alpha, out=color[..., :3].copy(), where=is_partial)
+        color = np.concatenate([straight, alpha], axis=2)
+    return to_display(color).pixels
+
+
+def is_device(path: str) -> bool:
+    """Return whether a path names something that is written to directly, as /dev/null."""
+    return os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path)

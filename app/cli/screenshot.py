@@ -1,0 +1,149 @@
+"""``rasterscope screenshot``: the window in a file, without showing it."""
+
+import argparse
+import os
+import sys
+
+from app.cli.arguments import add_file, add_settings, chosen_settings, rounds_from_text, size_from_text
+from app.cli.commands import UsageError
+from app.cli.window import load_qt
+from core import STAGES
+
+DESCRIPTION = """Save a picture of the window, as it shows FILE, without showing it."""
+EXAMPLES = """examples:
+  rasterscope screenshot shared-edge -o edge.png
+  rasterscope screenshot teapot.obj -o teapot.png --theme dark --size 1600x1000
+  rasterscope screenshot near-plane -o clip.svg --stage clip --step 4
+  rasterscope screenshot cube -o samples.png --stage resolve --set antialiasing=msaa-4
+  rasterscope screenshot cube -o lines.png --page compare --show line --work pixel-ends --choose line=dda
+  rasterscope screenshot cube -o cracks.png --page stability --show shared-edges --choose fill_rule=exclusive
+  rasterscope screenshot teapot.obj -o plan.png --page plan
+  rasterscope screenshot study-line-any-ends.json -o study.png
+
+A page other than step measures or runs what it shows, in fewer rounds than the window. A saved study or atlas is shown
+as it is.
+"""
+PAGES = ("step", "compare", "stability", "plan")
+ONLY_OF = {
+    "stage": ("step",),
+    "step": ("step",),
+    "view": ("step",),
+    "show": ("compare", "stability"),
+    "work": ("compare",),
+    "rounds": ("compare",),
+    "grow": ("compare",),
+    "choose": ("compare", "stability"),
+}
+"""Options that are of some pages only."""
+ENDINGS = (".png", ".svg", ".pdf")
+SMALLEST = (900, 600)
+"""Least size of the window in pixels."""
+
+
+def step_from_text(text: str) -> int:
+    """Return a position in a stage."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0, got {text}")
+    return int(text)
+
+
+def window_size_from_text(text: str) -> tuple[int, int]:
+    """Return a size that the window can have."""
+    size = size_from_text(text)
+    if size[0] < SMALLEST[0] or size[1] < SMALLEST[1]:
+        raise argparse.ArgumentTypeError(f"must be at least {SMALLEST[0]}x{SMALLEST[1]}, got {text}")
+    return size
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    add_file(parser)
+    parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
+    parser.add_argument(
+        "--size",
+        metavar="WxH",
+        type=window_size_from_text,
+        default=(1280, 800),
+        help="of the window (1280x800)",
+    )
+    parser.add_argument(
+        "--theme", choices=("light", "dark"), default="light", help="look of the window (light)"
+    )
+    parser.add_argument(
+        "--stage", choices=STAGES, metavar="NAME", help=f"stage that is shown: {', '.join(STAGES)}"
+    )
+    parser.add_argument(
+        "--step", metavar="N", type=step_from_text, help="operations of the stage that are done; default: all"
+    )
+    parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
+    parser.add_argument("--page", choices=PAGES, help="page that is shown (step)")
+    parser.add_argument(
+        "--show", metavar="NAME", help="family that page compare measures, or experiment that stability runs"
+    )
+    parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
+    parser.add_argument(
+        "--rounds",
+        metavar="N",
+        type=rounds_from_text,
+        help="timed runs of every method, fewer of slow ones (3)",
+    )
+    parser.add_argument(
+        "--grow",
+        action="store_true",
+        default=None,
+        help="measure of the whole pipeline too how cost grows with the picture (minutes)",
+    )
+    parser.add_argument(
+        "--choose", metavar="METHOD", help="open the pictures of a method, or the first cell where it fails"
+    )
+    add_settings(parser)
+
+
+def check_page(options: argparse.Namespace) -> None:
+    """Refuse, with a sentence, options that the page does not have, and any page for what has its own."""
+    page = options.page or "step"
+    is_saved = options.file.lower().endswith(".json")
+    for name, pages in ONLY_OF.items():
+        if getattr(options, name) is not None and (page not in pages or is_saved):
+            where = "a saved study or atlas" if is_saved else f"page {page}"
+            raise UsageError(f"argument --{name}: it is for page {' or '.join(pages)}, got {where}")
+    if is_saved and (options.page is not None or options.set):
+        raise UsageError(
+            f"--page and --set are for scenes; a saved study or atlas has its own, got {options.file}"
+        )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Draw the window and write it."""
+    if not options.output.lower().endswith(ENDINGS):
+        raise UsageError(f"argument -o: the file must end with {', '.join(ENDINGS)}, got {options.output}")
+    if sys.platform.startswith("linux"):
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    check_page(options)
+    load_qt()
+    from app.window.start import grab_window
+
+    content = None
+    if options.page not in (None, "step"):
+        from app.pages.page_filling import PageContent  # All pages come along: not for the Step page alone.
+
+        content = PageContent(
+            options.page,
+            options.show or "",
+            options.work or "",
+            options.choose or "",
+            options.rounds,
+            bool(options.grow),
+        )
+    grab_window(
+        options.file,
+        options.output,
+        options.size,
+        options.theme,
+        options.stage,
+        options.step,
+        options.view,
+        lambda settings: chosen_settings(settings, options.set),
+        content,
+    )
+    return 0

@@ -1,0 +1,124 @@
+"""``rasterscope stress``: where methods fail, as maps of real runs; and failing cases made small."""
+
+import argparse
+import sys
+from itertools import product
+from pathlib import Path
+
+from app import __version__
+from app.cli.arguments import show_progress
+from app.cli.commands import UsageError
+from app.cli.study import seed_from_text
+from app.export.atlas import export_atlas
+from app.export.atlas_text import atlas_text
+from app.files.shrunk_files import export_shrunk
+from core.study import machine
+from core.study.stability import Experiment, Outcome, experiments, stress
+from core.study.stability.shrink import shrink_cell
+
+DESCRIPTION = (
+    """Run every method of an experiment over a grid of parameters, and print what came of every run."""
+)
+EXAMPLES = """examples:
+  rasterscope stress --list
+  rasterscope stress slivers
+  rasterscope stress shared-edges -o results
+  rasterscope stress slivers --shrink coverage=float32 -o results
+
+-o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes
+its triangles (its segment, its lit mesh) as few, short and small as they can be and still fail, and prints a test; with
+-o the test (.py) and the scene (.rasterscope) are written too.
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    parser.add_argument("experiment", metavar="EXPERIMENT", nargs="?", help="what is tried; --list names all")
+    parser.add_argument(
+        "--list", action="store_true", help="list the experiments with their axes, methods and claims"
+    )
+    parser.add_argument(
+        "--shrink", metavar="METHOD", help="make the first failing cell of this method as small as it can be"
+    )
+    parser.add_argument("--seed", metavar="N", type=seed_from_text, default=0, help="of what is random (0)")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and maps; default: none")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the experiment, print and write."""
+    if options.list:
+        print("\n".join(list_text()))
+        return 0
+    if options.experiment is None:
+        raise UsageError("EXPERIMENT is wanted; --list names all")
+    folder = None if options.output is None else Path(options.output)
+    if folder is not None and not folder.is_dir():
+        raise UsageError(f"argument -o: there is no folder {folder}")
+    try:
+        experiment = experiments.get(options.experiment)
+        if options.shrink is not None:
+            _check_method(experiment, options.shrink)
+    except ValueError as problem:
+        raise UsageError(str(problem)) from problem
+    if options.shrink is not None:
+        return run_shrink(experiment, options.shrink, options.seed, folder)
+    shows_progress = sys.stderr.isatty()
+    progress = show_progress if shows_progress else None
+    atlas = stress(options.experiment, seed=options.seed, progress=progress, machine=machine(__version__))
+    if shows_progress:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    print("\n".join(atlas_text(atlas)))
+    if folder is not None:
+        for path in export_atlas(atlas, folder):
+            print(f"wrote {path}")
+    return 0
+
+
+def list_text() -> list[str]:
+    """Return all experiments with their axes, methods and claims."""
+    lines = []
+    for experiment in experiments:
+        info = experiment.info
+        lines.append(f"{info.name:<24}{info.title}")
+        for axis in info.axes:
+            unit = f" ({axis.unit})" if axis.unit else ""
+            ends = f"{axis.values[0]:g} to {axis.values[-1]:g}"
+            lines.append(f"    {axis.name}: {axis.title}{unit}, {ends}, {len(axis.values)} values")
+        lines += [f"    methods: {', '.join(info.methods)}", f"    {info.claim}"]
+    return lines
+
+
+def _check_method(experiment: Experiment, method: str) -> None:
+    """Refuse, with a sentence, a method that the experiment does not run."""
+    info = experiment.info
+    if method not in info.methods:
+        raise ValueError(f"--shrink takes a method of {info.name}: {', '.join(info.methods)}; got {method}")
+
+
+def run_shrink(experiment: Experiment, method: str, seed: int, folder: Path | None) -> int:
+    """Shrink the first failing cell of a method, print the test, and write it with its scene."""
+    place = first_failure(experiment, method, seed)
+    if place is None:
+        print(f"{method} does not fail anywhere in {experiment.info.name}.")
+        return 0
+    shrunk = shrink_cell(experiment.info.name, method, place, seed)
+    axes = ", ".join(
+        f"{axis.title.lower()} {value:g}" for axis, value in zip(experiment.info.axes, place, strict=True)
+    )
+    print(
+        f"{experiment.info.title}: {axes}.\n{shrunk.sentence} It took {shrunk.run_count} runs.\n\n{shrunk.test}"
+    )
+    if folder is not None:
+        for path in export_shrunk(shrunk, experiment.info.name, method, folder):
+            print(f"wrote {path}")
+    return 0
+
+
+def first_failure(experiment: Experiment, method: str, seed: int) -> tuple[float, ...] | None:
+    """Return the first place, row by row, at which a method fails; ``None``: there is none."""
+    axes = experiment.info.axes
+    for place in product(*(axis.values for axis in reversed(axes))):
+        verdict = experiment.run(method, place[::-1], seed)
+        if verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED):
+            return place[::-1]
+    return None

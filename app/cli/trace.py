@@ -1,0 +1,172 @@
+"""``rasterscope trace``: what one stage did, row by row."""
+
+import argparse
+import re
+import sys
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from app.cli.arguments import (
+    add_file,
+    add_settings,
+    chosen_settings,
+    open_file,
+    overflow_told,
+    size_from_text,
+)
+from app.cli.commands import UsageError
+from app.cli.trace_tables import arrays, csv_lines, json_lines
+from app.files.file_writing import whole_file
+from app.files.open_any import Opened
+from app.session.document import Document, focus_on
+from core import STAGES, Trace, trace
+from core.raster.binning import bound
+from core.trace import StageTrace
+
+DESCRIPTION = (
+    """Write the trace of one stage: a row for each thing that it did, with every number that took part."""
+)
+EXAMPLES = """json  rows with kind, triangle, pixel, all numbers, and for every operation its key, its sentence and the
+      line of the algorithm's listing; no value (NaN) is null
+csv   rows with all numbers; no value is an empty cell
+npz   each column as an array, row_kind, row_triangle, row_pixel, marks, and the buffers after the last row
+
+Without --size and --region these are the pixels that the window shows: those of the state file, all of a
+small scene, else those around the triangle. Row 0 is the bottom row.
+
+examples:
+  rasterscope trace shared-edge --triangle 1 --stage raster --format csv
+  rasterscope trace teapot.obj --triangle 2000 --stage depth --format json -o depth.json
+  rasterscope trace cube --triangle 3 --stage raster --size 24x16 --set fill=blocks --format npz -o fill.npz
+"""
+
+LONGEST_TRACE = 5_000_000
+"""Pixel tests that a trace may have: each keeps all its numbers."""
+
+
+def region_from_text(text: str) -> tuple[int, int, int, int]:
+    """Return the region of a text such as ``10,20,64,48``."""
+    found = re.fullmatch(r"(\d{1,9}),(\d{1,9}),(\d{1,9}),(\d{1,9})", text)
+    if not found:
+        raise argparse.ArgumentTypeError(f"must be COLUMN,ROW,COLUMNS,ROWS such as 10,20,64,48, got {text}")
+    column, row, columns, rows = (int(number) for number in found.groups())
+    return column, row, columns, rows
+
+
+def triangle_from_text(text: str) -> int:
+    """Return the number of a triangle."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0, got {text}")
+    return int(text)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    add_file(parser)
+    parser.add_argument(
+        "--triangle", metavar="N", type=triangle_from_text, help="number in the scene, from 0; default: all"
+    )
+    parser.add_argument("--stage", metavar="NAME", choices=STAGES, required=True, help=", ".join(STAGES))
+    parser.add_argument("--format", choices=("json", "csv", "npz"), default="json", help="default: json")
+    parser.add_argument("-o", "--output", metavar="PATH", help="file; default: standard output (json, csv)")
+    parser.add_argument(
+        "--size", metavar="WxH", type=size_from_text, help="trace the whole view at this size, same camera"
+    )
+    parser.add_argument(
+        "--region",
+        metavar="C,R,COLUMNS,ROWS",
+        type=region_from_text,
+        help="trace these pixels only: column and row of the lower left one, columns, rows",
+    )
+    parser.add_argument(
+        "--before",
+        choices=("earlier", "cleared"),
+        help="buffers at the start: as earlier triangles left them, or cleared",
+    )
+    add_settings(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Trace and write."""
+    if options.format == "npz" and options.output is None:
+        raise UsageError("argument --format: npz needs a file, -o PATH")
+    opened = open_file(options)
+    with overflow_told():
+        traced = make_trace(opened, options)
+        if STAGES.index(options.stage) >= STAGES.index("raster"):
+            check_length(traced)
+        stage = traced.stage(options.stage)
+    if options.format == "npz":
+        with whole_file(options.output) as file:
+            np.savez(file, **arrays(stage))  # type: ignore[arg-type]
+        return 0
+    lines = csv_lines(stage) if options.format == "csv" else json_of(stage, traced, opened.document)
+    write_lines(lines, options.output)
+    return 0
+
+
+def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
+    """Prepare the trace that the options ask for."""
+    document = opened.document
+    triangle = document.triangle if options.triangle is None else options.triangle
+    if options.triangle is None and opened.state is None:
+        triangle = None
+    if triangle is not None and triangle >= document.triangle_count:
+        raise ValueError(
+            f"triangle must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
+        )
+    settings = chosen_settings(document.settings, options.set)
+    before = options.before or document.before
+    if options.size is not None or options.region is not None:
+        scene = document.scene if options.size is None else replace(document.scene, size=options.size)
+        return trace(scene, settings, triangle, options.region, before)
+    document = replace(document, settings=settings, before=before)
+    if opened.state is None:
+        document = focus_on(document, triangle)
+    return replace(document, triangle=triangle).make_trace()
+
+
+def check_length(traced: Trace) -> None:
+    """Raise ValueError for a trace that tests more pixels than can be kept."""
+    source = traced.source
+    if source.geometry.outlines is not None:
+        return
+    boxes = bound(source.geometry.edges, source.raster)
+    tests = int(((boxes.column_end - boxes.column) * (boxes.row_end - boxes.row)).sum())
+    if source.settings.fill == "brute-force":
+        tests = len(source.geometry.edges) * source.raster.shape[0] * source.raster.shape[1]
+    if tests > LONGEST_TRACE:
+        raise ValueError(
+            f"the trace may have {tests:,} pixel tests, and {LONGEST_TRACE:,} can be kept: choose one --triangle, "
+            "a smaller --size or --region, or another fill"
+        )
+
+
+def json_of(stage: StageTrace, traced: Trace, document: Document) -> Iterable[str]:
+    """Return the lines of the JSON format."""
+    from core.explain.sentences.table import sentence
+
+    source = traced.source
+    header = {
+        "program": "rasterscope",
+        "scene": document.title,
+        "size": list(source.scene.size),
+        "region": list(source.region) if source.region is not None else None,
+        "triangle": source.triangle,
+        "before": source.before,
+        "settings": {name: getattr(source.settings, name) for name in source.settings.__dataclass_fields__},
+    }
+    return json_lines(stage, header, sentence)
+
+
+def write_lines(lines: Iterable[str], path: str | None) -> None:
+    """Write lines into a file, or on the standard output."""
+    if path is None:
+        for line in lines:
+            sys.stdout.write(line + "\n")
+        return
+    with whole_file(path) as file:
+        for line in lines:
+            file.write(line.encode() + b"\n")

@@ -1,0 +1,1 @@
+"""Views, studies and atlases as files: PNG, SVG, PDF, CSV, JSON and text."""

@@ -1,0 +1,97 @@
+"""A stability experiment as files: every cell as CSV, all of it as JSON, the maps as SVG and PNG."""
+
+import csv
+from io import BytesIO, StringIO
+from math import isnan
+from pathlib import Path
+
+from app.bench.chart_png import write_png
+from app.export.atlas_svg import atlas_svg
+from app.files.file_writing import whole_file
+from app.files.state_files import readable_json
+from core.study.stability import Atlas, Outcome
+
+ENDINGS = (".csv", ".json", ".svg", ".png")
+"""Of the files that an atlas is written to."""
+
+
+def atlas_csv(atlas: Atlas) -> str:
+    """Return a table with a row for every cell of every method, in rows that stand alone."""
+    axes = atlas.experiment.axes
+    names = ["experiment", "seed", "method", *(axis.name for axis in axes), "outcome", "severity", "remark"]
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*names, *atlas.machine])
+    machine = list(atlas.machine.values())
+    for each in atlas.maps:
+        for row, values in enumerate(each.outcome.tolist()):
+            for column, value in enumerate(values):
+                place = [repr(axis.values[k]) for axis, k in zip(axes, (column, row), strict=False)]
+                severity = float(each.severity[row, column])
+                shown = "" if isnan(severity) else repr(severity)
+                cells = [atlas.experiment.name, atlas.seed, each.method, *place, Outcome(value).name.lower()]
+                writer.writerow([*cells, shown, each.remark(column, row), *machine])
+    return text.getvalue()
+
+
+def atlas_json(atlas: Atlas) -> str:
+    """Return everything that an atlas holds; a severity that is no number is null."""
+    info = atlas.experiment
+    return readable_json(
+        {
+            "program": "rasterscope stress",
+            "version": 1,
+            "experiment": info.name,
+            "title": info.title,
+            "question": info.question,
+            "claim": info.claim,
+            "axes": [vars(axis) | {"values": list(axis.values)} for axis in info.axes],
+            "seed": atlas.seed,
+            "machine": dict(atlas.machine),
+            "outcomes": [outcome.name.lower() for outcome in Outcome],
+            "maps": [
+                {
+                    "method": each.method,
+                    "title": each.title,
+                    "outcome": each.outcome.tolist(),
+                    "severity": [[None if isnan(v) else v for v in row] for row in each.severity.tolist()],
+                    "remarks": [list(row) for row in each.remarks],
+                }
+                for each in atlas.maps
+            ],
+        }
+    )
+
+
+def atlas_content(atlas: Atlas, ending: str) -> bytes | None:
+    """Return the content of a file with one of `ENDINGS`; ``None``: there is no such kind of file."""
+    if ending == ".csv":
+        return atlas_csv(atlas).encode()
+    if ending == ".json":
+        return atlas_json(atlas).encode() + b"\n"
+    if ending == ".svg":
+        return atlas_svg(atlas).encode()
+    if ending != ".png":
+        return None
+    picture = BytesIO()
+    write_png(picture, atlas_svg(atlas))
+    return picture.getvalue()
+
+
+def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
+    """Write an experiment into a folder as CSV, JSON, SVG and PNG; files of the same name are replaced.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; the message is one sentence.
+    """
+    written = []
+    for ending in ENDINGS:
+        path = folder / f"stress-{atlas.experiment.name}{ending}"
+        content = atlas_content(atlas, ending)
+        assert content is not None
+        with whole_file(path) as file:
+            file.write(content)
+        written.append(path)
+    return written

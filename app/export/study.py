@@ -1,0 +1,110 @@
+"""A study as files: numbers as CSV and JSON, charts as SVG and PNG; with the machine, versions, date and settings."""
+
+import csv
+from io import BytesIO, StringIO
+from math import isnan
+from pathlib import Path
+
+from app.bench.chart_png import write_png
+from app.export.study_chart import study_svg
+from app.files.file_writing import whole_file
+from app.files.study_files import EXTENSION, study_json
+from core.study.accuracy.record import Point, Study, pareto_front
+
+ENDINGS = (".svg", ".png", ".csv", EXTENSION)
+"""Of the files that a study is written to."""
+FIXED = ("method", "title", "rounds", "unit", "units")
+TIMES = ("median_seconds_per_unit", "lower_quartile", "upper_quartile")
+
+
+def study_csv(study: Study) -> str:
+    """Return a table with a row for every method, in rows that stand alone.
+
+    Notes
+    -----
+    Empty cells: not measured, or not defined; ``refused`` and ``not_defined`` say why. Points at other values of the
+    cost dial follow with that value in the dial's column.
+    """
+    counts = sorted({name for point in study.points for name in point.counts})
+    errors = [measure.name for measure in study.measures]
+    dials = [dial.name for dial in study.work.dials]
+    fronts = [f"on_front_{name}" for name in errors]
+    machine = list(study.machine)
+    context = {"family": study.family, "work": study.work.name, "scene": study.scene, "seed": study.seed}
+    settings = {f"setting_{name}": value for name, value in vars(study.settings).items()}
+    columns = [*context, *(f"dial_{name}" for name in dials), *FIXED, *TIMES, *errors, *fronts, *counts]
+    columns += ["not_defined", "refused", *machine, *settings]
+    text = StringIO()
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    common = context | {f"dial_{name}": study.dials[name] for name in dials} | dict(study.machine) | settings
+    for point in study.points:
+        on_front = {
+            f"on_front_{name}": int(point in pareto_front(study.points, name))
+            for name in errors
+            if point.is_measured
+        }
+        writer.writerow(common | on_front | point_cells(study, point))
+    cost = next((dial.name for dial in study.work.dials if dial.is_cost), None)
+    for value, points in study.growth.items():
+        if cost is not None and value != study.dials[cost]:
+            for point in points:
+                writer.writerow(common | {f"dial_{cost}": value} | point_cells(study, point))
+    return text.getvalue()
+
+
+def point_cells(study: Study, point: Point) -> dict[str, object]:
+    """Return the cells of one method."""
+    cells: dict[str, object] = {"method": point.method, "title": point.title, "refused": point.refused}
+    if not point.is_measured:
+        return cells
+    low, high = point.spread
+    cells |= {"rounds": len(point.seconds), "unit": study.work.unit, "units": point.unit_count}
+    cells |= dict(zip(TIMES, (repr(point.median), repr(low), repr(high)), strict=True))
+    cells |= {name: "" if isnan(value) else repr(value) for name, value in point.errors.items()}
+    cells |= dict(point.counts)
+    cells["not_defined"] = " ".join(f"{name}: {reason}" for name, reason in point.reasons.items())
+    return cells
+
+
+def study_content(study: Study, measure: str | None, ending: str) -> bytes | None:
+    """Return the content of a file with one of `ENDINGS`; ``None``: there is no such kind of file.
+
+    ``measure`` is the error of the chart, as in `export_study`.
+    """
+    if ending == ".csv":
+        return study_csv(study).encode()
+    if ending == EXTENSION:
+        return study_json(study).encode()
+    if ending not in ENDINGS:
+        return None
+    svg = study_svg(study, measure)
+    if ending == ".svg":
+        return svg.encode()
+    picture = BytesIO()
+    write_png(picture, svg)
+    return picture.getvalue()
+
+
+def export_study(study: Study, folder: Path, measure: str | None = None) -> list[Path]:
+    """Write a study into a folder as CSV, JSON, SVG and PNG; files of the same name are replaced.
+
+    Parameters
+    ----------
+    measure : str, optional
+        The error of the chart; the first by default.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; the message is one sentence.
+    """
+    written = []
+    for ending in ENDINGS:
+        path = folder / f"study-{study.family}-{study.work.name}{ending}"
+        content = study_content(study, measure, ending)
+        assert content is not None
+        with whole_file(path) as file:
+            file.write(content)
+        written.append(path)
+    return written

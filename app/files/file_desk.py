@@ -1,0 +1,168 @@
+"""Files of the window: opening meshes, states and built-in scenes, saving a state, exporting the view."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from app.background.progress import WorkProgress
+from app.background.workers import Job, Progress
+from app.export.views import copy_widget, export_widget
+from app.files.mesh_files import EXTENSIONS, OpeningCancelledError
+from app.files.open_any import Opened, open_any
+from app.files.save_dialog import SaveDialog
+from app.files.state_files import EXTENSION, State, StateFileError, save_state
+from app.pages.page_bar import Pages
+from app.pages.page_table import page_endings
+from app.pages.step.page import StepPage
+from app.pages.step.stepping_presenter import Bookmark
+from app.session.tracing import trace_now
+from app.window.message_words import sentences
+from core import Trace
+from core.records.steps import Level
+from widgets.basics.message_bar import Message, MessageBar, MessageKind
+
+
+class FileDesk(QObject):
+    """Opens off the GUI thread; saves and exports at once."""
+
+    message_sent = Signal(object)
+    """A ``Message`` about what became of a file."""
+    file_used = Signal(str)
+    """Path of a file that was opened or saved."""
+    path_chosen = Signal(str)
+    """Path of a file that the user wants to open."""
+
+    def __init__(self, page: StepPage, pages: Pages, messages: MessageBar, window: QWidget) -> None:
+        super().__init__(window)
+        self._page, self._session, self._messages = page, page.session, messages
+        self._pages = pages
+        self.job = Job(self)
+        self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
+        self.progress.opening_cancelled.connect(self._tell_cancelled)
+        self.job.succeeded.connect(self._show_result)
+        self.job.failed.connect(self._tell_failed)
+
+    def _tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
+        self.message_sent.emit(Message(kind, text, details))
+
+    # Opening.
+
+    def ask_file(self) -> None:
+        """Ask for a mesh or state file and open it."""
+        endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION, *page_endings()))
+        folder = str(Path(self._session.document.path).parent) if self._session.document.path else ""
+        path, _ = QFileDialog.getOpenFileName(
+            self._page.window(), "Open", folder, f"Meshes, states and studies ({endings});;All files (*)"
+        )
+        if path:
+            self.path_chosen.emit(path)
+
+    @Slot(str)
+    def open_path(self, target: str) -> None:
+        """Open a mesh, a state or a built-in scene off the GUI thread; the open scene stays until it is there."""
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Opened, Trace]:
+            opened = open_any(target, progress, is_cancelled)
+            stage = opened.state.stage if opened.state else "raster"
+            return opened, trace_now(opened.document, stage)
+
+        self.progress.begin(f"Opening {Path(target).name}")
+        self.job.start(work)
+
+    @Slot(object)
+    def _show_result(self, result: tuple[Opened, Trace]) -> None:
+        opened, trace = result
+        self.show_opened(opened, trace)
+        self._messages.clear()
+        if opened.warnings:
+            self._tell(opened.warnings[0], MessageKind.WARNING, "\n".join(opened.warnings[1:]))
+        if opened.document.path:
+            self.file_used.emit(opened.document.path)
+
+    def show_opened(self, opened: Opened, trace: Trace | None = None) -> None:
+        """Show what was opened: a scene from its start, a state where it was left."""
+        page, session, state = self._page, self._session, opened.state
+        page.timeline.show_playing(False)
+        session.open(opened.document, trace)
+        page.stepping.forget_places()
+        if state is None:
+            session.set_stage("raster", 0)
+            return
+        page.stepping.set_bookmarks([Bookmark(stage, position) for stage, position in state.bookmarks])
+        session.set_level(Level(state.level))
+        session.set_stage(state.stage, state.position)
+        session.set_pin(state.pin)
+        page.show_view(state.view)
+
+    @Slot(object)
+    def _tell_failed(self, error: Exception) -> None:
+        if isinstance(error, OpeningCancelledError):
+            self._tell_cancelled()
+        elif isinstance(error, ValueError | OSError | MemoryError):
+            self._tell(sentences(error, "The open scene stays as it was"), MessageKind.ERROR)
+        else:
+            raise error
+
+    @Slot()
+    def _tell_cancelled(self) -> None:
+        self._tell("Opening was cancelled; nothing has changed.")
+
+    def shut_down(self) -> None:
+        """Cancel opening and wait until its thread has ended."""
+        self.job.shut_down()
+
+    # Saving.
+
+    def state(self) -> State:
+        """Return what a state file keeps."""
+        cursor = self._session.cursor
+        return State(
+            document=self._session.document,
+            stage=cursor.stage,
+            position=cursor.position,
+            level=int(cursor.level),
+            pin=self._session.pin,
+            bookmarks=[(mark.stage, mark.position) for mark in self._page.stepping.bookmarks],
+            view=self._page.current_view(),
+        )
+
+    def ask_save(self) -> None:
+        """Ask where the state is to be saved, and save it."""
+        name, kinds = f"state{EXTENSION}", f"States (*{EXTENSION})"
+        path = SaveDialog(self._page.window(), "Save state", name, kinds).ask()
+        if path:
+            self.save_to(path)
+
+    def save_to(self, path: str) -> None:
+        """Save the state to a file."""
+        try:
+            save_state(path, self.state())
+        except (OSError, StateFileError) as error:
+            self._tell(f"The state was not saved: {error}", MessageKind.ERROR)
+        else:
+            self.file_used.emit(path)
+            self._tell(f"Saved {Path(path).name}.")
+
+    # The view.
+
+    def ask_export(self) -> None:
+        """Ask where the current view is to go, and export it."""
+        kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
+        path = SaveDialog(self._page.window(), "Export view", "view.png", kinds).ask()
+        if path:
+            self.export_to(path)
+
+    def export_to(self, path: str) -> None:
+        """Export the current view by the ending of the file."""
+        try:
+            export_widget(self._pages.current.main_view(), path)
+        except (OSError, ValueError) as error:
+            self._tell(f"The view was not exported: {error}", MessageKind.ERROR)
+        else:
+            self._tell(f"Exported {Path(path).name}.")
+
+    def copy_view(self) -> None:
+        """Put the current view on the clipboard as a picture."""
+        copy_widget(self._pages.current.main_view())

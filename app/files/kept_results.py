@@ -1,0 +1,129 @@
+"""The last result of every family or experiment, kept from one start of the window to the next.
+
+They are the files that an export writes, in a folder of the user's data: one for each name, replaced by the next
+result of that name. All of them together stay below a size; the oldest go first.
+"""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+from PySide6.QtCore import QObject, QStandardPaths, Signal, Slot
+
+from app.background.workers import Desk, Progress
+from app.files.file_writing import FileWriteError, make_folder, whole_file
+from app.window.preferences import FOLDER_VARIABLE
+
+LARGEST = 4 << 20
+"""Bytes of one file; a result that is larger is not kept."""
+LARGEST_TOGETHER = 32 << 20
+"""Bytes of all files of the folder."""
+ENDING = ".json"
+_turn = Lock()
+"""Two pages write to one folder, and look together at how much there is in it."""
+
+
+def results_folder() -> Path:
+    """Return the folder of kept results; it may not exist yet.
+
+    Raises
+    ------
+    FileWriteError
+        If this user has no folder for data.
+    """
+    chosen = os.environ.get(FOLDER_VARIABLE)
+    if chosen:
+        return Path(chosen).absolute() / "results"
+    folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.GenericDataLocation)
+    if not folder:
+        raise FileWriteError(f"there is no folder for results; {FOLDER_VARIABLE} may name one")
+    return Path(folder) / "rasterscope" / "results"
+
+
+class KeptResults(Desk):
+    """Writes results and reads them again, off the GUI thread; does nothing before it has begun."""
+
+    found = Signal(object)
+    """A result of an earlier start."""
+    failed = Signal(str)
+    """Why something cannot be kept or read again, as a sentence."""
+
+    def __init__(self, kind: str, load: Callable[[Path], Any], parent: QObject | None = None) -> None:
+        """Keep results of a ``kind``, as ``study``, the first word of its files; ``load`` opens one of them."""
+        super().__init__(parent)
+        self._kind, self._load = kind, load
+        self._has_begun = False
+        self._reading, self._writing = self.add_job(), self.add_job()
+        self._reading.part_done.connect(self.found)
+        self._reading.succeeded.connect(self._tell_unread)
+        for job in (self._reading, self._writing):
+            job.failed.connect(self._tell)
+
+    def begin(self) -> None:
+        """Read what was kept, and keep what comes from now on."""
+        self._has_begun = True
+
+        def work(
+            progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[Any], None]
+        ) -> tuple[str, ...]:
+            unread = []
+            for path in sorted(results_folder().glob(f"{self._kind}-*{ENDING}")):
+                if is_cancelled():
+                    break
+                try:
+                    part_done(self._load(path))
+                except ValueError as problem:
+                    unread.append(str(problem))
+            return tuple(unread)
+
+        self._reading.start_in_parts(work)
+
+    def keep(self, name: str, content: Callable[[], str]) -> None:
+        """Write a result in the place of the last one of its ``name``."""
+        if not self._has_begun:
+            return
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
+            with _turn:
+                write_result(results_folder(), f"{self._kind}-{name}{ENDING}", content().encode())
+
+        self._writing.start(work)
+
+    @Slot(object)
+    def _tell_unread(self, unread: tuple[str, ...]) -> None:
+        if unread:
+            self.failed.emit(f"Of the results of the last start: {'; '.join(unread)}.")
+
+    @Slot(object)
+    def _tell(self, error: Exception) -> None:
+        if not isinstance(error, OSError | ValueError):
+            raise error
+        self.failed.emit(f"The result is not kept for the next start: {error}.")
+
+
+def write_result(folder: Path, name: str, content: bytes) -> None:
+    """Write one result whole, and remove the oldest of the folder that are too many.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written or is too large; what was kept before is as it was.
+    """
+    if len(content) > LARGEST:
+        raise FileWriteError(f"{name} is larger than {LARGEST >> 20} MiB")
+    make_folder(folder)
+    with whole_file(folder / name) as file:
+        file.write(content)
+    remove_oldest(folder, LARGEST_TOGETHER)
+
+
+def remove_oldest(folder: Path, limit: int) -> None:
+    """Remove results, the oldest first, until those that are left have at most ``limit`` bytes together."""
+    files = [(path, path.stat()) for path in folder.glob(f"*{ENDING}")]
+    total = 0
+    for path, status in sorted(files, key=lambda found: found[1].st_mtime_ns, reverse=True):
+        total += status.st_size
+        if total > limit:
+            path.unlink(missing_ok=True)

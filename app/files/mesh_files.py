@@ -1,0 +1,209 @@
+"""Opening mesh files: a path becomes a scene that is centred, framed and lit, or one clear sentence.
+
+The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB and glTF. All of their triangles are
+there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). An OBJ file that names
+no material file takes an image beside it, ``<stem>_texture.png`` or ``<stem>.png``, as its texture. What a
+file names but does not have, such as a texture, is a warning; anything else that is wrong is an error.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import sqrt, tan
+from pathlib import Path
+
+import numpy as np
+
+from app.files.mesh_formats import READERS, LoadedMeshes, MeshFileError, Report
+from app.files.mesh_formats.reading import check_positions
+from app.files.mesh_process import OpeningCancelledError, read_in_process
+from core.records.arrays import Floats
+from core.scene import Camera, DirectionalLight, Mesh, Scene
+
+__all__ = [
+    "EXTENSIONS",
+    "LoadedMeshes",
+    "MeshFileError",
+    "OpenedFile",
+    "OpeningCancelledError",
+    "frame_meshes",
+    "load_meshes",
+    "open_mesh",
+    "read_file",
+]
+
+EXTENSIONS = tuple(READERS)
+"""Endings of the files that open, in lower case with their dot."""
+
+VIEWED_FROM = (0.35, 0.4, 1.0)
+"""Direction from the model to the camera: from the front, a little from the right and from above."""
+
+MARGIN = 1.08
+"""How much farther away the camera stands than where the model touches the border of the picture."""
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedFile:
+    """A scene from a mesh file, and what of the file could not be had."""
+
+    scene: Scene
+    warnings: tuple[str, ...]
+    """One sentence each; empty: everything that the file names is there."""
+
+
+def open_mesh(
+    path: str | Path,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+    size: tuple[int, int] = (512, 512),
+) -> OpenedFile:
+    """Open a mesh file as a scene.
+
+    Parameters
+    ----------
+    path : str or Path
+    progress : callable, optional
+        Called in this thread with how far the work is, from 0 to 1 or ``None``, and what is being done.
+    is_cancelled : callable, optional
+        Asked in this thread many times a second. Where it is given the file is read in a process of its own,
+        so that the work ends at once.
+    size : (width, height)
+        Raster of the scene in pixels.
+
+    Raises
+    ------
+    MeshFileError
+        For every file that cannot be opened; the message is one sentence.
+    OpeningCancelledError
+        If ``is_cancelled()``.
+    """
+    loaded = load_meshes(path, progress, is_cancelled)
+    scene = frame_meshes(loaded.meshes, size)
+    if is_cancelled is not None and is_cancelled():
+        raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
+    return OpenedFile(scene, loaded.warnings)
+
+
+def load_meshes(
+    path: str | Path,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+) -> LoadedMeshes:
+    """Return the meshes of a file; parameters and errors as ``open_mesh``."""
+    report = progress or ignore_progress
+    report(0.0, "")
+    if is_cancelled is None:
+        loaded = read_file(Path(path), report)
+    else:
+        loaded = read_in_process(Path(path), report, is_cancelled)
+        if is_cancelled():
+            raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
+    report(1.0, "")
+    return loaded
+
+
+def ignore_progress(fraction: float | None, doing: str) -> None:
+    """Take a report of progress that nobody wants."""
+
+
+def read_file(path: Path, report: Report) -> LoadedMeshes:
+    """Read ``path`` with the reader of its extension and check that there is something to draw."""
+    try:
+        if path.is_dir():
+            raise MeshFileError(f"a mesh is wanted, and {path.name} is a folder, not a file")
+        reader = READERS.get(path.suffix.lower())
+        if reader is None:
+            extension = f"the extension {path.suffix}" if path.suffix else "no extension"
+            known = ", ".join(EXTENSIONS)
+            raise MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
+        if path.exists() and not path.is_file():
+            raise MeshFileError(f"{path.name} is not a file")
+        if path.stat().st_size == 0:
+            raise MeshFileError(f"{path.name} is empty")
+        loaded = reader(path, report)
+        check_meshes(path, loaded.meshes)
+    except MeshFileError:
+        raise
+    except FileNotFoundError as problem:
+        raise MeshFileError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
+    except OSError as problem:
+        raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
+    except MemoryError as problem:
+        raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
+    except (ValueError, OverflowError) as problem:
+        # The checks of the core on the arrays of a mesh.
+        raise MeshFileError(f"{path.name} cannot be used: {problem}") from problem
+    return loaded
+
+
+def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
+    """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
+    has_area = False
+    for mesh in meshes:
+        check_positions(path, mesh.positions)
+        corners = mesh.positions[mesh.triangles]
+        sides = corners[:, 1:] - corners[:, :1]
+        longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
+        sides = sides / np.where(longest > 0, longest, 1)
+        has_area |= bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())
+    if not has_area:
+        raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
+
+
+def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -> Scene:
+    """Return a scene in which a perspective camera sees all of ``meshes``, which stay where they are.
+
+    The camera looks from the front and slightly above at the centre of the bounding box. Near and far leave
+    room to orbit around the model. A strong light comes from above left, a weak one from the right.
+
+    Parameters
+    ----------
+    meshes : tuple of Mesh
+    size : (width, height)
+        Raster in pixels.
+    """
+    clouds = [world_positions(mesh) for mesh in meshes]
+    low = np.min([points.min(axis=1) for points in clouds], axis=0)
+    high = np.max([points.max(axis=1) for points in clouds], axis=0)
+    target = low / 2 + high / 2
+    scale = float((high - low).max()) or 1.0
+
+    # The axes of the camera, and the four planes of a view volume whose tip is at the camera.
+    toward = np.array(VIEWED_FROM) / np.linalg.norm(VIEWED_FROM)
+    right = np.cross([0.0, 1.0, 0.0], toward)
+    right /= np.linalg.norm(right)
+    up = np.cross(toward, right)
+    field_of_view = Camera(eye=toward, target=np.zeros(3)).field_of_view
+    steep = tan(field_of_view / 2)
+    across = right / (steep * size[0] / size[1])
+    planes = np.stack([toward + across, toward - across, toward + up / steep, toward - up / steep])
+
+    # The camera stands where the outermost point comes to lie on the border of the picture.
+    distance = radius = 0.0
+    for points in clouds:
+        x, y, z = (points[k] / scale - target[k] / scale for k in range(3))
+        radius = max(radius, sqrt(float((x * x + y * y + z * z).max())))
+        for plane in planes:
+            distance = max(distance, MARGIN * float((plane[0] * x + plane[1] * y + plane[2] * z).max()))
+    distance = max(distance, 1.1 * radius)
+    camera = Camera(
+        eye=target + toward * (distance * scale),
+        target=target,
+        field_of_view=field_of_view,
+        near=max(0.9 * (distance - radius), 0.02 * distance) * scale,
+        far=(distance + 1.5 * radius) * scale,
+    )
+    lights = (
+        DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),
+        DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.2)),
+    )
+    return Scene(meshes=meshes, camera=camera, lights=lights, size=size)
+
+
+def world_positions(mesh: Mesh) -> Floats:
+    """Return (3, N) float64 world x, y, z of the vertices that triangles of ``mesh`` use."""
+    used = np.zeros(len(mesh.positions), np.bool_)
+    used[mesh.triangles.ravel()] = True
+    x, y, z = (mesh.positions[used, k] for k in range(3))
+    return np.stack([row[0] * x + row[1] * y + row[2] * z + row[3] for row in mesh.transform[:3]])

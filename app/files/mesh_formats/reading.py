@@ -1,0 +1,76 @@
+"""What every reader shares: its result, its error, its progress and the limit on memory."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from core.records.arrays import Floats
+from core.scene import Mesh
+
+LARGEST = float(np.finfo(np.float32).max)
+"""Farthest place of a vertex on any axis: colours and depths are stored as 32-bit floats."""
+
+MEMORY_LIMIT = 4 * 2**30
+"""Most memory in bytes that opening a file may take, as estimated before it is read."""
+
+Report = Callable[[float | None, str], None]
+"""Told how far the work is, from 0 to 1 (``None``: cannot be said), and what is being done."""
+
+
+class MeshFileError(ValueError):
+    """A mesh file cannot be opened; the message is one sentence for the person who chose it."""
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedMeshes:
+    """The meshes of a file, in its order, and what of it could not be had."""
+
+    meshes: tuple[Mesh, ...]
+    warnings: tuple[str, ...] = ()
+    """One sentence for each thing that is missing though the file names it, as a texture."""
+
+
+Reader = Callable[[Path, Report], LoadedMeshes]
+
+
+def check_memory(path: Path, wanted: int) -> None:
+    """Raise MeshFileError if opening ``path`` would take ``wanted`` bytes and that is above MEMORY_LIMIT."""
+    if wanted > MEMORY_LIMIT:
+        raise MeshFileError(
+            f"{path.name} is too large: opening it would take about {wanted / 2**30:.1f} GiB of memory, "
+            f"the limit is {MEMORY_LIMIT / 2**30:.1f} GiB"
+        )
+
+
+def check_positions(path: Path, positions: Floats, first: int = 0) -> None:
+    """Raise MeshFileError for the first vertex that has no place within 32-bit floats.
+
+    Parameters
+    ----------
+    path : Path
+        The file, for the message.
+    positions : (N, 3) float64
+    first : int
+        What the file calls the first vertex.
+    """
+    is_placed = (np.abs(positions) <= LARGEST).all(axis=1)
+    if not is_placed.all():
+        where = int(np.argmin(is_placed))
+        raise MeshFileError(
+            f"{path.name}: vertex {where + first} is at {positions[where].tolist()}, "
+            f"which is no number or beyond {LARGEST:.3g}"
+        )
+
+
+def first_bytes(path: Path, count: int = 4096) -> bytes:
+    """Return up to ``count`` bytes from the start of ``path``."""
+    with path.open("rb") as file:
+        return file.read(count)
+
+
+def check_text(path: Path, kind: str) -> None:
+    """Raise MeshFileError if ``path`` begins like a binary file, which no ``kind`` file does."""
+    if b"\0" in first_bytes(path):
+        raise MeshFileError(f"{path.name} is not an {kind} file: it is not text")

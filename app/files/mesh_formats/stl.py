@@ -1,0 +1,76 @@
+"""STL, the stereolithography format: triangles without shared vertices, as text or binary."""
+
+from pathlib import Path
+
+import numpy as np
+
+from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, first_bytes
+from app.files.mesh_formats.through_trimesh import MissingFiles, load_with_trimesh, translated_errors
+from core.scene import Mesh
+
+HEADER = 84
+"""Bytes before the first triangle of a binary file: 80 of any text and the number of triangles."""
+
+TRIANGLE = 50
+"""Bytes of a triangle in a binary file."""
+
+MEMORY_PER_TRIANGLE = 600
+"""Bytes of memory that a triangle of a binary file takes at most while it is opened (measured)."""
+
+MEMORY_PER_BYTE = 10
+"""Bytes of memory that a byte of a text file takes at most while it is opened (measured)."""
+
+
+def read_stl(path: Path, report: Report) -> LoadedMeshes:
+    """Read an STL file; each of its solids is a mesh.
+
+    The triangles share no vertices and keep no normals of the file, so that each is shaded by its own plane.
+
+    Raises
+    ------
+    MeshFileError
+        If the file is cut short, is no STL file, or has no triangles.
+    OSError
+        If ``path`` cannot be read.
+    """
+    count = check_layout(path)
+    report(None, "reading triangles")
+    files = MissingFiles(path)
+    with translated_errors(path, files):
+        scene = load_with_trimesh(path, files)
+    report(None, "checking")
+    meshes = [
+        Mesh(
+            positions=np.asarray(part.vertices),
+            triangles=np.asarray(part.faces),
+            name=str(part.metadata.get("name") or path.stem),
+        )
+        for part in scene.geometry.values()
+        if len(getattr(part, "faces", ()))
+    ]
+    found = sum(len(mesh.triangles) for mesh in meshes)
+    if found != count:
+        raise MeshFileError(
+            f"{path.name} is cut short or broken: {found} of its {count} triangles can be read"
+        )
+    if not meshes:
+        raise MeshFileError(f"{path.name} has no faces")
+    return LoadedMeshes(tuple(meshes))
+
+
+def check_layout(path: Path) -> int:
+    """Return the number of triangles that ``path`` begins, or raise MeshFileError if it is no STL file."""
+    size, head = path.stat().st_size, first_bytes(path, HEADER)
+    count = int.from_bytes(head[80:84], "little")
+    if len(head) == HEADER and size == HEADER + TRIANGLE * count:
+        check_memory(path, count * MEMORY_PER_TRIANGLE)
+        return count
+    if head.lstrip()[:5].lower() == b"solid" and b"\0" not in head:
+        check_memory(path, size * MEMORY_PER_BYTE)
+        return path.read_bytes().lower().count(b"outer loop")
+    if HEADER <= size < HEADER + TRIANGLE * count and size > HEADER + TRIANGLE * count // 20:
+        there = (size - HEADER) // TRIANGLE
+        raise MeshFileError(f"{path.name} is cut short: it counts {count} triangles and ends after {there}")
+    raise MeshFileError(
+        f"{path.name} is not an STL file: it is neither text nor as long as its number of triangles"
+    )

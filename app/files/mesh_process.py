@@ -1,0 +1,119 @@
+"""A mesh file read in a process of its own, which can be ended at any moment."""
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from threading import Thread
+from typing import Any, BinaryIO
+
+from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report
+from core.scene import Texture
+
+POLL_SECONDS = 0.05
+"""How often cancelling is asked for: well under the half second that a person notices."""
+
+START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from app.files.mesh_process import serve; serve()"
+
+
+class OpeningCancelledError(Exception):
+    """The person who opened a file does not want it any more."""
+
+
+def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]) -> LoadedMeshes:
+    """Read ``path`` as ``app.files.mesh_files.read_file`` does, in another process.
+
+    Raises
+    ------
+    MeshFileError
+        As the reader, or if the process ended without a result.
+    OpeningCancelledError
+        As soon as ``is_cancelled()``; the process is ended then and waited for.
+
+    Notes
+    -----
+    No thread can be stopped from outside while trimesh or NumPy works in it; a process can.
+    """
+    process = subprocess.Popen(
+        [sys.executable, "-c", START, json.dumps(sys.path), os.fspath(path.absolute())],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+    )
+    assert process.stdout is not None
+    messages: SimpleQueue[tuple[str, Any]] = SimpleQueue()
+    listener = Thread(target=listen, args=(process.stdout, messages), name="mesh file", daemon=True)
+    listener.start()
+    try:
+        while True:
+            if is_cancelled():
+                raise OpeningCancelledError(f"opening {path.name} was cancelled")
+            try:
+                kind, content = messages.get(timeout=POLL_SECONDS)
+            except Empty:
+                continue
+            if kind == "progress":
+                report(*content)
+            elif kind == "meshes":
+                return restored(content)
+            elif kind == "error":
+                raise MeshFileError(content)
+            else:
+                raise MeshFileError(f"{path.name} cannot be read: its reader ended {content}")
+    finally:
+        process.kill()
+        process.wait()
+        listener.join()
+        process.stdout.close()
+
+
+def listen(pipe: BinaryIO, messages: "SimpleQueue[tuple[str, Any]]") -> None:
+    """Put what the process says into ``messages``, and its end behind that, whatever happens."""
+    end = "before its result was whole"
+    try:
+        while True:
+            messages.put(pickle.load(pipe))
+    except EOFError:
+        end = "without a result"
+    except pickle.UnpicklingError as problem:
+        end = f"in the middle of it: {problem}"
+    finally:
+        messages.put(("end", end))
+
+
+def restored(loaded: LoadedMeshes) -> LoadedMeshes:
+    """Return ``loaded`` after its way through the pipe, with arrays checked and read-only again."""
+    textures: dict[int, Texture] = {}
+    meshes = []
+    for mesh in loaded.meshes:
+        texture = mesh.texture
+        if texture is not None:
+            texture = textures.setdefault(id(texture), replace(texture))
+        meshes.append(replace(mesh, texture=texture))
+    return LoadedMeshes(tuple(meshes), loaded.warnings)
+
+
+def serve() -> None:
+    """Read the file that the command line names and say on the standard output what came of it."""
+    from app.files.mesh_files import read_file
+
+    # Whatever a library prints must not come between the messages.
+    with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as pipe:
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+
+        def say(kind: str, content: object) -> None:
+            pickle.dump((kind, content), pipe, protocol=pickle.HIGHEST_PROTOCOL)
+            pipe.flush()
+
+        def report(fraction: float | None, doing: str) -> None:
+            say("progress", (fraction, doing))
+
+        try:
+            say("meshes", read_file(Path(sys.argv[2]), report))
+        except MeshFileError as problem:
+            say("error", str(problem))

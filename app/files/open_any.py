@@ -1,0 +1,62 @@
+"""Opening whatever a user names: a built-in scene, a mesh file or a state file."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.files.mesh_files import MeshFileError, open_mesh
+from app.files.mesh_formats import Report
+from app.files.mesh_sources import remember_file
+from app.files.state_files import EXTENSION, State, load_state
+from app.session.document import Document, open_document
+from lessons.scenes import built_in_scene, scene_names
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """What came of opening something."""
+
+    document: Document
+    warnings: tuple[str, ...] = ()
+    """One sentence for each thing that a file names and that could not be had."""
+    state: State | None = None
+    """Where a state file was left; ``None``: not a state file. ``state.document`` is ``document``."""
+    path: str = ""
+    """The file that was opened, absolute; empty: a built-in scene."""
+
+
+def open_any(
+    target: str, progress: Report | None = None, is_cancelled: Callable[[], bool] | None = None
+) -> Opened:
+    """Open a built-in scene by its name, a state file by its ending, or else a mesh file.
+
+    Parameters
+    ----------
+    target : str
+        A built-in scene goes before a file of the same name (which opens as ``./name``).
+    progress, is_cancelled : callable, optional
+        As in ``app.files.mesh_files.open_mesh``.
+
+    Raises
+    ------
+    ValueError
+        If it cannot be opened; the message is one sentence. Its kinds are MeshFileError and StateFileError.
+    OpeningCancelledError
+        If ``is_cancelled()``.
+    """
+    if target in scene_names():
+        built_in = built_in_scene(target)
+        return Opened(open_document(built_in.make(), built_in.title))
+    path = Path(target)
+    if not target or (not path.suffix and not path.exists()):
+        known = ", ".join(scene_names())
+        raise MeshFileError(
+            f"there is no file {target or 'of an empty name'} and no built-in scene of that name: {known}"
+        )
+    path = path.absolute()
+    if path.suffix.lower() == EXTENSION:
+        state, warnings = load_state(path, progress, is_cancelled)
+        return Opened(state.document, warnings, state, str(path))
+    opened = open_mesh(target, progress, is_cancelled)
+    remember_file(path, opened.scene.meshes)
+    return Opened(open_document(opened.scene, path.stem, str(path)), opened.warnings, None, str(path))

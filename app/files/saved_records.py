@@ -1,0 +1,64 @@
+"""Reading saved studies and atlases: JSON of this program, of a version it knows, checked field by field."""
+
+import json
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from app.files.field_problems import field_problem
+
+Model = TypeVar("Model", bound=BaseModel)
+SIZE_LIMIT = 1 << 26
+"""Largest file in bytes."""
+
+
+class SavedRecordError(ValueError):
+    """A saved record cannot be read; the message is one sentence, or the end of one."""
+
+
+def read_record(path: Path, model: type[Model], program: str, noun: str, version: int) -> Model:
+    """Return what a file holds.
+
+    Parameters
+    ----------
+    path : Path
+    model : type
+        What its content must be.
+    program : str
+        What the file must name as its ``program``.
+    noun : str
+        What such a file is called, with its article: ``a study``.
+    version : int
+        The only one that is read.
+
+    Raises
+    ------
+    SavedRecordError
+        If it cannot be read; the message says why and names the field.
+    """
+    content = _read(path)
+    try:
+        found = json.loads(content)
+    except (ValueError, RecursionError) as problem:
+        raise SavedRecordError(f"it is not {noun}, or only a part of one: it is not JSON") from problem
+    if not isinstance(found, dict) or found.get("program") != program:
+        raise SavedRecordError(f"it is not {noun} of Rasterscope")
+    if found.get("version") != version or isinstance(found.get("version"), bool | float):
+        came = str(found.get("version"))[:20]
+        raise SavedRecordError(f"it is of version {came}, and this Rasterscope opens version {version}")
+    try:
+        return model.model_validate_json(content)
+    except ValidationError as problem:
+        raise SavedRecordError(field_problem(problem)) from problem
+
+
+def _read(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > SIZE_LIMIT:
+            raise SavedRecordError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
+        return path.read_bytes()
+    except FileNotFoundError as problem:
+        raise SavedRecordError("there is no such file") from problem
+    except OSError as problem:
+        raise SavedRecordError((problem.strerror or str(problem)).lower()) from problem

@@ -1,0 +1,220 @@
+"""State files: what is open, and where the stepping is, saved so that it opens as it was.
+
+A state names the mesh file or built-in scene that its meshes come from and takes from there every array that
+is still the same; edited arrays, cameras, lights and triangles given in clip space stand in the file itself.
+What the source holds is checked by fingerprints: a mesh file that has changed since is refused.
+"""
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from app.files.field_problems import field_problem
+from app.files.file_writing import whole_file
+from app.files.mesh_formats import Report
+from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
+from app.files.state_scenes import StateFileError, in_field, scene_from_record, scene_record
+from app.session.document import VIEWS, Document, TeachingRaster
+from core import STAGES, Settings
+from core.scene import AnyScene
+from core.settings import settings_from_texts
+from core.stages.vertices import check_needs
+
+__all__ = ["EXTENSION", "State", "StateFileError", "load_state", "save_state"]
+
+EXTENSION = ".rasterscope"
+SIZE_LIMIT = 1 << 30
+"""Largest state file in bytes."""
+LINE_LENGTH = 100
+"""Characters of a line of a state file, as far as its numbers allow."""
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """What a state file keeps."""
+
+    document: Document
+    stage: str = "raster"
+    position: int = 0
+    """Operations of the stage that are done."""
+    level: int = 3
+    """A ``core.records.steps.Level``."""
+    pin: tuple[int, int] | None = None
+    """Column and row of the pinned pixel."""
+    bookmarks: Sequence[tuple[str, int]] = ()
+    """Stage and position of every bookmark."""
+    view: str = "pixels"
+    """Name of the main view."""
+
+
+def save_state(path: str | Path, state: State) -> None:
+    """Write a state file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The ending is not added.
+    state : State
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; what stood there stays. The message is one sentence.
+    """
+    path = Path(path)
+    document = state.document
+    record = StateRecord(
+        program="rasterscope",
+        version=VERSION,
+        title=document.title,
+        scene=scene_record(document.scene, document.path, path.resolve().parent),
+        settings={name: getattr(document.settings, name) for name in Settings.__dataclass_fields__},
+        raster=RasterRecord(
+            columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
+        ),
+        triangle=document.triangle,
+        before=document.before,
+        stage=state.stage,
+        position=state.position,
+        level=state.level,
+        pin=state.pin,
+        bookmarks=[BookmarkRecord(stage=stage, position=position) for stage, position in state.bookmarks],
+        view=state.view,
+    )
+    text = readable_json(record.model_dump(mode="json", exclude_defaults=True))
+    with whole_file(path) as file:
+        file.write(text.encode() + b"\n")
+
+
+def load_state(
+    path: str | Path, progress: Report | None = None, is_cancelled: Callable[[], bool] | None = None
+) -> tuple[State, tuple[str, ...]]:
+    """Open a state file.
+
+    Parameters
+    ----------
+    path : str or Path
+    progress, is_cancelled : callable, optional
+        For the mesh file that the state names, as in ``app.files.mesh_files.open_mesh``.
+
+    Returns
+    -------
+    State
+    tuple of str
+        Warnings of the mesh file.
+
+    Raises
+    ------
+    StateFileError
+        If it cannot be opened; the message is one sentence that names the field.
+    OpeningCancelledError
+        If ``is_cancelled()``.
+    """
+    path = Path(path)
+    try:
+        record = _parse(_read(path))
+        scene, mesh_path, warnings = scene_from_record(
+            record.scene, path.resolve().parent, progress, is_cancelled
+        )
+        state = _state(record, scene, mesh_path)
+        return without_stray_pin(state, warnings)
+    except StateFileError as problem:
+        raise StateFileError(f"{path.name} cannot be opened: {problem}") from problem
+    except MemoryError as problem:
+        raise StateFileError(f"{path.name} cannot be opened: there is not enough memory for it") from problem
+
+
+def _read(path: Path) -> bytes:
+    """Return the bytes of the file."""
+    try:
+        if path.stat().st_size > SIZE_LIMIT:
+            raise StateFileError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
+        return path.read_bytes()
+    except FileNotFoundError as problem:
+        raise StateFileError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise StateFileError("permission is denied") from problem
+    except OSError as problem:
+        raise StateFileError((problem.strerror or str(problem)).lower()) from problem
+
+
+def _parse(content: bytes) -> StateRecord:
+    """Return the validated content."""
+    try:
+        found = json.loads(content)
+    except (ValueError, RecursionError) as problem:
+        raise StateFileError("it is not a state file, or only a part of one: it is not JSON") from problem
+    if not isinstance(found, dict) or found.get("program") != "rasterscope":
+        raise StateFileError("it is not a state file of Rasterscope")
+    if found.get("version") != VERSION or isinstance(found.get("version"), bool | float):
+        version = str(found.get("version"))[:20]
+        raise StateFileError(f"it is of version {version}, and this Rasterscope opens version {VERSION}")
+    try:
+        return StateRecord.model_validate_json(content)
+    except ValidationError as problem:
+        raise StateFileError(field_problem(problem, "scene")) from problem
+
+
+def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
+    """Return the state of a record, or say which field does not fit."""
+    marks = [("stage", record.stage), *((f"bookmarks.{k}", m.stage) for k, m in enumerate(record.bookmarks))]
+    for name, stage in marks:
+        if stage not in STAGES:
+            raise StateFileError(f"{name} must be one of {', '.join(STAGES)}, got {stage}")
+    with in_field("settings"):
+        settings = settings_from_texts({name: str(value) for name, value in record.settings.items()})
+        check_needs(scene, settings)
+    with in_field("raster"):
+        raster = TeachingRaster(record.raster.columns, record.raster.rows, record.raster.origin)
+    document = Document(
+        scene=scene,
+        raster=raster,
+        settings=settings,
+        triangle=record.triangle,
+        before=record.before,
+        title=record.title,
+        path=mesh_path,
+    )
+    with in_field("triangle and raster"):
+        document.make_trace()
+    if record.view not in VIEWS:
+        raise StateFileError(f"view must be one of {', '.join(VIEWS)}, got {record.view}")
+    return State(
+        document=document,
+        stage=record.stage,
+        position=record.position,
+        level=record.level,
+        pin=record.pin,
+        bookmarks=tuple((mark.stage, mark.position) for mark in record.bookmarks),
+        view=record.view,
+    )
+
+
+def without_stray_pin(state: State, warnings: tuple[str, ...]) -> tuple[State, tuple[str, ...]]:
+    """Return the state and the warnings; a pin beside the traced raster is taken away, with a warning."""
+    if state.pin is None:
+        return state, warnings
+    column, row = state.pin
+    first_column, first_row, end_column, end_row = state.document.make_trace().source.raster.bounds
+    if first_column <= column < end_column and first_row <= row < end_row:
+        return state, warnings
+    text = f"The pinned pixel ({column}, {row}) is not in the raster: nothing is pinned."
+    return replace(state, pin=None), (*warnings, text)
+
+
+def readable_json(value: Any, indent: str = "") -> str:
+    """Return JSON with one line for each field, and for each row of numbers."""
+    inner = indent + " "
+    short = json.dumps(value, allow_nan=False, ensure_ascii=False)
+    if not isinstance(value, dict | list) or not value or len(indent + short) <= LINE_LENGTH:
+        return short
+    if isinstance(value, dict):
+        parts = [f"{json.dumps(k, ensure_ascii=False)}: {readable_json(v, inner)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(inner + part for part in parts) + f"\n{indent}}}"
+    if not any(isinstance(part, dict | list) for part in value):
+        return short
+    return "[\n" + ",\n".join(inner + readable_json(part, inner) for part in value) + f"\n{indent}]"

@@ -1,0 +1,323 @@
+"""Scenes in state files: what stands in the file, and what is taken from a mesh file or built-in scene."""
+
+import binascii
+import math
+import os
+import sys
+import zlib
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_formats import Report
+from app.files.mesh_sources import (
+    ARRAYS,
+    Fingerprints,
+    array_of,
+    built_in_fingerprints,
+    fingerprint,
+    fingerprints_of,
+    remember_file,
+    remembered_fingerprints,
+)
+from app.files.state_models import (
+    ArrayRecord,
+    CameraRecord,
+    ClipSceneRecord,
+    LightRecord,
+    MaterialRecord,
+    MeshRecord,
+    MeshSceneRecord,
+    SourceRecord,
+)
+from core.scene import (
+    AnyScene,
+    Camera,
+    ClipScene,
+    DirectionalLight,
+    Light,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    Texture,
+)
+from lessons.scenes import make_scene
+
+READABLE_COUNT = 1200
+"""Arrays of no more numbers are written so that they can be read."""
+ARRAY_LIMIT = 4 << 30
+"""Largest array in bytes."""
+
+
+class StateFileError(ValueError):
+    """A state file cannot be opened; the message is one sentence."""
+
+
+@contextmanager
+def in_field(name: str) -> Iterator[None]:
+    """Turn what a check of the core says into a sentence about a field."""
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except StateFileError:
+        raise
+    except (ValueError, OverflowError, TypeError) as problem:
+        raise StateFileError(f"{name}: {problem}") from problem
+
+
+# To a record.
+
+
+def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | ClipSceneRecord:
+    """Return the record of a scene.
+
+    Parameters
+    ----------
+    path : str
+        The mesh file that it came from, or empty.
+    folder : Path
+        Where the state file will stand.
+    """
+    if isinstance(scene, ClipScene):
+        return _clip_record(scene)
+    own = fingerprints_of(scene.meshes)
+    source, theirs = _source_of(own, path, folder)
+    return MeshSceneRecord(
+        kind="meshes",
+        source=source,
+        meshes=[_mesh_record(mesh, k, own[k], theirs) for k, mesh in enumerate(scene.meshes)],
+        camera=CameraRecord(
+            eye=_numbers(scene.camera.eye),
+            target=_numbers(scene.camera.target),
+            up=_numbers(scene.camera.up),
+            projection="perspective" if scene.camera.projection == "perspective" else "orthographic",
+            field_of_view=float(scene.camera.field_of_view),
+            view_height=float(scene.camera.view_height),
+            near=float(scene.camera.near),
+            far=float(scene.camera.far),
+        ),
+        lights=[_light_record(light) for light in scene.lights],
+        size=scene.size,
+        background=_numbers(scene.background),
+    )
+
+
+def _source_of(own: Fingerprints, path: str, folder: Path) -> tuple[SourceRecord | None, Fingerprints]:
+    """Return the first source that has an array of these meshes, and what it has."""
+    if path:
+        found = remembered_fingerprints(path)
+        if _shares(own, found):
+            return SourceRecord(file=_relative(Path(path).resolve(), folder)), found
+    for name, found in built_in_fingerprints().items():
+        if _shares(own, found):
+            return SourceRecord(built_in=name), found
+    return None, ()
+
+
+def _shares(own: Fingerprints, theirs: Fingerprints) -> bool:
+    return any(set(a.items()) & set(b.items()) for a, b in zip(own, theirs, strict=False))
+
+
+def _relative(path: Path, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:  # another drive
+        return path.as_posix()
+
+
+def _mesh_record(mesh: Mesh, index: int, own: dict[str, str], theirs: Fingerprints) -> MeshRecord:
+    there = theirs[index] if index < len(theirs) else {}
+    taken = {name: text for name, text in own.items() if there.get(name) == text}
+    arrays = {name: array_of(mesh, name) for name in own if name not in taken}
+    rows = [_numbers(row) for row in mesh.transform]
+    return MeshRecord(
+        name=mesh.name,
+        transform=(rows[0], rows[1], rows[2], rows[3]),
+        material=MaterialRecord(**{name: float(value) for name, value in asdict(mesh.material).items()}),
+        source_mesh=index if taken else None,
+        from_source=taken,
+        arrays={name: array_record(array) for name, array in arrays.items() if array is not None},
+        texture_name=mesh.texture.name if mesh.texture is not None else "texture",
+    )
+
+
+def _light_record(light: Light) -> LightRecord:
+    kind: Literal["directional", "point"] = "point"
+    vector = light.direction if isinstance(light, DirectionalLight) else light.position
+    if isinstance(light, DirectionalLight):
+        kind = "directional"
+    return LightRecord(kind=kind, vector=_numbers(vector), color=_numbers(light.color))
+
+
+def _clip_record(scene: ClipScene) -> ClipSceneRecord:
+    assert scene.attributes is not None
+    return ClipSceneRecord(
+        kind="clip",
+        clip=array_record(scene.clip),
+        attributes=array_record(scene.attributes),
+        shared=None if scene.shared is None else array_record(scene.shared),
+        texture=None if scene.texture is None else array_record(scene.texture.pixels),
+        texture_name=scene.texture.name if scene.texture is not None else "texture",
+        size=scene.size,
+        background=_numbers(scene.background),
+    )
+
+
+def array_record(array: NDArray[Any]) -> ArrayRecord:
+    """Return the record of a float64, float32 or int64 array; it gives back the very same bits."""
+    dtype: Any = array.dtype.name
+    shape = list(array.shape)
+    if array.size <= READABLE_COUNT:
+        rows = array.reshape(-1, array.shape[-1]) if array.size else array.reshape(0, 1)
+        return ArrayRecord(dtype=dtype, shape=shape, rows=rows.tolist())
+    content = array.astype(array.dtype.newbyteorder("<")).tobytes()
+    return ArrayRecord(dtype=dtype, shape=shape, zlib=b64encode(zlib.compress(content, 6)).decode())
+
+
+def _numbers(values: NDArray[Any]) -> Any:
+    return tuple(float(value) for value in values)
+
+
+# From a record.
+
+
+def scene_from_record(
+    record: MeshSceneRecord | ClipSceneRecord,
+    folder: Path,
+    progress: Report | None,
+    is_cancelled: Callable[[], bool] | None,
+) -> tuple[AnyScene, str, tuple[str, ...]]:
+    """Return the scene, the mesh file that it is from (or empty), and warnings of that file.
+
+    Raises
+    ------
+    StateFileError
+        If a field does not fit, or the source is gone or has changed.
+    """
+    if isinstance(record, ClipSceneRecord):
+        return _clip_scene(record), "", ()
+    sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
+    meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
+    with in_field("scene.camera"):
+        camera = Camera(
+            eye=np.array(record.camera.eye),
+            target=np.array(record.camera.target),
+            up=np.array(record.camera.up),
+            projection=record.camera.projection,
+            field_of_view=record.camera.field_of_view,
+            view_height=record.camera.view_height,
+            near=record.camera.near,
+            far=record.camera.far,
+        )
+    lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
+    with in_field("scene"):
+        return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings
+
+
+def _clip_scene(record: ClipSceneRecord) -> ClipScene:
+    arrays: dict[str, Any] = {}
+    for name in ("clip", "attributes", "shared", "texture"):
+        found: ArrayRecord | None = getattr(record, name)
+        with in_field(f"scene.{name}"):
+            arrays[name] = None if found is None else array_from(found)
+    with in_field("scene"):
+        pixels = arrays.pop("texture")
+        texture = None if pixels is None else Texture(pixels, record.texture_name)
+        return ClipScene(size=record.size, texture=texture, background=np.array(record.background), **arrays)
+
+
+def _open_source(
+    source: SourceRecord | None,
+    folder: Path,
+    progress: Report | None,
+    is_cancelled: Callable[[], bool] | None,
+) -> tuple[tuple[Mesh, ...], str, tuple[str, ...]]:
+    """Return the meshes of the source, its path if it is a file, and warnings."""
+    if source is None:
+        return (), "", ()
+    if source.built_in is not None:
+        with in_field("scene.source.built_in"):
+            scene = make_scene(source.built_in)
+        if isinstance(scene, ClipScene):
+            raise StateFileError(f"scene.source.built_in: {source.built_in} has no meshes")
+        return scene.meshes, "", ()
+    assert source.file is not None
+    path = Path(os.path.normpath(folder / source.file))
+    try:
+        loaded = load_meshes(path, progress, is_cancelled)
+    except MeshFileError as problem:
+        raise StateFileError(f"its mesh file is missing or broken: {problem}") from problem
+    remember_file(path, loaded.meshes)
+    return loaded.meshes, str(path), loaded.warnings
+
+
+def _mesh(index: int, record: MeshRecord, sources: tuple[Mesh, ...], source: SourceRecord | None) -> Mesh:
+    field = f"scene.meshes.{index}"
+    arrays: dict[str, Any] = {}
+    for name, expected in record.from_source.items():
+        _check_name(field, name)
+        theirs = None
+        if record.source_mesh is not None and record.source_mesh < len(sources):
+            theirs = array_of(sources[record.source_mesh], name)
+        if theirs is None or fingerprint(theirs) != expected:
+            place = "its source" if source is None else source.built_in or source.file
+            raise StateFileError(
+                f"{place} has changed since the state was saved: the {name} of mesh {index} are not the same"
+            )
+        arrays[name] = theirs
+    for name, array in record.arrays.items():
+        _check_name(field, name)
+        with in_field(f"{field}.arrays.{name}"):
+            arrays[name] = array_from(array)
+    for name in ("positions", "triangles"):
+        if name not in arrays:
+            raise StateFileError(f"{field}.arrays.{name} is missing")
+    with in_field(field):
+        if "texture" in arrays:
+            arrays["texture"] = Texture(arrays["texture"], record.texture_name)
+        material = Material(**record.material.model_dump())
+        return Mesh(transform=np.array(record.transform), material=material, name=record.name, **arrays)
+
+
+def _check_name(field: str, name: str) -> None:
+    if name not in ARRAYS:
+        raise StateFileError(f"{field} has an array {name}; those of a mesh are {', '.join(ARRAYS)}")
+
+
+def _light(index: int, record: LightRecord) -> Light:
+    make = DirectionalLight if record.kind == "directional" else PointLight
+    with in_field(f"scene.lights.{index}"):
+        return make(np.array(record.vector), np.array(record.color))
+
+
+def array_from(record: ArrayRecord) -> NDArray[Any]:
+    """Return the array of a record, or raise ValueError."""
+    dtype = np.dtype(record.dtype)
+    size = math.prod(record.shape) * dtype.itemsize
+    if size > ARRAY_LIMIT:
+        raise ValueError(
+            f"an array must not be larger than {ARRAY_LIMIT >> 30} GiB, got shape {record.shape}"
+        )
+    if record.rows is not None:
+        numbers = [number for row in record.rows for number in row]
+        if dtype.kind == "i" and not all(isinstance(number, int) for number in numbers):
+            raise ValueError(f"numbers of {record.dtype} must be whole")
+        return np.array(numbers, dtype).reshape(record.shape)
+    assert record.zlib is not None
+    try:
+        packed = b64decode(record.zlib.encode(), validate=True)
+        content = zlib.decompressobj().decompress(packed, size + 1)
+    except (binascii.Error, zlib.error) as problem:
+        raise ValueError("the compressed bytes are damaged") from problem
+    if len(content) != size:
+        raise ValueError(f"shape {record.shape} wants {size} bytes, got {len(content)}")
+    found = np.frombuffer(content, dtype.newbyteorder("<")).reshape(record.shape)
+    return found if sys.byteorder == "little" else found.astype(dtype)

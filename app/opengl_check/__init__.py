@@ -1,0 +1,1 @@
+"""The comparison of the core with the OpenGL of this machine."""

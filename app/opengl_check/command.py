@@ -1,0 +1,111 @@
+"""The command that compares the core with the OpenGL of this machine, family by family, on random cases."""
+
+import sys
+from collections.abc import Callable, Iterable
+
+from app.opengl_check.compare import Comparison, compare
+from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
+from app.opengl_check.families import FAMILIES, make_case
+
+LISTED = 5
+"""Cases of a family that are listed one by one where they disagree."""
+TITLES = ("cases", "pixels", "drawn", "differing", "depth error", "colour error")
+WIDTHS = (6, 12, 12, 11, 14, 14)
+
+
+def run_opengl_check(
+    families: Iterable[str] | None = None,
+    count: int = 25,
+    seed: int = 0,
+    write: Callable[[str], object] = print,
+) -> int:
+    """Draw random cases with OpenGL and with the core, and write a table of how they compare.
+
+    Parameters
+    ----------
+    families : iterable of str, optional
+        Some of `app.opengl_check.families.FAMILIES`; all by default.
+    count : int
+        Cases of each family.
+    seed : int
+        Another seed makes other cases; the same seed the same ones.
+    write : callable
+        Takes the lines of the report.
+
+    Returns
+    -------
+    int
+        Exit code: 0 if all families agree, 1 if one does not, 2 if there is no OpenGL or no such family (one
+        line on stderr).
+    """
+    chosen = list(FAMILIES) if families is None else list(families)
+    try:
+        if count < 1:
+            raise ValueError(f"count must be at least 1, got {count}")
+        if seed < 0:
+            raise ValueError(f"seed must be at least 0, got {seed}")
+        for family in chosen:
+            make_case(family, seed, 0)
+        with OpenGLRenderer() as renderer:
+            write(f"Core against {renderer.name}; seed {seed}")
+            write(_row("family", TITLES))
+            disagreeing = [
+                family for family in chosen if not _check_family(renderer, family, count, seed, write)
+            ]
+    except (OpenGLMissingError, ValueError) as error:
+        print(f"rasterscope opengl-check: {error}", file=sys.stderr)
+        return 2
+    if disagreeing:
+        write(f"Not the same: {', '.join(disagreeing)}.")
+        return 1
+    write("All families agree within the tolerances.")
+    return 0
+
+
+def _check_family(
+    renderer: OpenGLRenderer, family: str, count: int, seed: int, write: Callable[[str], object]
+) -> bool:
+    """Compare the cases of one family, write its line of the table, and return whether all agree."""
+    results = []
+    for number in range(count):
+        case = make_case(family, seed, number)
+        results.append(compare(case, renderer.draw(case)))
+    disagreeing = [number for number, result in enumerate(results) if not result.agrees]
+    sums = [
+        f"{sum(numbers):,}"
+        for numbers in zip(
+            *((result.pixels, result.drawn, len(result.differing)) for result in results), strict=True
+        )
+    ]
+    errors = [
+        f"{max(numbers):.1e}"
+        for numbers in zip(*((result.depth_error, result.color_error) for result in results), strict=True)
+    ]
+    verdict = f"{len(disagreeing)} cases differ" if disagreeing else "agrees"
+    write(f"{_row(family, (str(count), *sums, *errors))}  {verdict}")
+    for number in disagreeing[:LISTED]:
+        write(f"    case {number}: {describe(results[number])}")
+    return not disagreeing
+
+
+def _row(family: str, cells: Iterable[str]) -> str:
+    """Align the cells of one line of the table."""
+    return f"{family:<14}" + "".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS, strict=True))
+
+
+def describe(result: Comparison) -> str:
+    """Say in one line what is not the same in a case."""
+    parts = []
+    if len(result.differing):
+        column, row, ours, theirs = result.differing[0].tolist()
+        parts.append(
+            f"{len(result.differing)} pixels show another primitive ({result.allowed} allowed), "
+            f"first column {column}, row {row}: {ours}, OpenGL {theirs}"
+        )
+    for name, error, excess in (
+        ("depth", result.depth_error, result.depth_excess),
+        ("colour", result.color_error, result.color_excess),
+    ):
+        if excess > 1:
+            parts.append(f"{name} off by {error:.1e}, {excess:.1f} times what is tolerated")
+    return "; ".join(parts) or "the same"

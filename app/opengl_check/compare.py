@@ -1,0 +1,208 @@
+"""The core's picture of a case against OpenGL's: pixels that show another primitive, and errors of values.
+
+How exact a value must be follows from how OpenGL implementations compute it: as a linear function of the
+pixel in float32, as if the sample lay up to 2^-18 of the raster's side beside its place. A value may be off by
+what it changes over that distance, and by a small amount that is always allowed. So triangles that are steep in
+a value (slivers, those seen edge-on) need no tolerances of their own.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.opengl_check.case import Case
+from app.opengl_check.draw import Picture
+from core import draw_triangles
+from core.fragments.interpolation import Planes, set_up_planes, value_plane
+from core.raster.edges.snapping import place_corners
+from core.raster.lines.drawing import draw_lines, interpolate_line
+from core.records.arrays import Floats, Integers
+
+DISPLACEMENT = 2.0**-18
+"""How far a sample may lie beside its place, in sides of the raster; twice as far where OpenGL makes new corners
+by clipping, in float32 too."""
+DEPTH_TOLERANCE = 2e-6
+COLOR_TOLERANCE = 2e-5
+BILINEAR_TOLERANCE = 5e-4
+"""Implementations weigh the texels of the bilinear filter with fewer bits than float32 has."""
+PIXELS_ALLOWED = {"clipped": 2, "near": 2, "line-ends": 4}
+"""Pixels per case that may show another primitive, by family. Where OpenGL clips, or moves the end of a line
+to the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line
+through another pixel than ours makes two of them.)"""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """One case, ours against OpenGL's."""
+
+    pixels: int
+    """Pixels compared: the whole raster."""
+    drawn: int
+    """Those on which OpenGL drew."""
+    differing: Integers
+    """(D, 4) int64: column, row, our primitive, OpenGL's primitive, where these are not the same."""
+    allowed: int
+    """How many may differ."""
+    depth_error: float
+    """Largest difference of depth where the primitives agree."""
+    color_error: float
+    """Largest difference of a colour component there; texels on whose border the sample lies left out."""
+    depth_excess: float
+    """Largest difference of depth as a share of what is tolerated: at most 1."""
+    color_excess: float
+    """The same for colours."""
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the pictures are the same within the tolerances."""
+        return len(self.differing) <= self.allowed and self.depth_excess <= 1 and self.color_excess <= 1
+
+
+@dataclass(frozen=True, eq=False)
+class OurPicture:
+    """What the core drew, with how much of an error each value may have; row 0 is the bottom row."""
+
+    color: Floats
+    """(H, W, 4)."""
+    depth: Floats
+    """(H, W)."""
+    primitive: Integers
+    """(H, W)."""
+    color_tolerance: Floats
+    """(H, W)."""
+    depth_tolerance: Floats
+    """(H, W)."""
+
+
+def compare(case: Case, expected: Picture, fill: str = "hierarchy", line: str = "diamond-exit") -> Comparison:
+    """Draw ``case`` with the core and compare with what OpenGL drew.
+
+    Parameters
+    ----------
+    case : Case
+    expected : Picture
+    fill : str
+        A method of the family ``fill``, for triangles.
+    line : str
+        A method of the family ``line``, for lines.
+    """
+    ours = draw_with_core(case, fill, line)
+    is_same = ours.primitive == expected.primitive
+    row, column = np.nonzero(~is_same)
+    primitives = (ours.primitive[~is_same], expected.primitive[~is_same])
+    depth_error = np.abs(ours.depth - expected.depth)[is_same]
+    color_error = np.abs(ours.color - expected.color).max(axis=-1)[is_same]
+    color_tolerance = ours.color_tolerance[is_same]
+    is_compared = np.isfinite(color_tolerance)
+    return Comparison(
+        pixels=is_same.size,
+        drawn=int((expected.primitive >= 0).sum()),
+        differing=np.stack([column, row, *primitives], axis=1).astype(np.int64),
+        allowed=PIXELS_ALLOWED.get(case.family, 0),
+        depth_error=float(depth_error.max(initial=0)),
+        color_error=float(color_error[is_compared].max(initial=0)),
+        depth_excess=float((depth_error / ours.depth_tolerance[is_same]).max(initial=0)),
+        color_excess=float((color_error / color_tolerance).max(initial=0)),
+    )
+
+
+def draw_with_core(case: Case, fill: str = "hierarchy", line: str = "diamond-exit") -> OurPicture:
+    """Draw ``case`` with the core, triangles with ``fill``, lines with ``line``."""
+    return _draw_lines(case, line) if case.is_lines else _draw_triangles(case, fill)
+
+
+def _draw_triangles(case: Case, fill: str) -> OurPicture:
+    frame = draw_triangles(case.clip, *case.size, case.attributes, case.texture, case.settings(fill))
+    depth_tolerance = np.full(frame.depth.shape, DEPTH_TOLERANCE)
+    color_tolerance = np.full(frame.depth.shape, COLOR_TOLERANCE)
+    primitive = frame.primitive.astype(np.int64)
+    row, column = np.nonzero(primitive >= 0)
+    triangle = primitive[row, column]
+    reach = DISPLACEMENT * max(case.size) * (2 if case.family in PIXELS_ALLOWED else 1)
+
+    # Depth is linear in the window, attributes are or are not.
+    clip = case.clip.astype(float)
+    homogeneous = place_corners(clip, case.size, "snapped").homogeneous
+    planes = set_up_planes(homogeneous)
+    depth_slope = _slopes(planes, (clip[..., 2] + clip[..., 3]) / 2, triangle, None)
+    depth_tolerance[row, column] += reach * depth_slope
+    if case.interpolation != "flat":
+        x, y = column.astype(float) + 0.5, row.astype(float) + 0.5
+        if case.interpolation == "affine":
+            planes = set_up_planes(homogeneous / homogeneous[..., 2:])
+        slopes = [
+            _slopes(planes, case.attributes[..., k].astype(float), triangle, (x, y))
+            for k in range(case.attributes.shape[-1])
+        ]
+        steepest = np.max(slopes, axis=0)
+        if case.texture is None:
+            color_tolerance[row, column] += reach * steepest
+        elif case.texture_filter == "nearest":
+            # The texel is another one only where the sample lies on its border.
+            texels = np.array(case.texture.pixels.shape[1::-1])
+            position = frame.attributes[row, column, :2].astype(float) * texels
+            margin = (reach * steepest + 1e-6)[:, None] * texels
+            is_on_border = (np.abs(position - np.rint(position)) <= margin).any(axis=1)
+            color_tolerance[row[is_on_border], column[is_on_border]] = np.inf
+        else:
+            texels_moved = reach * steepest * max(case.texture.pixels.shape[:2])
+            color_tolerance[row, column] = BILINEAR_TOLERANCE + texels_moved
+    return OurPicture(
+        frame.color.astype(float),
+        frame.depth.astype(float),
+        primitive,
+        color_tolerance,
+        depth_tolerance,
+    )
+
+
+def _slopes(planes: Planes, values: Floats, triangle: Integers, at: tuple[Floats, Floats] | None) -> Floats:
+    """Return (F,): how much values (T, 3) change per pixel; without ``at`` they are linear in the window."""
+    a, b, c = (plane[triangle] for plane in value_plane(planes, values))
+    if at is None:
+        return np.hypot(a, b)
+    x, y = at
+    a_w, b_w, c_w = (plane[triangle] for plane in value_plane(planes, np.ones_like(values)))
+    inverse_w = a_w * x + b_w * y + c_w
+    value = (a * x + b * y + c) / inverse_w
+    return np.hypot(a - value * a_w, b - value * b_w) / np.abs(inverse_w)
+
+
+def _draw_lines(case: Case, line: str) -> OurPicture:
+    width, height = case.size
+    clip = case.clip.astype(float)
+    w = clip[..., 3]
+    window = (clip[..., :2] / w[..., None] + 1) * np.array(case.size) / 2
+    drawn = draw_lines(window, width, height, line=line)
+    owner, t = drawn.owner, drawn.steps.t
+    length = np.maximum(np.abs(window[:, 1] - window[:, 0]).max(axis=1), 1e-3)[owner]
+    reach = DISPLACEMENT * max(case.size) / length
+
+    values = np.zeros((*case.clip.shape[:2], 4))
+    values[..., 3] = 1
+    values[..., : case.attributes.shape[2]] = case.attributes
+    depths = ((clip[..., 2] / w + 1) / 2)[..., None]
+    buffers = {
+        "color": (np.zeros((height, width, 4)), interpolate_line(owner, t, values, w)),
+        # A pixel beyond an end may be deeper than any buffer: OpenGL clamps.
+        "depth": (np.ones((height, width)), np.clip(interpolate_line(owner, t, depths)[:, 0], 0, 1)),
+        "primitive": (np.full((height, width), -1), owner),
+        "color_tolerance": (
+            np.full((height, width), COLOR_TOLERANCE),
+            COLOR_TOLERANCE + _spread(owner, t, reach, values, w),
+        ),
+        "depth_tolerance": (
+            np.full((height, width), DEPTH_TOLERANCE),
+            DEPTH_TOLERANCE + _spread(owner, t, reach, depths, None),
+        ),
+    }
+    column, row = drawn.pixels.T
+    for buffer, pixels in buffers.values():
+        buffer[row, column] = pixels  # the last drawn of one pixel stays
+    return OurPicture(**{name: buffer for name, (buffer, _) in buffers.items()})
+
+
+def _spread(owner: Integers, t: Floats, reach: Floats, values: Floats, w: Floats | None) -> Floats:
+    """Return (P,): how much interpolated values change if t changes by ``reach`` (P,)."""
+    after, before = (interpolate_line(owner, t + step, values, w) for step in (reach, -reach))
+    return np.asarray(np.abs(after - before).max(axis=1) / 2)

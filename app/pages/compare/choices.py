@@ -1,0 +1,125 @@
+"""What is chosen for each family of the Compare page, and what has been measured of it, while the window lives."""
+
+from dataclasses import dataclass, field
+
+from app.pages.compare.charts import TIME, cost_title, costs_of
+from app.pages.compare.jobs import StudyResult
+from core.study import study_families
+from core.study.accuracy.family import StudyFamily
+from core.study.accuracy.record import Dial, Study, WorkKind
+from core.study.accuracy.speed_accuracy import ROUNDS
+from widgets.charts.dial_control import DialChoice
+from widgets.charts.family_list import FamilyEntry
+from widgets.charts.study_controls import StudyChoices
+
+
+@dataclass(eq=False)
+class FamilyChoice:
+    """One family: its choices, and the last study of it."""
+
+    name: str
+    title: str
+    works: tuple[WorkKind, ...]
+    family: StudyFamily | None
+    """``None``: a saved study of a family that this version does not have."""
+    work: str
+    dials: dict[tuple[str, str], float] = field(default_factory=dict)
+    """By work and dial; those that are left out stand at their defaults."""
+    measure: str = ""
+    cost: str = TIME
+    rounds: int = ROUNDS
+    grow: bool = True
+    """Whether growth is measured too; a picture of the page may do without."""
+    seed: int = 0
+    result: StudyResult | None = None
+
+    @property
+    def work_kind(self) -> WorkKind:
+        """The chosen work."""
+        return next((work for work in self.works if work.name == self.work), self.works[0])
+
+    def dial_value(self, dial: Dial) -> float:
+        """Return where a dial of the chosen work stands."""
+        return self.dials.get((self.work, dial.name), dial.default)
+
+    @property
+    def dial_values(self) -> dict[str, float]:
+        """All dials of the chosen work."""
+        return {dial.name: self.dial_value(dial) for dial in self.work_kind.dials}
+
+    @property
+    def measures(self) -> list[tuple[str, str]]:
+        """Names and titles of the errors."""
+        source = self.result.study.measures if self.result else self.family.measures if self.family else ()
+        return [(m.name, f"{m.title} ({m.unit})" if m.unit else m.title) for m in source]
+
+    def is_set_as(self, study: Study) -> bool:
+        """Return whether a study is one of what is chosen now."""
+        return (study.work.name, dict(study.dials), study.seed) == (self.work, self.dial_values, self.seed)
+
+    def take(self, result: StudyResult) -> None:
+        """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
+        self.result = result
+        study = result.study
+        if study.work.name not in {work.name for work in self.works}:
+            self.works = (*self.works, study.work)
+        if result.path or result.is_kept:
+            self.work, self.seed = study.work.name, study.seed
+            self.dials |= {(self.work, name): value for name, value in study.dials.items()}
+        if self.measure not in {measure.name for measure in study.measures}:
+            self.measure = study.measures[0].name
+        if self.cost not in costs_of(study.points):
+            self.cost = TIME
+
+
+def choices_of_all() -> dict[str, FamilyChoice]:
+    """Return every family that can be studied, the whole pipeline on the open scene first."""
+    families = sorted(study_families(), key=lambda family: not family.takes_scene)
+    return {
+        family.name: FamilyChoice(
+            family.name,
+            "Whole pipeline on the open scene" if family.takes_scene else family.title,
+            family.works,
+            family,
+            family.works[0].name,
+            measure=family.measures[0].name,
+        )
+        for family in families
+    }
+
+
+def choice_of_saved(study: Study) -> FamilyChoice:
+    """Return the choice of a family that this version does not have."""
+    return FamilyChoice(study.family, study.title, (study.work,), None, study.work.name)
+
+
+def entry_of(choice: FamilyChoice) -> FamilyEntry:
+    """Return the row of the list."""
+    note = f"{len(choice.works)} kinds of work" if len(choice.works) > 1 else choice.works[0].title
+    if choice.result is not None:
+        date = choice.result.study.machine.get("date", "")
+        note += f"\nMeasured {date}".rstrip()
+    is_of_scene = choice.family is not None and choice.family.takes_scene
+    return FamilyEntry(choice.name, choice.title, note, choice.result is not None, ends_group=is_of_scene)
+
+
+def controls_of(choice: FamilyChoice) -> StudyChoices:
+    """Return what stands above the charts."""
+    work = choice.work_kind
+    points = choice.result.study.points if choice.result else ()
+    unit = choice.result.study.work.unit if choice.result else work.unit
+    return StudyChoices(
+        works=[(kind.name, kind.title) for kind in choice.works],
+        work=work.name,
+        dials=tuple(
+            DialChoice(dial.name, dial.title, dial.unit, dial.values, choice.dial_value(dial))
+            for dial in work.dials
+        ),
+        measures=choice.measures,
+        measure=choice.measure,
+        costs=[(cost, cost_title(cost, unit)) for cost in costs_of(points)],
+        cost=choice.cost,
+        rounds=choice.rounds,
+        seed=choice.seed,
+        can_measure=choice.family is not None,
+    )

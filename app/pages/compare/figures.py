@@ -1,0 +1,151 @@
+"""The figures of a study in words: of one method, of the whole, and as a table."""
+
+from collections.abc import Iterable
+from html import escape
+from math import isinf, isnan
+
+from app.pages.compare.charts import costs_of, title_of
+from app.pages.compare.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
+from core.explain.number_text import counted
+from core.methods import table
+from core.study.accuracy.record import ErrorMeasure, Point, Study
+from widgets.charts.study_table import Cell, TableRecord
+
+
+def error_text(value: float, measure: ErrorMeasure) -> str:
+    """Return an error with its unit."""
+    if isnan(value):
+        return "not defined"
+    number = "∞" if isinf(value) else digits(value, 4)
+    # A unit such as 1/255 is a fraction: 0.5/255.
+    return (
+        f"{number}{measure.unit[1:]}"
+        if measure.unit.startswith("1/")
+        else f"{number} {measure.unit}".rstrip()
+    )
+
+
+def point_text(study: Study, point: Point) -> str:
+    """Return everything that is known of one method, as rich text."""
+    parts = [
+        f"<b>{escape(title_of(point, [each.method for each in study.points]))}</b>",
+        escape(point.method),
+    ]
+    if point.refused:
+        parts.append(f"Not measured: {escape(point.refused)}")
+    elif not point.is_measured:
+        parts.append("Not measured yet.")
+    else:
+        low, high = point.spread
+        rows = [
+            (f"time per {study.work.unit}", time_text(point.median)),
+            ("quartiles", f"{time_text(low)} to {time_text(high)}"),
+            ("rounds", f"{len(point.seconds)} of {counted(point.unit_count, study.work.unit)} each"),
+        ]
+        rows += [
+            (measure.title, error_text(point.errors[measure.name], measure))
+            for measure in study.measures
+            if measure.name in point.errors
+        ]
+        rows += [(name, f"{count:,}") for name, count in point.counts.items()]
+        parts.append(_rows(rows))
+        parts += [escape(reason) for reason in dict.fromkeys(point.reasons.values())]
+    parts += method_notes(point)
+    return _paragraphs(parts)
+
+
+def method_notes(point: Point) -> list[str]:
+    """Return what the table of methods says of a point: exact for what, breaking where, from which source."""
+    notes = []
+    for part in point.method.split():
+        family, _, name = part.partition("=")
+        if family not in table.families or name not in table.names(family):
+            notes.append(f"{escape(part)} is not a method of this version.")
+            continue
+        method = table.get(family, name)
+        notes.append(f"Exact for {escape(method.exact_for)}.")
+        if method.breaks_where:
+            notes.append(f"Breaks: {escape(method.breaks_where)}.")
+        notes.append(f"Source: {escape(method.source)}.")
+    return notes
+
+
+def study_text(study: Study, path: str = "") -> str:
+    """Return what was measured, on what, and what is not in the chart, as rich text."""
+    parts = [f"<b>{escape(study.title)}</b>", f"{escape(work_sentence(study))}."]
+    if path:
+        parts.append(
+            f"A saved study, {escape(path)}: its numbers are of the machine and the day given below."
+        )
+    parts.append(
+        "Point at a mark to read its figures. Click it to see its picture; Ctrl+click another one to compare."
+    )
+    refused = [point for point in study.points if point.refused]
+    if refused:
+        parts.append("Not measured:")
+        names = [each.method for each in study.points]
+        parts += [f"<b>{escape(title_of(point, names))}</b>. {escape(point.refused)}" for point in refused]
+    reasons = dict.fromkeys(reason for point in study.points for reason in point.reasons.values())
+    parts += [escape(reason) for reason in reasons]
+    parts.append(f"{escape(settings_sentence(study))}.")
+    if study.machine:
+        parts.append(f"{escape(machine_sentence(study))}.")
+    return _paragraphs(parts)
+
+
+def table_of(study: Study) -> TableRecord:
+    """Return the numbers of all methods; each cell has the full value too."""
+    costs = costs_of(study.points)[1:]
+    head = ["Method", f"Time per {study.work.unit}", "Lower quartile", "Upper quartile"]
+    head += [
+        f"{measure.title} ({measure.unit})" if measure.unit else measure.title for measure in study.measures
+    ]
+    head += [cost[:1].upper() + cost[1:] for cost in costs]
+    head.append("Note")
+    rows = tuple(_row(study, point, costs) for point in study.points)
+    return TableRecord(tuple(head), tuple(point.method for point in study.points), rows)
+
+
+def _row(study: Study, point: Point, costs: list[str]) -> tuple[Cell, ...]:
+    name = Cell(title_of(point, [each.method for each in study.points]))
+    if not point.is_measured:
+        empty = Cell("–")
+        return (
+            name,
+            *[empty] * (3 + len(study.measures) + len(costs)),
+            Cell(point.refused or "Not measured."),
+        )
+    times = (point.median, *point.spread)
+    return (
+        name,
+        *(Cell(time_text(seconds), seconds, repr(seconds)) for seconds in times),
+        *(_error_cell(point.errors.get(measure.name, float("nan"))) for measure in study.measures),
+        *(_count_cell(point.counts.get(cost)) for cost in costs),
+        Cell(" ".join(dict.fromkeys(point.reasons.values()))),
+    )
+
+
+def _error_cell(value: float) -> Cell:
+    return (
+        Cell("–")
+        if isnan(value)
+        else Cell("∞" if isinf(value) else digits(value, 4), value, repr(float(value)))
+    )
+
+
+def _count_cell(count: int | None) -> Cell:
+    return Cell("–") if count is None else Cell(f"{count:,}", float(count), str(count))
+
+
+def _rows(rows: Iterable[tuple[str, str]]) -> str:
+    cells = (
+        f"<tr><td>{escape(name[:1].upper() + name[1:])}&nbsp;</td><td align='right'>{escape(value)}</td></tr>"
+        for name, value in rows
+    )
+    return f"<table cellspacing='2'>{''.join(cells)}</table>"
+
+
+def _paragraphs(parts: Iterable[str]) -> str:
+    return "".join(
+        part if part.startswith("<table") else f"<p style='margin:4px 0'>{part}</p>" for part in parts
+    )

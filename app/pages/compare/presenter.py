@@ -1,0 +1,373 @@
+"""The Compare page's measuring: which family, on what work, its charts and numbers as they come."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from PySide6.QtCore import Signal, Slot
+from PySide6.QtWidgets import QWidget
+
+from app.background.background_task import ListedWork, WorkWords
+from app.background.paced_drawing import PacedDrawing
+from app.pages.compare.charts import MOST_NAMED, growth_of, numbers_of, scatter_of
+from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
+from app.pages.compare.figures import point_text, study_text, table_of
+from app.pages.compare.jobs import StudyDesk, StudyOrder, StudyResult
+from app.pages.compare.words import machine_sentence, work_sentence
+from app.pages.plan.points import chosen_points, plan_candidates
+from app.session.session import Session
+from core.explain.number_text import counted
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.accuracy.record import Point, Study
+from core.study.accuracy.whole_picture import PIPELINE, SAMPLED_COLOR
+from widgets.basics.message_bar import Progress
+from widgets.basics.readout import Readout
+from widgets.charts.chart import Chart
+from widgets.charts.family_list import FamilyList
+from widgets.charts.legend import ChartLegend
+from widgets.charts.records import ChartEmpty, ChartPicture
+from widgets.charts.study_controls import StudyControls
+from widgets.charts.study_table import StudyTable, TableRecord
+
+NOTHING = "Error against cost, one mark for each method. Choose the work above, then press Measure (F5)."
+NO_GROWTH = (
+    "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
+)
+GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
+WORK_WORDS = WorkWords(
+    "Measuring was cancelled",
+    "It could not be measured",
+    "what was measured before is as it was",
+    "is still being measured",
+)
+
+
+class StudyPresenter(ListedWork[FamilyChoice]):
+    """Keeps the choices and results of all families and shows those of one."""
+
+    result_taken = Signal(object)
+    """A `StudyResult` that has just been measured."""
+
+    def __init__(
+        self,
+        session: Session,
+        desk: StudyDesk,
+        families: FamilyList,
+        controls: StudyControls,
+        charts: tuple[Chart, Chart],
+        legend: ChartLegend,
+        numbers: StudyTable,
+        readout: Readout,
+        page: QWidget,
+    ) -> None:
+        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), page)
+        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
+        self._families, self._controls = families, controls
+        self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
+        self._partial: Study | None = None
+        """What has been measured by now, of the family that is being measured."""
+        self._numbers: Mapping[str, int] = {}
+        self._pointed = ""
+        self._chosen = ""
+        self._connect()
+        session.plan_changed.connect(self.refresh)
+        self._pace.due.connect(self._show_study)
+        self.refresh()
+
+    def _connect(self) -> None:
+        controls = self._controls
+        self._families.family_chosen.connect(self.show_family)
+        controls.work_chosen.connect(self._choose_work)
+        controls.dial_chosen.connect(self._choose_dial)
+        controls.measure_chosen.connect(self._choose_measure)
+        controls.cost_chosen.connect(self._choose_cost)
+        controls.rounds_chosen.connect(self._choose_rounds)
+        controls.seed_chosen.connect(self._choose_seed)
+        controls.measuring_requested.connect(self.measure)
+        controls.cancel_requested.connect(self.cancel)
+        for chart in (*self._charts, self._legend):
+            chart.series_hovered.connect(self._point_at)
+            chart.series_left.connect(self._point_away)
+
+    # What is shown.
+
+    @property
+    def result(self) -> StudyResult | None:
+        """What has been measured of it, or opened."""
+        return self.choice.result
+
+    @property
+    def study(self) -> Study | None:
+        """The study that is shown: a finished one, or as much as has been measured by now."""
+        if self.is_partial:
+            return self._partial
+        return None if self.result is None else self.result.study
+
+    def point(self, method: str) -> Point | None:
+        """Return a point of the study that is shown."""
+        points = () if self.study is None else self.study.points
+        return next((point for point in points if point.method == method), None)
+
+    @Slot(str)
+    def show_family(self, name: str) -> None:
+        """Show another family."""
+        self._show_named(name)
+
+    def _point_nowhere(self) -> None:
+        """Forget the points that are pointed at and chosen."""
+        self._pointed = self._chosen = ""
+
+    def show_next_measure(self) -> None:
+        """Show the next error on the vertical axis."""
+        names = [name for name, _ in self.choice.measures]
+        self._choose_measure(names[(names.index(self.choice.measure) + 1) % len(names)])
+
+    def show_next_cost(self) -> None:
+        """Show the next cost on the horizontal axis: time, or a count of work."""
+        names = [name for name, _ in controls_of(self.choice).costs]
+        self._choose_cost(names[(names.index(self.choice.cost) + 1) % len(names)])
+
+    def refresh(self) -> None:
+        """Show the family, its controls and its study."""
+        self._families.show_families([entry_of(choice) for choice in self._choices.values()], self._current)
+        self._controls.show_choices(controls_of(self.choice))
+        self._show_study()
+
+    @Slot()
+    def _show_study(self) -> None:
+        self._pace.settle()
+        study, choice = self.study, self.choice
+        if not self.is_partial and study is not None:
+            self._numbers = numbers_of(study.points)
+        scatter: ChartPicture | ChartEmpty
+        growth: ChartPicture | ChartEmpty
+        if study is None:
+            scatter = ChartEmpty("Measuring …" if self.is_partial else NOTHING)
+            growth = ChartEmpty(NO_GROWTH)
+            self._table.show_table(TableRecord((), (), ()))
+        else:
+            scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
+            growth = (
+                GROWTH_COMES
+                if self.is_partial and choice.grow
+                else growth_of(study, choice.cost, self._numbers)
+            )
+            self._table.show_table(table_of(study))
+        for chart, picture in zip(self._charts, (scatter, growth), strict=True):
+            if isinstance(picture, ChartEmpty):
+                chart.show_empty(picture)
+            else:
+                chart.show_picture(picture)
+        self._show_legend(scatter)
+        self._show_readout()
+        self.shown_text_changed.emit(self._shown_text())
+
+    def _show_legend(self, scatter: ChartPicture | ChartEmpty) -> None:
+        """Show the list of names beside a chart that is too crowded to hold them all."""
+        is_crowded = isinstance(scatter, ChartPicture) and len(scatter.series) > MOST_NAMED
+        self._legend.setVisible(is_crowded)
+        if isinstance(scatter, ChartPicture) and is_crowded:
+            self._legend.show_series(scatter.series, scatter.front)
+
+    def _ringed(self, study: Study) -> tuple[str, ...]:
+        """Return the points that a plan chose for the scene that was measured."""
+        plan = self._session.plan
+        is_of_plan = plan is not None and (self.is_partial or self._is_of(plan.scene))
+        return chosen_points(study, plan.plan if plan is not None and is_of_plan else None)
+
+    def _is_of(self, scene: AnyScene) -> bool:
+        """Return whether the result that is shown was measured on a scene."""
+        return self.result is not None and self.result.scene is scene
+
+    def _shown_text(self) -> str:
+        study = self.study
+        if study is None:
+            return ""
+        parts = [f"{work_sentence(study)}; seed {study.seed}."]
+        if self.is_partial:
+            parts.append(f"{counted(len(study.points), 'method')} measured by now.")
+            return " ".join(parts)
+        if self.result is not None and self.result.is_kept:
+            parts.append("Kept from an earlier start.")
+        refused = sum(bool(point.refused) for point in study.points)
+        if refused:
+            parts.append(f"{counted(refused, 'method')} refused this work.")
+        if self.choice.family is not None and not self.choice.is_set_as(study):
+            parts.append("The controls are set otherwise by now: measure to see that.")
+        if study.machine:
+            parts.append(f"{machine_sentence(study)}.")
+        return " ".join(parts)
+
+    def choose(self, method: str) -> None:
+        """Keep the figures of a method in the readout while nothing else is pointed at; empty: of none."""
+        self._chosen = method
+        self._show_readout()
+
+    @Slot(str)
+    def _point_at(self, method: str) -> None:
+        self._pointed = method
+        self._show_pointed()
+
+    @Slot()
+    def _point_away(self) -> None:
+        self._pointed = ""
+        self._show_pointed()
+
+    def _show_pointed(self) -> None:
+        for chart in (*self._charts, self._legend):
+            chart.show_pointed(self._pointed)
+        self._show_readout()
+
+    def _show_readout(self) -> None:
+        study = self.study
+        if study is None:
+            self._readout.show_text(_about(self.choice))
+            return
+        point = self.point(self._pointed) or self.point(self._chosen)
+        path = self.result.path if self.result is not None and not self.is_partial else ""
+        self._readout.show_text(study_text(study, path) if point is None else point_text(study, point))
+        for chart in self._charts:
+            chart.setAccessibleDescription("" if point is None else point.title)
+
+    # Choosing.
+
+    @Slot(str)
+    def _choose_work(self, name: str) -> None:
+        self.choice.work = name
+        self.refresh()
+
+    @Slot(str, float)
+    def _choose_dial(self, name: str, value: float) -> None:
+        self.choice.dials[self.choice.work, name] = value
+        self.shown_text_changed.emit(self._shown_text())
+
+    @Slot(str)
+    def _choose_measure(self, name: str) -> None:
+        self.choice.measure = name
+        self.refresh()
+
+    @Slot(str)
+    def _choose_cost(self, name: str) -> None:
+        self.choice.cost = name
+        self.refresh()
+
+    @Slot(int)
+    def _choose_rounds(self, rounds: int) -> None:
+        self.choice.rounds = rounds
+
+    @Slot(int)
+    def _choose_seed(self, seed: int) -> None:
+        self.choice.seed = seed
+        self.shown_text_changed.emit(self._shown_text())
+
+    # Measuring.
+
+    @Slot()
+    def measure(self) -> None:
+        """Measure the family that is shown on the chosen work."""
+        choice = self.choice
+        if choice.family is None:
+            self.refused.emit(
+                "This version has no such family: a saved study can be looked at, not measured again."
+            )
+            return
+        if not self._is_free():
+            return
+        order = StudyOrder(
+            choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed, grow=choice.grow
+        )
+        settings = choice.family.base
+        if choice.family.takes_scene:
+            document = self._session.document
+            settings = document.settings
+            order = replace(
+                order, scene=document.scene, settings=settings, scene_title=document.title or "scene"
+            )
+            plan = self._session.plan
+            if plan is not None:
+                others = choice.family.candidates(settings)
+                order = replace(order, extra=plan_candidates(plan.plan, settings, others))
+        self._running = choice.name
+        self._partial = None
+        self._numbers = {
+            each.method: number
+            for number, each in enumerate((*choice.family.candidates(settings), *order.extra))
+        }
+        self._blank = _unmeasured(choice, order)
+        self._point_nowhere()
+        self._tell_progress(Progress("Preparing", 0, 0))
+        self.shown_changed.emit()
+        self._show_study()
+        self._desk.measure(order)
+
+    def measure_scene(self) -> None:
+        """Measure the whole pipeline on the open scene; beside a plan with an error that does not mind samples."""
+        self.show_family(PIPELINE.name)
+        if self._session.plan is not None and self._session.document.settings.polygon_mode == "fill":
+            self.choice.measure = SAMPLED_COLOR.name
+        self.measure()
+
+    @Slot(object)
+    def _take_part(self, point: Point) -> None:
+        points = {each.method: each for each in (self._partial or self._blank).points} | {point.method: point}
+        in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
+        self._partial = replace(self._blank, points=tuple(in_order))
+        if self.is_partial:
+            self._pace.ask()
+
+    @Slot(object)
+    def _take_result(self, result: StudyResult) -> None:
+        choice = self._choices[result.study.family]
+        choice.take(result)
+        self.refresh()
+        self.message_sent.emit(f"Measured {choice.title.lower()}.")
+        self.result_taken.emit(result)
+
+    def _put_back(self) -> None:
+        """Show what was measured before."""
+        self._running, self._partial = "", None
+        self.refresh()
+
+    # Saved studies.
+
+    @Slot(object)
+    def take_kept(self, study: Study) -> None:
+        """Show a study of an earlier start as the result of its family, unless there is another by now."""
+        choice = self._choices.get(study.family)
+        if choice is not None and choice.result is None and self._running != study.family:
+            choice.take(StudyResult(study, is_kept=True))
+            self.refresh()
+
+    def take_saved(self, study: Study, path: str) -> None:
+        """Show a study that was opened from a file, as the result of its family."""
+        if study.family not in self._choices:
+            self._choices[study.family] = choice_of_saved(study)
+        self._choices[study.family].take(StudyResult(study, path=path))
+        self._turn_to(study.family)
+
+
+def _unmeasured(choice: FamilyChoice, order: StudyOrder) -> Study:
+    """Return a study of what is about to be measured, without any point."""
+    assert choice.family is not None
+    return Study(
+        family=choice.name,
+        title=choice.family.title,
+        work=choice.work_kind,
+        dials=order.dials,
+        seed=order.seed,
+        measures=choice.family.measures,
+        points=(),
+        settings=order.settings or Settings(),
+        scene=order.scene_title,
+    )
+
+
+def _about(choice: FamilyChoice) -> str:
+    """Return what can be compared here, as rich text."""
+    works = "".join(f"<li>{work.title}</li>" for work in choice.works)
+    errors = "".join(f"<li>{title}</li>" for _, title in choice.measures)
+    return (
+        f"<b>{choice.title}</b><p>All methods of this family do the same work; each is timed and compared with an "
+        f"exact reference.</p>Work:<ul style='margin-left:-24px'>{works}</ul>"
+        f"Errors:<ul style='margin-left:-24px'>{errors}</ul>"
+    )

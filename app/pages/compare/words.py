@@ -1,0 +1,72 @@
+"""How the numbers of a study read: times with their unit, errors, and what was measured on."""
+
+from collections.abc import Mapping
+from math import floor, isnan, log10
+
+from core.settings import Settings
+from core.study.accuracy.record import Study
+
+TIME_UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
+
+
+def time_text(seconds: float) -> str:
+    """Return a time with three digits and its unit."""
+    for size, unit in TIME_UNITS:
+        if seconds >= size:
+            return f"{digits(seconds / size)} {unit}"
+    return f"{digits(seconds / 1e-9)} ns"
+
+
+def digits(number: float, count: int = 3) -> str:
+    """Return a number with ``count`` digits, without an exponent where it stays short."""
+    if number == 0:
+        return "0"
+    if isnan(number):
+        return "–"
+    power = floor(log10(abs(number)))
+    if -4 <= power < 7:
+        return f"{number:,.{max(count - 1 - power, 0)}f}"
+    return f"{number:.{count - 1}e}"
+
+
+def names_of(study: Study) -> dict[str, str]:
+    """Return by method what its point is called beside its mark: its name alone where all are of one family.
+
+    Where they are of several, a point that changes several settings goes by its title.
+    """
+    methods = [point.method for point in study.points]
+    families = {tuple(part.split("=", 1)[0] for part in method.split()) for method in methods}
+    if len(families) > 1:
+        return {point.method: point.title if " " in point.method else point.method for point in study.points}
+    return {method: ", ".join(part.split("=", 1)[1] for part in method.split()) for method in methods}
+
+
+def work_sentence(study: Study) -> str:
+    """Return what was done, with the values of all dials."""
+    parts = [f"{study.work.title}{f' ({study.scene})' if study.scene else ''}"]
+    for dial in study.work.dials:
+        unit = f" {dial.unit}" if dial.unit else ""
+        parts.append(f"{dial.title.lower()} {study.dials[dial.name]:g}{unit}")
+    return "; ".join(parts)
+
+
+def machine_sentence(study: Study) -> str:
+    """Return what was measured on, with the versions and the day."""
+    return machine_words(study.machine)
+
+
+def machine_words(here: Mapping[str, str]) -> str:
+    """Return a machine as `core.study.accuracy.machine` describes it, in words."""
+    if not here:
+        return "The machine was not noted."
+    return (
+        f"{here.get('processor', '?')}, {here.get('system', '?')}; Python {here.get('python', '?')}, "
+        f"NumPy {here.get('numpy', '?')}, Rasterscope {here.get('rasterscope', '?')}; {here.get('date', '?')}"
+    )
+
+
+def settings_sentence(study: Study) -> str:
+    """Return the settings that all points share, as far as they are not the defaults, and the seed."""
+    default = vars(Settings())
+    changed = [f"{name}={value}" for name, value in vars(study.settings).items() if value != default[name]]
+    return f"Settings: {' '.join(changed) or 'defaults'}; seed {study.seed}"

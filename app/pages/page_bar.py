@@ -1,0 +1,208 @@
+"""The pages of the window and the bar that chooses among them; a page is made when it is first shown."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QByteArray, Qt, Signal, Slot
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QStackedWidget, QTabBar, QVBoxLayout, QWidget
+
+from app.session.session import Session
+from core.settings import Settings
+from widgets.basics.message_bar import Progress
+
+if TYPE_CHECKING:
+    from core.study.accuracy.record import (
+        Opening,
+    )  # At run time all studies would come along: not before they are wanted.
+
+Handlers = Mapping[str, Callable[[], object]]
+"""What to call for actions of ``app.window.keys.ACTIONS``, by name."""
+
+
+@dataclass(frozen=True, eq=False)
+class StepRequest:
+    """What another page wants to see on the Step page."""
+
+    opening: "Opening"
+    title: str
+    other: Settings | None = None
+    """Settings of B, for A | B; ``None``: only A is looked at."""
+    triangle: int | None = None
+    """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
+
+
+class Page(QWidget):
+    """One page of the window. What it does not say otherwise, a page does not do."""
+
+    message_sent = Signal(str)
+    """Something to tell the user; nothing is wrong."""
+    edit_refused = Signal(str)
+    """Why what was asked for came to nothing."""
+    step_requested = Signal(object)
+    """A `StepRequest`: the user wants to step something that this page shows."""
+
+    work_progressed = Signal(object)
+    """A ``Progress``: how far the work of this page has come; ``None``: it does none any more."""
+
+    action_requested = Signal(str)
+    """Name of an action of ``app.window.keys.ACTIONS`` that is another page's, or shows another page."""
+
+    def handlers(self) -> Handlers:
+        """Return what the actions of this page do."""
+        return {}
+
+    def dismiss(self) -> bool:
+        """Close what is on top or stop what runs (Escape); return whether there was anything."""
+        return False
+
+    def main_view(self) -> QWidget:
+        """Return what is exported and copied as "the view"."""
+        return self
+
+    def open_path(self, path: str) -> None:
+        """Show a file that has one of the endings of this page."""
+        self.edit_refused.emit(f"This page cannot show {path}.")
+
+    def keep_results(self) -> None:
+        """Show the results of the last start of the window, and keep those that come for the next one."""
+
+    def leave(self) -> None:
+        """Stop what nobody sees: another page is shown now."""
+
+    def stop(self) -> None:
+        """End every thread: the window closes."""
+
+    def splitters(self) -> dict[str, QSplitter]:
+        """Return what divides the panes, by names that no other page uses."""
+        return {}
+
+    def layout_state(self) -> dict[str, str]:
+        """Return sizes of panes as texts, by names that no other page uses."""
+        return {
+            name: splitter.saveState().toBase64().toStdString() for name, splitter in self.splitters().items()
+        }
+
+    def restore_layout(self, state: dict[str, str]) -> None:
+        """Give panes the sizes that they had."""
+        for name, splitter in self.splitters().items():
+            if name in state:
+                splitter.restoreState(QByteArray.fromBase64(state[name].encode("ascii")))
+
+
+@dataclass(frozen=True)
+class PageKind:
+    """A page as the bar offers it."""
+
+    name: str
+    """Its actions have this ``page``; ``page_NAME`` is the action that shows it."""
+    title: str
+    tip: str
+    make: Callable[[Session, QWidget], Page]
+    """Called when it is first shown; imports what only this page needs."""
+    endings: tuple[str, ...] = ()
+    """Files with these endings are shown on this page, not opened as scenes; lower case."""
+    signature: bytes = b""
+    """Stands at the beginning of its files, where another page has files of the same ending."""
+
+
+class Pages(QWidget):
+    """The bar of pages, what stands under it for all of them, and the page that is shown."""
+
+    page_made = Signal(object)
+    """A `Page`, shown for the first time."""
+    page_changed = Signal(str)
+    """Name of the page that is shown now."""
+
+    def __init__(
+        self, kinds: tuple[PageKind, ...], session: Session, shared: QWidget, parent: QWidget | None = None
+    ) -> None:
+        """Show the first of ``kinds``, with ``shared`` (the messages) between the bar and the pages."""
+        super().__init__(parent)
+        self._kinds, self._session = kinds, session
+        self._made: dict[str, Page] = {}
+        self.bar = QTabBar(self)
+        self.bar.setDrawBase(False)
+        self.bar.setExpanding(False)
+        self.bar.setAccessibleName("Pages")
+        self.bar.setFocusPolicy(
+            Qt.FocusPolicy.NoFocus
+        )  # Its keys are actions; the arrows belong to the page.
+        self._stack = QStackedWidget(self)
+        for kind in kinds:
+            index = self.bar.addTab(kind.title)
+            self.bar.setTabToolTip(index, kind.tip)
+        row = QHBoxLayout()
+        row.setContentsMargins(8, 0, 8, 0)
+        row.addWidget(self.bar)
+        row.addStretch(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addLayout(row)
+        layout.addWidget(shared)
+        layout.addWidget(self._stack, 1)
+        self._show_index(0)
+        self.bar.currentChanged.connect(self._show_index)
+
+    @property
+    def current(self) -> Page:
+        """The page that is shown."""
+        return self._made[self.current_name]
+
+    @property
+    def current_name(self) -> str:
+        """Its name."""
+        return self._kinds[self.bar.currentIndex()].name
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all pages in the order of the bar."""
+        return [kind.name for kind in self._kinds]
+
+    @property
+    def made(self) -> tuple[Page, ...]:
+        """The pages that have been shown by now."""
+        return tuple(self._made.values())
+
+    def page(self, name: str) -> Page:
+        """Return a page by its name, made if need be."""
+        if name not in self._made:
+            kind = next(kind for kind in self._kinds if kind.name == name)
+            page = kind.make(self._session, self)
+            self._made[name] = page
+            page.work_progressed.connect(self._show_work)
+            self._stack.addWidget(page)
+            self.page_made.emit(page)
+        return self._made[name]
+
+    def show_page(self, name: str) -> None:
+        """Show a page by its name; a name that no page has shows nothing else."""
+        if name in self.names:
+            self.bar.setCurrentIndex(self.names.index(name))
+
+    def show_next(self, direction: int) -> None:
+        """Show the page to the right (1) or to the left (-1), round and round."""
+        self.bar.setCurrentIndex((self.bar.currentIndex() + direction) % self.bar.count())
+
+    @Slot(object)
+    def _show_work(self, progress: Progress | None) -> None:
+        """Write beside the name of a page how far its work is, for those who look at another page."""
+        name = next(name for name, page in self._made.items() if page is self.sender())
+        index = self.names.index(name)
+        title = self._kinds[index].title
+        if progress is not None:
+            done = f"{100 * progress.done // progress.total} %" if progress.total else "…"
+            title = f"{title} {done}"
+        self.bar.setTabText(index, title)
+
+    @Slot(int)
+    def _show_index(self, index: int) -> None:
+        before = self._stack.currentWidget()
+        page = self.page(self._kinds[index].name)
+        if isinstance(before, Page) and before is not page:
+            before.leave()
+        self._stack.setCurrentWidget(page)
+        if self.isVisible():
+            page.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.page_changed.emit(self._kinds[index].name)

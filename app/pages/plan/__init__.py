@@ -1,0 +1,1 @@
+"""The Plan page: no more than a scene needs."""

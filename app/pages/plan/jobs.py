@@ -1,0 +1,101 @@
+"""Runs the planner off the GUI thread: plans, measures the plan, draws the pictures of what was chosen."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Lock
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, Slot
+
+from app.background.workers import Desk, Progress
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study import Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
+from core.study.planner.measuring import alone_settings, difference, shown
+
+
+@dataclass(frozen=True, eq=False)
+class PlanOrder:
+    """What is to be looked at, and how closely."""
+
+    scene: AnyScene
+    settings: Settings
+    """What is to be seen, not how well."""
+    tolerance: Tolerance
+    rounds: int
+    title: str
+    """What the scene is called."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlanPictures:
+    """What some choices of a plan draw, and what everything on draws."""
+
+    setting: str
+    """The stage whose choice is drawn alone; empty: all choices together."""
+    settings: Settings
+    before: Settings
+    """Everything on, but for what the choice rests on."""
+    result: NDArray[np.uint8]
+    """(H, W, 3), bytes of a screen."""
+    reference: NDArray[np.uint8]
+    """(H, W, 3), drawn with ``before``."""
+    difference: NDArray[np.float32]
+    """(H, W), of the channel that differs most, in 1/255."""
+
+
+class PlanDesk(Desk):
+    """At most one look and one drawing at a time."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        # What was cancelled may still be in its last drawing, which would disturb the times of the next.
+        self._turn = Lock()
+        self.looking = self.add_job()
+        """Gives the ``Plan`` before it is measured, and in the end a ``PlanReport``."""
+        self.drawing = self.add_job()
+        """Gives a `PlanPictures`."""
+
+    @property
+    def is_looking(self) -> bool:
+        """Whether a plan is being made or measured."""
+        return self.looking.is_running
+
+    def look(self, order: PlanOrder) -> None:
+        """Plan, then measure; the plan comes before its numbers."""
+
+        def work(
+            progress: Progress, is_cancelled: Callable[[], bool], planned: Callable[[Plan], None]
+        ) -> PlanReport:
+            def watch(done: float, doing: str) -> None:
+                if is_cancelled():
+                    raise StudyCancelledError("The look was cancelled.")
+                progress(done, doing)
+
+            with self._turn:
+                chosen = plan(order.scene, order.tolerance, order.settings, watch)
+                planned(chosen)
+                return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)
+
+        self.looking.start_in_parts(work)
+
+    def draw(self, scene: AnyScene, chosen: Plan, setting: str) -> None:
+        """Draw what a plan chose at one stage and nowhere else, or with an empty ``setting`` all that it chose."""
+        before, settings = chosen.everything, chosen.settings
+        if setting:
+            decision = next(each for each in chosen.decisions if each.setting == setting)
+            before, settings = alone_settings(chosen, decision)
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PlanPictures:
+            result, reference = shown(scene, settings), shown(scene, before)
+            differs = difference(result, reference).astype(np.float32)
+            pictures = result.astype(np.uint8), reference.astype(np.uint8)
+            return PlanPictures(setting, settings, before, *pictures, differs)
+
+        self.drawing.start(work)
+
+    @Slot()
+    def stop_drawing(self) -> None:
+        """Wait for no picture any more."""
+        self.drawing.cancel()

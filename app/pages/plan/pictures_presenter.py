@@ -1,0 +1,132 @@
+"""What the difference buttons of a plan open: the chosen picture, everything on, and where they differ."""
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.export.views import copy_widget
+from app.pages.page_bar import StepRequest
+from app.pages.plan.jobs import PlanDesk, PlanPictures
+from app.pages.plan.presenter import PlanPresenter
+from core.explain.number_text import counted
+from core.explain.stage_texts import family_title
+from core.methods import table
+from core.study import Opening
+from widgets.charts.study_pictures import PicturesRecord, StudyPictures
+from widgets.grid.buffer import GridBuffer
+
+
+class PlanPicturesPresenter(QObject):
+    """Keeps the pictures of one choice, or of all together."""
+
+    step_requested = Signal(object)
+    """A ``StepRequest``."""
+    message_sent = Signal(str)
+    refused = Signal(str)
+
+    def __init__(
+        self, plans: PlanPresenter, desk: PlanDesk, view: StudyPictures, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._plans, self._desk, self._view = plans, desk, view
+        self._drawn: PlanPictures | None = None
+        plans.shown_changed.connect(self.close)
+        desk.drawing.succeeded.connect(self._show_pictures)
+        desk.drawing.failed.connect(self._show_failure)
+        view.step_requested.connect(self.step)
+        view.copy_requested.connect(self.copy)
+        view.closing_requested.connect(self.close)
+        view.hide()
+
+    @Slot(str)
+    def open(self, setting: str) -> None:
+        """Draw the choice at one stage alone, beside everything on."""
+        self._draw(setting)
+
+    @Slot()
+    def open_all(self) -> None:
+        """Draw all that was chosen, beside everything on."""
+        self._draw("")
+
+    def _draw(self, setting: str) -> None:
+        shown = self._plans.shown
+        if shown is None or shown.report is None:
+            self.message_sent.emit("There is no difference to be looked at yet: look first (F5).")
+            return
+        self._drawn = None
+        self._view.show()
+        self._view.show_waiting("Drawing the choice and everything on …")
+        self._desk.draw(shown.order.scene, shown.plan, setting)
+
+    @Slot()
+    def close(self) -> None:
+        """Close the pictures."""
+        self._desk.stop_drawing()
+        self._drawn = None
+        self._view.hide()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there are pictures, or are about to be."""
+        return not self._view.isHidden()
+
+    @Slot(object)
+    def _show_pictures(self, drawn: PlanPictures) -> None:
+        self._drawn = drawn
+        title = self._title(drawn)
+        differs = int(np.count_nonzero(drawn.difference))
+        largest = int(drawn.difference.max())
+        amount = (
+            f"{counted(differs, 'pixel')} of {drawn.difference.size:,} differ, by {largest}/255 at most."
+            if differs
+            else f"none of {drawn.difference.size:,} pixels differs."
+        )
+        self._view.show_pictures(
+            PicturesRecord(
+                f"{title}: {amount}",
+                (
+                    GridBuffer("chosen", drawn.result, "color"),
+                    GridBuffer("everything on", drawn.reference, "color"),
+                    # White is no difference at any size of it.
+                    GridBuffer("difference", drawn.difference, "signed", unit="/255"),
+                ),
+                (title, self._before(drawn), "Difference, in 1/255"),
+                can_step=True,
+            )
+        )
+
+    def _title(self, drawn: PlanPictures) -> str:
+        if not drawn.setting:
+            return "All that was chosen"
+        chosen = getattr(drawn.settings, drawn.setting)
+        return f"{family_title(drawn.setting)}: {table.get(drawn.setting, chosen).title}"
+
+    def _before(self, drawn: PlanPictures) -> str:
+        shown = self._plans.shown
+        is_everything = shown is not None and drawn.before == shown.plan.everything
+        return "Everything on" if is_everything else "Everything on, but for what this choice rests on"
+
+    @Slot(object)
+    def _show_failure(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self._view.show_waiting(f"It cannot be drawn: {error}")
+
+    @Slot()
+    def step(self) -> None:
+        """Open the choice beside everything on, A | B, at the pinned pixel or where they differ most."""
+        shown, drawn = self._plans.shown, self._drawn
+        if shown is None or drawn is None:
+            return
+        pixel = self._view.pin
+        if pixel is None:
+            row, column = np.unravel_index(int(drawn.difference.argmax()), drawn.difference.shape)
+            pixel = int(column), int(row)
+        opening = Opening(shown.order.scene, drawn.settings, "resolve", pixel)
+        self.step_requested.emit(StepRequest(opening, self._title(drawn), drawn.before))
+
+    @Slot()
+    def copy(self) -> None:
+        """Put the three pictures on the clipboard."""
+        if self._drawn is not None:
+            copy_widget(self._view.linked)
+            self.message_sent.emit("Copied the pictures.")

@@ -1,0 +1,175 @@
+"""The Plan page's looking: what was asked, chosen and measured, and whether it is still of this scene."""
+
+from dataclasses import dataclass, replace
+
+from PySide6.QtCore import QObject, Slot
+
+from app.background.background_task import AskedWork, WorkWords
+from app.pages.plan.jobs import PlanDesk, PlanOrder
+from app.pages.plan.words import EMPTY, about, advice_html, details, findings_html, headline, rows_of
+from app.session.session import Session
+from core.study import Plan, PlanReport, Tolerance, everything_on
+from widgets.basics.message_bar import Progress
+from widgets.plan.controls import PlanControls
+from widgets.plan.rows import PlanRows
+from widgets.plan.summary import PlanFindings, PlanSummary, SummaryRecord
+
+
+@dataclass(frozen=True, eq=False)
+class PlanShown:
+    """What is shown: a plan, and once it is measured its report."""
+
+    order: PlanOrder
+    plan: Plan
+    report: PlanReport | None = None
+
+
+WORDS = WorkWords("The look was cancelled", "It could not be planned", "what was found before is as it was")
+
+
+class PlanPresenter(AskedWork):
+    """Looks at the open scene and shows what it needs; results of an earlier scene are marked as such."""
+
+    def __init__(
+        self,
+        session: Session,
+        desk: PlanDesk,
+        controls: PlanControls,
+        summaries: tuple[PlanSummary, PlanFindings],
+        rows: PlanRows,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(desk.looking, controls, WORDS, parent)
+        self._session, self._desk = session, desk
+        self._controls, self._summaries, self._rows = controls, summaries, rows
+        self._order: PlanOrder | None = None
+        """What is being looked at."""
+        self._asked: PlanOrder | None = None
+        """What was looked at last."""
+        self._before: PlanShown | None = None
+        """What comes back if that comes to nothing."""
+        self.shown: PlanShown | None = None
+        controls.looking_requested.connect(self.look)
+        controls.cancel_requested.connect(self.cancel)
+        controls.applying_requested.connect(self.apply)
+        session.document_changed.connect(self.refresh)
+        self.refresh()
+
+    @property
+    def is_stale(self) -> bool:
+        """Whether what is shown is of an earlier scene, or of something else to be seen in it."""
+        if self.shown is None:
+            return False
+        document = self._session.document
+        if self.shown.order.scene is not document.scene:
+            return True
+        is_applied = document.settings == self.shown.plan.settings
+        return (
+            not is_applied and everything_on(document.scene, document.settings) != self.shown.plan.everything
+        )
+
+    # Looking.
+
+    @Slot()
+    def look(self) -> None:
+        """Plan for the open scene, and measure the plan."""
+        document, controls = self._session.document, self._controls
+        exact = Tolerance.exact()
+        tolerance = (
+            exact if controls.is_exact else Tolerance(controls.color_box.value(), controls.pixels_box.value())
+        )
+        order = PlanOrder(
+            document.scene,
+            document.settings,
+            tolerance,
+            controls.rounds_box.value(),
+            document.title or "scene",
+        )
+        self._desk.looking.cancel()
+        self._order, self._before = order, self.shown
+        controls.show_progress(Progress("Looking at the scene", 0, 0))
+        self._desk.look(order)
+
+    @Slot(object)
+    def _take_part(self, plan: Plan) -> None:
+        assert self._order is not None
+        self._show(PlanShown(self._order, plan))
+
+    @Slot(object)
+    def _take_result(self, report: PlanReport) -> None:
+        assert self._asked is not None
+        self._show(PlanShown(self._asked, report.plan, report))
+        self._session.set_plan(report)
+        self.message_sent.emit(f"Looked at {self._asked.title}.")
+
+    def _put_back(self) -> None:
+        """Show what was found before."""
+        self._asked, self._order = self._order, None
+        if self._asked is not None:
+            self._show(self._before)
+
+    # Showing.
+
+    def _show(self, shown: PlanShown | None) -> None:
+        self.shown = shown
+        self.refresh()
+        self.shown_changed.emit()
+
+    @Slot()
+    def refresh(self) -> None:
+        """Show the plan, and whether it is of the scene that is open."""
+        shown = self.shown
+        for summary in self._summaries:
+            summary.show_record(None if shown is None else self._record(shown))
+        if shown is None:
+            self._rows.show_rows((), EMPTY)
+            self._controls.show_usable(False, False)
+            return
+        self._rows.show_rows(rows_of(shown.plan, shown.report))
+        is_usable = shown.report is not None and not self.is_stale
+        self._controls.show_usable(is_usable, is_usable)
+
+    def _record(self, shown: PlanShown) -> SummaryRecord:
+        plan, report, order = shown.plan, shown.report, shown.order
+        stale = ""
+        if self.is_stale:
+            stale = (
+                f"This is of an earlier scene, {order.title}: look again (F5)."
+                if order.scene is not self._session.document.scene
+                else "The settings ask for something else to be seen by now: look again (F5)."
+            )
+        facts = plan.findings.facts
+        return SummaryRecord(
+            headline=headline(plan, report),
+            details="" if report is None else details(plan, report),
+            is_within=None if report is None else report.is_within,
+            about=about(order.title, order.scene.size, order.tolerance),
+            stale=stale,
+            findings=findings_html(plan.findings),
+            findings_note=f"({len(facts)})",
+            advice=advice_html(plan.tessellations),
+            can_draw=report is not None,
+        )
+
+    # Applying.
+
+    @Slot()
+    def apply(self) -> None:
+        """Take the chosen settings over, in one step that undo takes back."""
+        shown = self.shown
+        if shown is None or shown.report is None:
+            self.message_sent.emit("There is nothing to apply yet: look first (F5).")
+            return
+        if self.is_stale:
+            self.refused.emit("What was chosen is for an earlier scene: look again (F5).")
+            return
+        document = self._session.latest
+        if document.settings == shown.plan.settings:
+            self.message_sent.emit("The scene has these settings already.")
+            return
+        try:
+            self._session.edit(replace(document, settings=shown.plan.settings))
+        except (ValueError, MemoryError) as error:
+            self.refused.emit(f"The choice cannot be stepped: {error} The settings stay as they were.")
+        else:
+            self.message_sent.emit("Applied what the scene needs; Ctrl+Z takes it back.")

@@ -1,0 +1,140 @@
+"""A plan in words: its rows, what it comes to, and what was seen in the scene."""
+
+from html import escape
+
+import numpy as np
+
+from app.pages.compare.words import digits, time_text
+from core.explain.number_text import counted, joined
+from core.explain.stage_texts import family_title
+from core.methods import table
+from core.study import Decision, Findings, Plan, PlanReport, Tolerance
+from core.study.planner import Outcome, Tessellation
+from core.study.planner.words.phrases import in_bytes
+from widgets.plan.rows import PlanRow, Verdict
+
+EMPTY = (
+    "What does this scene need? No more than that: Look (F5) goes through the open scene and chooses, stage by "
+    "stage, the cheapest method whose error stays within the tolerance: clipping or none, a perspective divide or "
+    "none, a depth buffer or none, how many samples. Each choice has its reason and a bound of its error; then all "
+    "of them are drawn and timed against the picture with everything on, and a prediction that was wrong is told. "
+    "Apply takes the choice over."
+)
+
+
+def about(title: str, size: tuple[int, int], tolerance: Tolerance) -> str:
+    """Return what was looked at, and how closely."""
+    return f"{title}, {size[0]}×{size[1]} pixels, {tolerance_text(tolerance)}."
+
+
+def tolerance_text(tolerance: Tolerance) -> str:
+    """Return how much may differ."""
+    if not tolerance.bytes:
+        few = f" but for {counted(tolerance.pixels, 'pixel')}" if tolerance.pixels else ""
+        return f"exact{few}"
+    return f"within {tolerance.bytes}/255, {counted(tolerance.pixels, 'pixel')} beyond"
+
+
+def rows_of(plan: Plan, report: PlanReport | None) -> tuple[PlanRow, ...]:
+    """Return a row for every decision; without a report nothing has been measured yet."""
+    outcomes = {} if report is None else {outcome.decision.setting: outcome for outcome in report.outcomes}
+    return tuple(_row(each, outcomes.get(each.setting), report) for each in plan.decisions)
+
+
+def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> PlanRow:
+    chosen = table.get(decision.setting, decision.chosen).title
+    is_cheaper = decision.chosen != decision.dearest
+    instead = f"instead of {table.get(decision.setting, decision.dearest).title}" if is_cheaper else ""
+    if not is_cheaper:
+        instead = "kept: nothing cheaper is sure to do" if decision.is_needed else "there is nothing cheaper"
+    verdict = Verdict.OPEN
+    if outcome is not None:
+        verdict = Verdict.HELD if outcome.is_right else Verdict.WRONG
+    return PlanRow(
+        decision.setting,
+        family_title(decision.setting),
+        chosen,
+        instead,
+        decision.reason,
+        _numbers(decision, outcome, report) if is_cheaper else "",
+        verdict,
+        decision.is_needed,
+        outcome is not None,
+    )
+
+
+def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> str:
+    """Return the predicted and the measured error, and what the choice saves by itself."""
+    predicted = f"predicted {in_bytes(decision.predicted_error)}"
+    if decision.predicted_pixels:
+        predicted += f" but for {counted(decision.predicted_pixels, 'pixel')}"
+    if outcome is None or report is None:
+        return predicted
+    measured = f"measured {in_bytes(outcome.measured_error)}"
+    if outcome.measured_pixels:
+        measured += f", {counted(outcome.measured_pixels, 'pixel')} beyond"
+    lines = [predicted, measured]
+    if len(outcome.seconds):
+        alone, everything = float(np.median(outcome.seconds)), float(np.median(report.seconds_everything))
+        lines.append(f"time alone {time_text(alone)} ({alone / everything:.0%})")
+    return "\n".join(lines)
+
+
+def headline(plan: Plan, report: PlanReport | None) -> str:
+    """Return in one sentence what the plan comes to."""
+    if report is None:
+        return f"Predicted: {in_bytes(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
+    everything, chosen = (
+        float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
+    )
+    within = "Within the tolerance" if report.is_within else "Beyond the tolerance"
+    ratio = everything / chosen
+    speed = f"{digits(ratio)} times as fast as" if ratio >= 1 else f"{digits(1 / ratio)} times as slow as"
+    return f"{within}, {speed} everything on: {time_text(chosen)} instead of {time_text(everything)}"
+
+
+def predicted_time(plan: Plan, start: str) -> str:
+    """Return after ``start`` what pictures were predicted to take; nothing if nothing was timed."""
+    if plan.predicted_seconds is None or plan.predicted_everything is None:
+        return ""
+    return f"{start}{time_text(plan.predicted_seconds)} instead of {time_text(plan.predicted_everything)}"
+
+
+def details(plan: Plan, report: PlanReport) -> str:
+    """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
+    parts = [
+        f"Largest difference {in_bytes(report.largest_error)}, predicted {in_bytes(plan.predicted_error)} at most; "
+        f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
+        f"{plan.tolerance.pixels:,} allowed."
+    ]
+    time = predicted_time(plan, "Predicted from smaller pictures: ")
+    if time:
+        parts.append(f"{time}.")
+    wrong = [outcome for outcome in report.outcomes if not outcome.is_right]
+    for outcome in wrong:
+        parts.append(f"A prediction was wrong: {family_title(outcome.decision.setting)}, {outcome.text}.")
+    if report.fallen_back:
+        names = joined([family_title(name) for name in report.fallen_back])
+        parts.append(
+            f"The first plan was beyond the tolerance when measured, so everything is on again at {names}."
+        )
+    needed = [family_title(each.setting) for each in plan.decisions if each.is_needed]
+    kept = f"Kept, as nothing cheaper is sure to do: {joined(needed)}."
+    parts.append(kept if needed else "Nothing expensive is needed.")
+    return " ".join(parts)
+
+
+def findings_html(findings: Findings) -> str:
+    """Return the facts as a table, as rich text."""
+    rows = (
+        f"<tr><td>{escape(fact.title)}&nbsp;&nbsp;</td><td align='right'>{escape(fact.text)}</td></tr>"
+        for fact in findings.facts
+    )
+    return f"<table width='100%' cellspacing='2'>{''.join(rows)}</table>"
+
+
+def advice_html(tessellations: tuple[Tessellation, ...]) -> str:
+    """Return the advice on how fine meshes are, as rich text."""
+    if not tessellations:
+        return "Triangles that were given one by one speak of no smooth surface."
+    return "".join(f"<p style='margin:2px 0'>{escape(each.text)}</p>" for each in tessellations)

@@ -1,0 +1,78 @@
+"""The left column of a page, a list over what is read of it, beside the rest; it grows with the size of the type."""
+
+from math import isclose
+
+from PySide6.QtCore import QByteArray, Qt, Slot
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QSplitter, QWidget
+
+from widgets.basics.theme import LIGHT, current_theme, theme_notifier
+
+WIDTH = 264
+"""Pixels of the left column at the usual size of the type."""
+NARROWEST = 12
+"""Least width of the left column, in heights of the text."""
+WIDEST = 0.45
+"""Largest part of the page that growing takes."""
+
+
+class SideColumns(QSplitter):
+    """Two columns; what is saved of them is for the usual size of the type, whatever the present one is."""
+
+    def __init__(
+        self, upper: QWidget, lower: QWidget, rest: QWidget, heights: tuple[int, int], parent: QWidget
+    ) -> None:
+        """Put ``upper`` over ``lower``, which begin with these ``heights`` in pixels, to the left of the ``rest``."""
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self.left = QSplitter(Qt.Orientation.Vertical, self)
+        for pane, stretch in ((upper, 3), (lower, 1)):
+            self.left.addWidget(pane)
+            self.left.setStretchFactor(self.left.count() - 1, stretch)
+        self.left.setSizes(list(heights))
+        self.addWidget(self.left)
+        self.addWidget(rest)
+        self.setStretchFactor(1, 1)
+        self.setSizes([WIDTH, 1000])
+        self._text_px = LIGHT.text_px
+        """Size of the type that the left column is wide enough for, but for what it is owed."""
+        self._owed = 1.0
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self._follow_theme()
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        """Owe the left column as much growth as its text has had."""
+        before, self._text_px = self._text_px, current_theme().text_px
+        self._owed *= self._text_px / before
+        self.left.setMinimumWidth(NARROWEST * self._text_px)
+        self._grow()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give what there was no room for: large type comes before the full screen."""
+        super().resizeEvent(event)
+        self._grow()
+
+    def _grow(self) -> None:
+        left, rest = self.sizes()
+        wanted = round(left * self._owed)
+        if not isclose(self._owed, 1.0) and 0 < wanted < WIDEST * (left + rest):
+            self._owed = 1.0
+            self.setSizes([wanted, left + rest - wanted])
+
+    def saveState(self) -> QByteArray:
+        """Return the widths that the columns have at the usual size of the type."""
+        sizes = self.sizes()
+        usual = round(sizes[0] * self._owed * LIGHT.text_px / self._text_px)
+        self.left.setMinimumWidth(0)
+        self.setSizes([usual, sum(sizes) - usual])
+        state = super().saveState()
+        self.setSizes(sizes)
+        self.left.setMinimumWidth(NARROWEST * self._text_px)
+        return state
+
+    def restoreState(self, state: QByteArray | bytes | bytearray | memoryview) -> bool:
+        """Take widths of the usual size of the type, and let them grow to the present one."""
+        is_restored = super().restoreState(state)
+        self._owed = self._text_px / LIGHT.text_px
+        self._grow()
+        return is_restored

@@ -1,0 +1,225 @@
+"""From an atlas to what the page shows: maps, the figures of a cell, and the picture of a case."""
+
+from collections.abc import Mapping
+from html import escape
+from math import isnan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.export.atlas_text import WORDS
+from app.pages.compare.words import machine_words
+from app.pages.stability.choices import AtlasResult, ExperimentChoice
+from app.pages.stability.jobs import CaseFound, ShrunkFound
+from app.pages.stability.outcome_looks import cell_kinds
+from core import Frame
+from core.explain.number_text import counted, number_text
+from core.framebuffer.display import to_display
+from core.scene import ClipScene
+from core.study import Opening
+from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
+from widgets.atlas.case_view import CaseRecord
+from widgets.atlas.records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
+from widgets.grid.buffer import GridBuffer
+
+Cells = Mapping[str, NDArray[np.int16]]
+"""Method to the kinds (rows, columns) int16 of its cells."""
+
+
+def blank_cells(info: ExperimentInfo) -> dict[str, NDArray[np.int16]]:
+    """Return maps of an experiment without a cell that has been run."""
+    rows = len(info.axes[1].values) if len(info.axes) > 1 else 1
+    shape = (rows, len(info.axes[0].values))
+    return {method: np.full(shape, UNKNOWN, np.int16) for method in info.methods}
+
+
+def cells_of(maps: tuple[StabilityMap, ...]) -> dict[str, NDArray[np.int16]]:
+    """Return the kinds of all cells of an atlas."""
+    return {each.method: each.outcome.astype(np.int16) for each in maps}
+
+
+def atlas_record(info: ExperimentInfo, cells: Cells) -> AtlasRecord:
+    """Return what the maps show."""
+    up = axis_record(info.axes[1]) if len(info.axes) > 1 else None
+    titles = method_titles(tuple(cells))
+    maps = tuple(AtlasMap(method, titles[method], kinds) for method, kinds in cells.items())
+    return AtlasRecord(cell_kinds(), axis_record(info.axes[0]), up, maps)
+
+
+def axis_record(axis: Axis) -> AtlasAxis:
+    """Return one axis with its values as texts."""
+    title = f"{axis.title} ({axis.unit})" if axis.unit else axis.title
+    return AtlasAxis(title, tuple(number_text(value) for value in axis.values), axis.is_logarithmic)
+
+
+def method_titles(methods: tuple[str, ...]) -> dict[str, str]:
+    """Return what each method is called: its names alone where all are of the same families."""
+    families = {tuple(part.split("=", 1)[0] for part in method.split()) for method in methods}
+    if len(families) > 1:
+        return {method: method for method in methods}
+    return {method: ", ".join(part.split("=", 1)[1] for part in method.split()) for method in methods}
+
+
+def values_at(info: ExperimentInfo, place: CellPlace) -> tuple[float, ...]:
+    """Return the value of every axis at a cell."""
+    return tuple(
+        axis.values[index] for axis, index in zip(info.axes, (place.column, place.row), strict=False)
+    )
+
+
+def first_failure(cells: Cells, method: str) -> CellPlace | None:
+    """Return the first cell, row by row, at which a method fails; ``None``: there is none."""
+    kinds = cells[method]
+    fails = ~np.isin(kinds, (Outcome.RIGHT, Outcome.REFUSED, UNKNOWN))
+    row, column = divmod(int(fails.argmax()), kinds.shape[1])
+    return CellPlace(method, column, row) if fails.any() else None
+
+
+def place_on_curve(info: ExperimentInfo, method: str, index: int) -> CellPlace:
+    """Return the cell of a point of a curve along the only axis; a negative ``index`` counts from its end."""
+    return CellPlace(method, index % len(info.axes[0].values), 0)
+
+
+def place_sentence(info: ExperimentInfo, values: tuple[float, ...]) -> str:
+    """Return the values of all axes in words."""
+    parts = (
+        f"{axis.title.lower()} {number_text(value)}{f' {axis.unit}' if axis.unit else ''}"
+        for axis, value in zip(info.axes, values, strict=True)
+    )
+    return ", ".join(parts)
+
+
+def experiment_text(choice: ExperimentChoice) -> str:
+    """Return what is known of an experiment, as rich text."""
+    info = choice.info if choice.result is None else choice.result.atlas.experiment
+    axes = "".join(
+        f"<li>{escape(axis.title)}: {number_text(axis.values[0])} to {number_text(axis.values[-1])}"
+        f"{escape(f' {axis.unit}' if axis.unit else '')}, {counted(len(axis.values), 'value')}</li>"
+        for axis in info.axes
+    )
+    methods = "".join(f"<li>{escape(line)}</li>" for line in method_lines(choice))
+    order = "in the order of the maps" if choice.result is None else "most failures first"
+    parts = [
+        f"<b>{escape(info.title)}</b><p>Axes:</p><ul style='margin-left:-24px'>{axes}</ul>",
+        f"Methods, {order}:<ul style='margin-left:-24px'>{methods}</ul>",
+    ]
+    result = choice.result
+    if result is not None:
+        origin = f"Opened from {escape(result.path)}. " if result.path else ""
+        parts.append(
+            f"<p>{origin}Seed {result.atlas.seed}. {escape(machine_words(result.atlas.machine))}</p>"
+            "<p>Point at a cell to read what came of it. Click it to see the case; double-click to step it.</p>"
+        )
+    return "".join(parts)
+
+
+def method_lines(choice: ExperimentChoice) -> tuple[str, ...]:
+    """Return the methods; of an experiment that has been run with what was measured, most failures first."""
+    if choice.result is None:
+        return choice.info.methods
+    fails = failure_counts(choice.result)
+    size = {each.method: each.outcome.size for each in choice.result.atlas.maps}
+    worst = sorted(fails, key=lambda method: -fails[method])
+    return tuple(f"{method}: {fails[method]:,} of {size[method]:,} fail" for method in worst)
+
+
+def cell_text(
+    info: ExperimentInfo, place: CellPlace, kind: int, severity: float, remark: str, title: str
+) -> str:
+    """Return the figures of one cell, as rich text."""
+    lines = [f"<b>{escape(title)}</b>"]
+    for axis, value in zip(info.axes, values_at(info, place), strict=True):
+        unit = f" {escape(axis.unit)}" if axis.unit else ""
+        lines.append(f"{escape(axis.title)}: <b>{number_text(value)}</b>{unit}")
+    if kind == UNKNOWN:
+        lines.append("Not run yet.")
+    else:
+        lines.append(f"Outcome: <b>{WORDS[Outcome(kind)]}</b>")
+        if severity and not isnan(severity):
+            lines.append(f"Severity: <b>{number_text(severity)}</b>")
+        if remark:
+            lines.append(f"{escape(remark[:1].upper() + remark[1:])}.")
+    return "<p>" + "</p><p>".join(lines) + "</p>"
+
+
+def case_record(found: CaseFound) -> CaseRecord:
+    """Return what is shown of a cell."""
+    info, verdict = found.order.experiment.info, found.verdict
+    is_failure = verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED)
+    return CaseRecord(
+        heading=f"{found.order.place.key} at {place_sentence(info, found.order.values)}",
+        verdict=verdict_sentence(verdict.outcome, verdict.remark) + _missing_picture(found),
+        buffers=None if found.frame is None else case_buffers(found.frame),
+        pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
+        has_formats=found.opening is not None and has_formats(found.opening),
+        can_step=found.opening is not None,
+        can_shrink=is_failure,
+    )
+
+
+def _missing_picture(found: CaseFound) -> str:
+    """Return why no picture is shown, where one is opened in the stepper."""
+    if found.frame is not None or found.opening is None or found.verdict.outcome is Outcome.REFUSED:
+        return ""
+    return _too_large(found.opening)
+
+
+def _too_large(opening: Opening) -> str:
+    width, height = opening.scene.size
+    return f" Its picture has {width:,} × {height:,} pixels: open it in the stepper to see the part that matters."
+
+
+def shrunk_record(found: ShrunkFound) -> CaseRecord:
+    """Return what is shown of a cell that has been made small."""
+    opening = found.shrunk.opening
+    runs = counted(found.shrunk.run_count, "run")
+    return CaseRecord(
+        heading=f"{found.order.experiment.info.title}: smallest case of {found.order.place.key}",
+        verdict=f"{found.shrunk.sentence} It took {runs}.{'' if found.frame is not None else _too_large(opening)}",
+        buffers=None if found.frame is None else case_buffers(found.frame),
+        pixel=opening.pixel if found.frame is not None else None,
+        has_formats=has_formats(opening),
+        can_step=True,
+        can_save=True,
+    )
+
+
+def has_formats(opening: Opening) -> bool:
+    """Return whether the pixels of a case can be looked at in every number format: triangles in clip space, filled."""
+    is_filled = opening.settings.polygon_mode == "fill" and opening.stage in ("edges", "raster")
+    return is_filled and isinstance(opening.scene, ClipScene)
+
+
+def verdict_sentence(outcome: Outcome, remark: str) -> str:
+    """Return what came of a run in one sentence."""
+    word = WORDS[outcome]
+    said = word[:1].upper() + word[1:]
+    return f"{said}: {remark}." if remark else f"{said}."
+
+
+def case_buffers(frame: Frame) -> tuple[GridBuffer, GridBuffer]:
+    """Return the picture, and how often each pixel is covered: 0, 1 or twice at least."""
+    highest = max(2.0, float(frame.cover_count.max(initial=0)))
+    return (
+        GridBuffer("picture", to_display(frame.color).pixels, "color"),
+        GridBuffer("times covered", frame.cover_count, "scalar", range=(0.0, highest)),
+    )
+
+
+def failure_counts(result: AtlasResult) -> dict[str, int]:
+    """Return how many cells of each method fail; what was refused, with a reason, does not."""
+    return {
+        each.method: each.outcome.size - each.count(Outcome.RIGHT) - each.count(Outcome.REFUSED)
+        for each in result.atlas.maps
+    }
+
+
+def counts_sentence(result: AtlasResult) -> str:
+    """Return in words how many cells of which method fail."""
+    fails = failure_counts(result)
+    total = sum(fails.values())
+    worst = max(fails, key=lambda method: fails[method])
+    cells = sum(each.outcome.size for each in result.atlas.maps)
+    if not total:
+        return f"None of {cells:,} runs fails."
+    return f"{total:,} of {cells:,} runs fail; {worst} most often, {fails[worst]:,} times."

@@ -1,0 +1,1 @@
+"""The Step page: one presenter for each part of the page."""

@@ -1,0 +1,52 @@
+"""What the keys of the Step page do, those excepted that ask something over the page or edit the document."""
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from app.pages.page_bar import Handlers
+from core.records.frame import STAGES
+
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
+
+BOOKMARKS = 10
+"""Bookmarks that have a key."""
+
+
+def step_handlers(page: "StepPage") -> Handlers:
+    """Return the handlers by the names of ``app.window.keys.ACTIONS``."""
+    session, stepping = page.session, page.stepping
+    return {
+        **{f"stage_{k}": partial(stepping.choose_stage, k) for k in range(len(STAGES))},
+        **{f"bookmark_{k}": partial(stepping.go_to_bookmark, k) for k in range(BOOKMARKS)},
+        "step_forward": lambda: stepping.step(1),
+        "step_back": lambda: stepping.step(-1),
+        "larger_forward": lambda: stepping.step_larger(1),
+        "larger_back": lambda: stepping.step_larger(-1),
+        "level_in": lambda: stepping.change_level(1),
+        "level_out": lambda: stepping.change_level(-1),
+        "go_first": lambda: stepping.go_to_end(-1),
+        "go_last": lambda: stepping.go_to_end(1),
+        "toggle_play": stepping.toggle_play,
+        "faster": lambda: page.timeline.change_speed(1),
+        "slower": lambda: page.timeline.change_speed(-1),
+        "visited_back": session.go_back,
+        "visited_forward": session.go_forward,
+        "next_at_pin": lambda: stepping.run_to_pin(1),
+        "previous_at_pin": lambda: stepping.run_to_pin(-1),
+        "next_event": lambda: stepping.run_to_event(1),
+        "previous_event": lambda: stepping.run_to_event(-1),
+        "run_forward": lambda: stepping.run_to_breakpoint(1),
+        "run_back": lambda: stepping.run_to_breakpoint(-1),
+        "toggle_breakpoint": stepping.toggle_pixel_breakpoint,
+        "toggle_bookmark": stepping.toggle_bookmark,
+        "next_stage": lambda: session.next_stage(1),
+        "previous_stage": lambda: session.next_stage(-1),
+        "pin_left": lambda: session.nudge_pin(-1, 0),
+        "pin_right": lambda: session.nudge_pin(1, 0),
+        "pin_up": lambda: session.nudge_pin(0, 1),
+        "pin_down": lambda: session.nudge_pin(0, -1),
+        "fit_view": page.grid.fit,
+        "next_view": page.next_view,
+        "compare": page.toggle_compare,
+    }

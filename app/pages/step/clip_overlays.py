@@ -1,0 +1,54 @@
+"""Line clipping over the pixel grid: the window's borders, what is left of the edges, where borders are crossed."""
+
+import numpy as np
+
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Floats
+from core.stages.clipped_outlines import OutlineClip
+from core.trace import StageTrace
+from widgets.grid.overlay import Overlay, SegmentOverlay
+
+TICK = 0.3
+"""Half the size of the cross on a new end, in pixels."""
+KEPT_KINDS = ("clip-kept", "outcodes-accept")
+
+
+def clip_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
+    """Return what is known of line clipping at a position; nothing where no lines are clipped."""
+    clip: OutlineClip | None = stage.extra.get("outline_clip")
+    if clip is None:
+        return []
+    first_column, first_row, _, _ = raster.bounds
+    origin = np.array([first_column, first_row], float)
+    corners = clip.lines.window.corners
+    borders = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+    regions = SegmentOverlay("clip window", borders - origin, extended=True, title="clip window")
+    done = stage.steps.rows_done(position)
+    columns = stage.columns
+    kinds = np.array([kind in KEPT_KINDS for kind in stage.steps.kinds])
+    kept = np.flatnonzero(kinds[stage.steps.kind[:done]])
+    segments = np.stack([columns["kept_start"][kept], columns["kept_end"][kept]], axis=1)
+    crosses = cross_segments(crossing_points(stage, done))
+    edges = (*columns["edge"][kept].tolist(), *[-1] * len(crosses))
+    lines = np.concatenate([segments, crosses]) - origin
+    return [regions, SegmentOverlay("clipped lines", lines, edges, title="clipped lines")]
+
+
+def crossing_points(stage: StageTrace, done: int) -> Floats:
+    """Return where the edge that is clipped at the moment crosses borders, (C, 2), after ``done`` rows."""
+    columns = stage.columns
+    if not done or stage.pixel[done - 1, 0] >= 0:
+        return np.empty((0, 2))
+    own = np.flatnonzero(columns["segment"][:done] == columns["segment"][done - 1])
+    if "moved_to" in columns:
+        points = columns["moved_to"][own]
+    else:
+        start, end = columns["window_start"][own], columns["window_end"][own]
+        points = start + columns["crossing_t"][own, None] * (end - start)
+    return np.asarray(points[np.isfinite(points).all(axis=1)])
+
+
+def cross_segments(points: Floats) -> Floats:
+    """Return two short segments for every point (C, 2), as (2 C, 2, 2)."""
+    arms = np.array([[[-TICK, -TICK], [TICK, TICK]], [[-TICK, TICK], [TICK, -TICK]]])
+    return np.asarray(points[:, None, None] + arms).reshape(-1, 2, 2)

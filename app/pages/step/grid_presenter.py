@@ -1,0 +1,266 @@
+"""The pixel grids of the stepping page: what they show of the trace, and what is done in them."""
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.pages.step.area_overlays import area_overlays
+from app.pages.step.clip_overlays import clip_overlays
+from app.pages.step.grid_records import (
+    block_overlay,
+    buffers_of,
+    edge_overlay,
+    geometry_of,
+    mask_overlays,
+    span_overlay,
+)
+from app.pages.step.sample_records import sample_dots
+from app.pages.step.vertex_drags import VertexDrags
+from app.session.session import Session
+from core.records.arrays import Integers
+from core.records.steps import Level
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer_strip import BufferStrip
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.overlay import Overlay
+from widgets.grid.overlay_legend import OverlayLegend
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.range_control import RangeControl
+
+HIGHLIGHT_LIMIT = 4096
+"""Pixels of a step that are outlined."""
+RESULTS = ("picture", "triangles")
+"""Buffers that show how everything ends, in every stage."""
+DEFAULT_OVERLAYS = {
+    "bin": frozenset({"blocks"}),
+    "raster": frozenset({"tie", "nan", "spans", "clip window", "clipped lines"}),
+    "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
+}
+"""Overlays that are on at first, by stage."""
+
+
+class GridPresenter(QObject):
+    """Shows buffers, overlays and triangles of the session; takes hover, pin and drags back to it."""
+
+    edit_refused = Signal(str)
+    """Why a drag did nothing."""
+
+    def __init__(
+        self,
+        session: Session,
+        grid: PixelGrid,
+        strip: BufferStrip,
+        legend: OverlayLegend,
+        ranges: RangeControl,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._grid, self._strip, self._legend, self._ranges = grid, strip, legend, ranges
+        self._chosen: dict[str, str] = {}
+        self._own_ranges: dict[str, tuple[float, float]] = {}
+        self._shown_overlays = dict(DEFAULT_OVERLAYS)
+        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, "drag", self)
+        self._drags.refused.connect(self.edit_refused)
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_step)
+        session.pin_changed.connect(self.refresh_pointing)
+        session.hover_changed.connect(self.refresh_pointing)
+        session.predicting_changed.connect(self.refresh_step)
+        for widget in (grid, strip):
+            widget.pixel_hovered.connect(self._hover)
+            widget.pixel_left.connect(self._leave)
+            widget.pixel_clicked.connect(self._pin)
+        grid.view_changed.connect(strip.set_view)
+        strip.view_changed.connect(grid.set_view)
+        strip.buffer_chosen.connect(self._choose_buffer)
+        legend.overlays_changed.connect(self._choose_overlays)
+        ranges.range_changed.connect(self._choose_range)
+        ranges.range_reset.connect(self._reset_range)
+        ranges.fitting_changed.connect(self._keep_fitting)
+        self._focus = 0
+        self._stepped_to = session.cursor
+        self._geometry = geometry_of(session.document, session.trace, 0)
+        self.refresh_run()
+
+    # Showing.
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another run: outlines, rulers, buffers."""
+        session = self._session
+        self._grid.set_pixel_center(session.document.settings.pixel_center)
+        if self._focus < session.document.triangle_count:
+            # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
+            self._stepped_to = session.cursor
+        self._show_outlines()
+        self.refresh_step()
+        self.refresh_pointing()
+
+    @Slot()
+    def refresh_step(self) -> None:
+        """Show the state after the step just done."""
+        session = self._session
+        row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+        if row >= 0 and session.cursor != self._stepped_to:
+            self._focus_on(int(session.stage_trace.triangle[row]))
+        self._stepped_to = session.cursor
+        stage = session.cursor.stage
+        buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
+        self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
+        names = [buffer.name for buffer in buffers]
+        chosen = self._chosen.get(stage, names[0])
+        main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
+        self._strip.show_chosen(main.name)
+        self._grid.show_buffer(main)
+        stage_trace, at = session.stage_trace, session.cursor.position
+        self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
+        self._ranges.show_buffer(main)
+        overlays = self._overlays()
+        shown = self._shown_overlays.get(stage, frozenset({"nan"}))
+        self._legend.show_overlays(overlays, shown)
+        self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
+        pixels = self._step_pixels()
+        self._grid.show_step(pixels)
+        self._strip.show_step(pixels)
+        self._hide_results(buffers, main)
+
+    def _stepped_triangle(self) -> int:
+        return self._focus
+
+    def _focus_on(self, triangle: int) -> None:
+        """Give a triangle coloured edges and handles, where the document has none in focus."""
+        if triangle >= 0 and triangle != self._focus:
+            self._focus = triangle
+            if self._session.document.triangle is None:
+                self._show_outlines()
+
+    @property
+    def geometry(self) -> GridGeometry:
+        """The outlines that are shown, in the columns and rows of the grid."""
+        return self._geometry
+
+    def _show_outlines(self) -> None:
+        geometry = geometry_of(self._session.document, self._session.trace, self._focus)
+        self._geometry = geometry
+        self._grid.show_geometry(geometry)
+        self._strip.show_geometry(geometry)
+
+    def _hide_results(self, buffers: list[GridBuffer], main: GridBuffer) -> None:
+        """Cover the finished picture while it is to be predicted."""
+        is_hidden = self._session.is_predicting
+        everything = np.ones((main.rows, main.columns), bool) if is_hidden else None
+        for buffer in buffers:
+            if buffer.name in RESULTS:
+                self._strip.show_covered(buffer.name, everything)
+        self._grid.show_hidden(everything if main.name in RESULTS else None)
+
+    @Slot()
+    def refresh_pointing(self) -> None:
+        """Show pin and hover in all grids."""
+        pin, hover = self._local(self._session.pin), self._local(self._session.hover)
+        for widget in (self._grid, self._strip):
+            widget.show_pin(pin)
+            widget.show_hover(hover)
+
+    def _overlays(self) -> list[Overlay]:
+        session = self._session
+        trace, position = session.stage_trace, session.cursor.position
+        found: list[Overlay] = []
+        blocks = block_overlay(trace, session.trace, position)
+        if blocks is not None:
+            found.append(blocks)
+        found += mask_overlays(trace, session.trace.source.raster, position)
+        spans = span_overlay(trace, session.trace.source.raster, position)
+        if spans is not None:
+            found.append(spans)
+        found += area_overlays(trace, session.trace.source.raster, position)
+        found += clip_overlays(trace, session.trace.source.raster, position)
+        lines = edge_overlay(self._geometry)
+        if lines is not None:
+            found.append(lines)
+        return found
+
+    def _step_pixels(self) -> Integers | None:
+        """Return the pixels of the step just done, in the grid's columns and rows."""
+        session = self._session
+        trace, cursor = session.stage_trace, session.cursor
+        row, _ = trace.steps.row_at(cursor.position)
+        if row < 0 or cursor.level <= Level.TRIANGLE:
+            return None
+        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
+        first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
+        if trace.stage == "bin" and trace.kind_of(row) == "block":
+            values = trace.variables(row)
+            column, line, size = int(values["column"]), int(values["row"]), int(values["size"])
+            columns = np.arange(max(column, first_column), min(column + size, end_column))
+            rows = np.arange(max(line, first_row), min(line + size, end_row))
+            pixels = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
+        else:
+            pixels = trace.pixel[first : row + 1]
+            pixels = pixels[pixels[:, 0] >= 0][:HIGHLIGHT_LIMIT]
+        found: Integers = pixels - np.array([first_column, first_row])
+        return found
+
+    def _ranged(self, buffer: GridBuffer) -> GridBuffer:
+        if self._ranges.keeps_fitting() and buffer.name not in self._own_ranges:
+            return replace(buffer, range=None)
+        chosen = self._own_ranges.get(buffer.name)
+        return replace(buffer, range=chosen) if chosen else buffer
+
+    # Acting.
+
+    def _local(self, pixel: tuple[int, int] | None) -> tuple[int, int] | None:
+        if pixel is None:
+            return None
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        return pixel[0] - first_column, pixel[1] - first_row
+
+    def _global(self, column: int, row: int) -> tuple[int, int]:
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        return column + first_column, row + first_row
+
+    @Slot(int, int)
+    def _hover(self, column: int, row: int) -> None:
+        self._session.set_hover(self._global(column, row))
+
+    @Slot()
+    def _leave(self) -> None:
+        self._session.set_hover(None)
+
+    @Slot(int, int)
+    def _pin(self, column: int, row: int) -> None:
+        pixel = self._global(column, row)
+        self._session.set_pin(pixel)
+        self._focus_on(int(self._session.trace.source.picture.primitive[row, column]))
+
+    @Slot(str)
+    def _choose_buffer(self, name: str) -> None:
+        self._chosen[self._session.cursor.stage] = name
+        self.refresh_step()
+
+    @Slot(object)
+    def _choose_overlays(self, keys: frozenset[str]) -> None:
+        self._shown_overlays[self._session.cursor.stage] = keys
+        self.refresh_step()
+
+    @Slot(float, float)
+    def _choose_range(self, low: float, high: float) -> None:
+        buffer = self._grid.buffer()
+        if buffer is not None:
+            self._own_ranges[buffer.name] = (low, high)
+            self.refresh_step()
+
+    @Slot()
+    def _reset_range(self) -> None:
+        buffer = self._grid.buffer()
+        if buffer is not None:
+            self._own_ranges.pop(buffer.name, None)
+            self.refresh_step()
+
+    @Slot(bool)
+    def _keep_fitting(self, is_kept: bool) -> None:
+        if is_kept:
+            self._own_ranges.clear()
+        self.refresh_step()

@@ -1,0 +1,212 @@
+"""From records of the trace to what the pixel grids show: buffers, outlines and overlays."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.session.document import Document
+from core import Trace
+from core.explain.depth_texts import depth_text
+from core.framebuffer.display import to_display
+from core.raster.number_formats.number_format import number_format
+from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
+from core.records.arrays import Integers
+from core.trace import BufferTrack, StageTrace
+from widgets.grid.buffer import BufferKind, GridBuffer
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.overlay import (
+    EDGE_MARKS,
+    BlockOverlay,
+    BlockState,
+    CountOverlay,
+    Mark,
+    MaskOverlay,
+    Overlay,
+    SegmentOverlay,
+    SpanOverlay,
+)
+
+OUTLINE_LIMIT = 400
+"""Triangles up to which every outline is drawn; of more, only the one in focus: a part would look like a shape."""
+KINDS: dict[str, BufferKind] = {
+    "scalar": "scalar",
+    "signed": "signed",
+    "color": "color",
+    "bytes": "color",
+    "ids": "ids",
+    "flags": "bool",
+    "count": "scalar",
+}
+STATES = {
+    OUTSIDE: BlockState.REJECTED,
+    INSIDE: BlockState.ACCEPTED,
+    SPLIT: BlockState.SPLIT,
+    LEAF: BlockState.LEAF,
+}
+
+
+def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffer]:
+    """Return the buffers of a stage at a position, then the finished picture and its triangles."""
+    done = stage.steps.rows_done(position)
+    picture, origin = trace.source.picture, trace.source.raster.bounds[:2]
+    depth = trace.source.settings.depth
+    buffers = [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
+    buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", origin=origin))
+    if not any(track.name == "primitive" for track in stage.buffers):
+        buffers.append(GridBuffer("triangles", picture.primitive, "ids", origin=origin))
+    return buffers
+
+
+def _described(buffer: GridBuffer, depth: str) -> GridBuffer:
+    """Return the buffer with its unit and description where it holds depths, by the method ``depth``."""
+    text = depth_text(buffer.name, depth)
+    return buffer if text is None else replace(buffer, unit=text.unit, description=text.description)
+
+
+def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> GridBuffer:
+    """Return one buffer after ``rows_done`` rows; ``origin`` is the place of its lower left pixel in the picture."""
+    values, known = track.at(rows_done), track.known_at(rows_done)
+    if track.kind == "flags":
+        values = np.nan_to_num(values) > 0
+    if track.kind == "color":
+        values = np.where(known[..., None], values, 0.0)
+    scale = track.value_range if track.kind in ("scalar", "signed", "count") else None
+    title = track.name.replace("color", "colour")
+    return GridBuffer(
+        track.name, values, KINDS[track.kind], range=scale, title=title, origin=origin, known=known
+    )
+
+
+def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> GridGeometry:
+    """Return the outlines of the traced triangles, in the columns and rows of the grid.
+
+    Parameters
+    ----------
+    focus : int, optional
+        The triangle with coloured edges and handles, where the document has none in focus.
+    """
+    source = trace.source
+    geometry = source.geometry
+    wanted = document.triangle if document.triangle is not None else focus
+    triangles = outlined_triangles(trace, wanted)
+    corners = geometry.vertices.corners[triangles].ravel()
+    first_column, first_row, _, _ = source.raster.bounds
+    origin = np.array([first_column, first_row], float)
+    in_front = geometry.vertices.clip[corners, 3:] > 0
+    window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
+    with np.errstate(invalid="ignore"):
+        snapped = np.rint(window * 256) / 256
+    snaps = number_format(document.settings.coverage).corner_kind == "snapped"
+    place = np.flatnonzero(triangles == wanted)
+    return GridGeometry(
+        vertices=window - origin,
+        triangles=np.arange(len(corners)).reshape(-1, 3),
+        focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
+        snapped=(snapped - origin) if snaps else None,
+    )
+
+
+def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
+    """Return (K,) the triangles whose outlines are drawn, three vertices each: all, or of many the one in focus."""
+    triangles = trace.source.geometry.assembled.triangle
+    return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
+
+
+def edge_overlay(geometry: GridGeometry) -> SegmentOverlay | None:
+    """Return the edges of the triangle in focus as whole lines."""
+    if geometry.focus < 0:
+        return None
+    a, b, c = geometry.vertices[geometry.triangles[geometry.focus]]
+    segments = np.array([[b, c], [c, a], [a, b]])
+    return SegmentOverlay("edge lines", segments, (0, 1, 2), extended=True, title="edge lines")
+
+
+def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverlay | None:
+    """Return the boxes and blocks that binning has looked at by now (all of them in later stages)."""
+    if stage.stage not in ("bin", "raster"):
+        return None
+    bins = trace.stage("bin")
+    if "sample" in bins.columns:
+        # Every sample has blocks of its own: over each other they would show nothing.
+        return None
+    done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
+    first_column, first_row, end_column, end_row = trace.source.raster.bounds
+    columns = bins.columns
+    left, bottom = np.maximum(columns["column"], first_column), np.maximum(columns["row"], first_row)
+    right, top = np.minimum(columns["column_end"], end_column), np.minimum(columns["row_end"], end_row)
+    boxes = np.stack([left - first_column, bottom - first_row, right - left, top - bottom], axis=1)[:done]
+    blocks = trace.source.runs.blocks
+    states = [
+        STATES[int(blocks.verdict[node])] if blocks is not None and node >= 0 else BlockState.SPLIT
+        for node in columns["node"][:done]
+    ]
+    keep = (boxes[:, 2:] > 0).all(axis=1)
+    if stage.stage == "raster":
+        keep &= columns["node"][:done] >= 0
+    if not keep.any():
+        return None
+    chosen = np.flatnonzero(keep)
+    return BlockOverlay(
+        "blocks",
+        boxes[chosen],
+        tuple(states[k] for k in chosen),
+        edges=tuple(int(k) for k in columns["rejected_by"][chosen]),
+        title="blocks",
+    )
+
+
+def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
+    """Return the marks of the rows done by now, one mask for each kind."""
+    done = stage.steps.rows_done(position)
+    pixel = stage.pixel[:done]
+    of_pixel = pixel[:, 0] >= 0
+    if not len(stage.pixel) or (stage.pixel[:, 0] < 0).all():
+        return []
+
+    def mask(flags: np.ndarray) -> np.ndarray:
+        found = np.zeros(raster.shape, bool)
+        chosen = pixel[flags & of_pixel]
+        found.ravel()[raster.index(chosen[:, 0], chosen[:, 1])] = True
+        return found
+
+    overlays: list[Overlay] = []
+    marks = {name: flags[:done] for name, flags in stage.marks.items()}
+    if stage.stage == "raster":
+        overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
+        values = stage.columns.get("values")
+        # A line has no edge functions: nothing is outside of an edge.
+        for k in range(3 if values is not None else 0):
+            assert values is not None
+            outside = mask(values[:done, k] < 0)
+            overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, f"outside edge {k}"))
+        overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), "on an edge"))
+        counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
+        overlays.append(CountOverlay("overdraw", counted))
+    if stage.stage == "depth":
+        overlays.append(MaskOverlay("passed", Mark.DEPTH_PASSED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("failed", Mark.DEPTH_FAILED, mask(marks["depth-failed"])))
+    if "nan" in marks:
+        overlays.append(MaskOverlay("nan", Mark.NAN, mask(marks["nan"])))
+    return overlays
+
+
+def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverlay | None:
+    """Return the spans of a scanline fill that are known by now."""
+    if stage.stage != "raster" or "sample" in stage.columns:
+        return None
+    done = stage.steps.rows_done(position)
+    kinds = np.array([kind in ("span", "lane-row", "line") for kind in stage.steps.kinds])
+    rows = np.flatnonzero(kinds[stage.steps.kind[:done]])
+    if not len(rows):
+        return None
+    first_column, first_row, _, _ = raster.bounds
+    spans = np.stack(
+        [
+            stage.columns["row"][rows] - first_row,
+            stage.columns["start"][rows] - first_column,
+            stage.columns["stop"][rows] - first_column,
+        ],
+        axis=1,
+    )
+    return SpanOverlay("spans", spans)

@@ -1,0 +1,178 @@
+"""The inspector: what the step just done did, in words, formula, listing and variables; and the pixel's history."""
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QObject, Slot
+from PySide6.QtWidgets import QLabel
+
+from app.pages.step.pixel_stories import story_of
+from app.pages.step.stepping_presenter import SteppingPresenter
+from app.session.session import Session
+from core import STAGES
+from core.explain.formulas.table import formula
+from core.explain.sentences.table import initial_sentence, sentence, summary_sentence
+from core.explain.stage_texts import stage_card
+from core.explain.variables.table import step_variables
+from core.records.listing import Listing
+from core.records.steps import Level
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.history_view import HINT as NO_HISTORY
+from widgets.inspector.history_view import PixelHistory
+from widgets.inspector.listing import HINT, ListingText, ListingView
+from widgets.inspector.variables import VariablesView
+from widgets.timeline.stage_card import StageCardView
+
+HIDDEN_HISTORY = "What happened to a pixel stays hidden until prediction is turned off (P)."
+NO_LISTING = "This step decides or copies; it has no algorithm to list."
+
+
+class InspectorPresenter(QObject):
+    """Shows the step of the session's cursor and the history of its pinned (or hovered) pixel."""
+
+    def __init__(
+        self,
+        session: Session,
+        stepping: SteppingPresenter,
+        sentence_label: QLabel,
+        card: StageCardView,
+        formula_view: FormulaView,
+        listing: ListingView,
+        variables: VariablesView,
+        history: PixelHistory,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._stepping = session, stepping
+        self._sentence, self._card, self._formula = sentence_label, card, formula_view
+        self._listing, self._variables, self._history = listing, variables, history
+        self._function = ""
+        self._stage = ""
+        self._triangles: list[int | None] = []
+        self._told: tuple[object, ...] = ()
+        """What the history shows: it is made anew only if this changes."""
+        self._folded = set(STAGES)
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_step)
+        session.pin_changed.connect(self.refresh_history)
+        session.hover_changed.connect(self.refresh_history)
+        session.predicting_changed.connect(self.refresh_history)
+        listing.line_clicked.connect(self._run_to_line)
+        listing.breakpoint_toggled.connect(self._toggle_breakpoint)
+        history.row_activated.connect(self._go_to_event)
+        history.history_shown.connect(self.refresh_history)
+        card.card_folded.connect(self._fold)
+        self.refresh_run()
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another trace."""
+        self._stage = ""
+        self.refresh_step()
+        self.refresh_history()
+
+    @Slot()
+    def refresh_step(self) -> None:
+        """Show the step just done."""
+        session = self._session
+        trace, cursor = session.stage_trace, session.cursor
+        if cursor.stage != self._stage:
+            self._stage = cursor.stage
+            self._card.show_card(stage_card(cursor.stage, trace.method))
+            self._card.show_folded(cursor.stage in self._folded)
+        self._sentence.setText(self.sentence())
+        explanation = trace.explain(cursor.position)
+        if explanation is None:
+            self._formula.show_hint("The formula of each step appears here.")
+            self._formula.show_formula(None)
+            self._variables.show_variables([])
+            first = trace.explain(1)
+            self._listing.show_hint(HINT if first is None else NO_LISTING)
+            self._show_listing(first.listing if first else None)
+            self._listing.show_line(None)
+            return
+        self._formula.show_hint("This step decides or copies; it has no formula.")
+        self._formula.show_formula(formula(explanation))
+        self._variables.show_variables(step_variables(explanation))
+        self._listing.show_hint(NO_LISTING)
+        self._show_listing(explanation.listing)
+        self._listing.show_line(explanation.line or None)
+
+    def sentence(self) -> str:
+        """Return the sentence of the step just done; a step larger than a row is summed up."""
+        trace, cursor = self._session.stage_trace, self._session.cursor
+        row, _ = trace.steps.row_at(cursor.position)
+        if row < 0:
+            return initial_sentence(cursor.stage)
+        triangle = int(trace.triangle[row])
+        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
+        if cursor.level <= Level.GROUP and row > first:
+            return summary_sentence(cursor.stage, cursor.level, trace.summary(first, row + 1), triangle)
+        explanation = trace.explain(cursor.position)
+        assert explanation is not None
+        pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
+        return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+
+    def _show_listing(self, listing: Listing | None) -> None:
+        function = listing.function.__name__ if listing else ""
+        if function == self._function:
+            return
+        self._function = function
+        self._listing.show_listing(ListingText(function, listing.source) if listing else None)
+        lines = {line for name, line in self._stepping.line_breakpoints if name == function}
+        self._listing.show_breakpoints(lines)
+
+    @Slot()
+    def refresh_history(self) -> None:
+        """Show the history of the pinned pixel, or of the one under the pointer, if the pane is in sight."""
+        if not self._history.isVisible():
+            return
+        session = self._session
+        pixel = session.pin or session.hover
+        if pixel is not None and (session.is_predicting or not session.has_pixel(pixel)):
+            pixel = None
+        told = (pixel, session.trace if pixel else None, session.is_predicting)
+        if told == self._told:
+            return
+        self._told = told
+        if pixel is None:
+            self._history.show_story(None, HIDDEN_HISTORY if session.is_predicting else NO_HISTORY)
+            self._triangles = []
+            return
+        story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)
+        self._history.show_story(story)
+
+    def folded(self) -> list[str]:
+        """Return the stages whose card is folded."""
+        return sorted(self._folded, key=STAGES.index)
+
+    def set_folded(self, stages: Iterable[str]) -> None:
+        """Fold the cards of these stages, and open the others."""
+        self._folded = set(stages) & set(STAGES)
+        self._card.show_folded(self._session.cursor.stage in self._folded)
+
+    @Slot(bool)
+    def _fold(self, is_folded: bool) -> None:
+        (self._folded.add if is_folded else self._folded.discard)(self._session.cursor.stage)
+
+    @Slot(int)
+    def _go_to_event(self, index: int) -> None:
+        """Go to the depth test of a fragment of the history."""
+        pixel = self._session.pin or self._session.hover
+        triangle = self._triangles[index] if index < len(self._triangles) else None
+        if pixel is None or triangle is None:
+            return
+        trace = self._session.trace.stage("depth")
+        rows = trace.rows_at_pixel(*pixel)
+        rows = rows[trace.triangle[rows] == triangle]
+        if len(rows):
+            self._session.set_stage("depth", trace.steps.position_after(int(rows[0])))
+
+    @Slot(int)
+    def _run_to_line(self, line: int) -> None:
+        self._stepping.run_to_line(self._function, line)
+
+    @Slot(int)
+    def _toggle_breakpoint(self, line: int) -> None:
+        self._stepping.toggle_line_breakpoint(self._function, line)
+        lines = {at for name, at in self._stepping.line_breakpoints if name == self._function}
+        self._listing.show_breakpoints(lines)

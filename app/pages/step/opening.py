@@ -1,0 +1,90 @@
+"""Opening on the Step page what another page shows: one method's run, at the place that matters."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job, Progress
+from app.pages.page_bar import StepRequest
+from app.pages.step.opening_document import document_at
+from app.pages.step.page import StepPage
+from app.session.document import Document
+from app.session.session import Session
+from app.session.tracing import trace_now
+from app.window.message_words import sentences
+from core import Settings, Trace
+from widgets.basics.message_bar import Message, MessageKind
+
+
+@dataclass(frozen=True, eq=False)
+class _Ready:
+    request: StepRequest
+    document: Document
+    trace: Trace
+
+
+class StepOpening(QObject):
+    """Traces what is asked for off the GUI thread, then shows it; undo leads back to what was open."""
+
+    message_sent = Signal(object)
+    """A ``Message``: why it could not be opened."""
+    opened = Signal()
+    """It is on the Step page now."""
+
+    def __init__(self, session: Session, page: StepPage, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._page = session, page
+        self.job = Job(self)
+        self.job.succeeded.connect(self._show)
+        self.job.failed.connect(self._refuse)
+
+    @Slot(object)
+    def open_request(self, request: StepRequest) -> None:
+        """Open what a `StepRequest` names."""
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> _Ready:
+            document = document_at(request.opening, request.title, request.triangle)
+            return _Ready(request, document, trace_now(document, request.opening.stage))
+
+        self.job.start(work)
+
+    def shut_down(self) -> None:
+        """Cancel and wait for the thread."""
+        self.job.shut_down()
+
+    @Slot(object)
+    def _show(self, ready: _Ready) -> None:
+        opening, other = ready.request.opening, ready.request.other
+        self._page.timeline.show_playing(False)
+        self._session.open(ready.document, ready.trace)
+        self._page.stepping.forget_places()
+        self._session.set_stage(opening.stage, 0)
+        if opening.pixel is not None and self._session.has_pixel(opening.pixel):
+            self._go_to_pixel(opening.stage, opening.pixel, has_other=other is not None)
+        if other is not None:
+            self._page.comparing.set_differences(differences(opening.settings, other))
+        self._page.show_view("pixels" if other is None else "compare")
+        self.opened.emit()
+
+    def _go_to_pixel(self, stage: str, pixel: tuple[int, int], *, has_other: bool) -> None:
+        """Pin a pixel and go to the first step about it; say how to get there where only another run has one."""
+        self._session.set_pin(pixel)
+        if has_other and not len(self._session.trace.stage(stage).rows_at_pixel(*pixel)):
+            said = f"A has no step at pixel {pixel}: Swap makes B the run that is stepped, then J goes to its step."
+            self.message_sent.emit(Message(MessageKind.INFORMATION, said))
+        else:
+            self._page.stepping.step_into(stage, *pixel)
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        said = sentences(f"It cannot be stepped: {error}", "The open scene stays as it was")
+        self.message_sent.emit(Message(MessageKind.WARNING, said))
+
+
+def differences(first: Settings, second: Settings) -> dict[str, str | int]:
+    """Return the families in which two settings differ, with the second's values."""
+    names = (field.name for field in fields(Settings))
+    return {name: getattr(second, name) for name in names if getattr(first, name) != getattr(second, name)}

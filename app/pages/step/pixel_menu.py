@@ -1,0 +1,57 @@
+"""What can be done with one pixel: the menu of a right click in a grid."""
+
+from PySide6.QtCore import QObject, QPoint, Slot
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.pages.step.stepping_presenter import SteppingPresenter
+from app.session.session import Session
+from core import STAGES
+from core.explain.stage_texts import SHORT_TITLES
+
+
+class PixelMenu(QObject):
+    """Pins the pixel, sets breakpoints at it, and goes to the first step of any stage that touches it."""
+
+    def __init__(self, session: Session, stepping: SteppingPresenter, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session, self._stepping = session, stepping
+        self.menu = QMenu(parent)
+        self.menu.triggered.connect(self._run)
+        self._pixel = (0, 0)
+
+    @Slot(int, int, QPoint)
+    def open_at(self, column: int, row: int, place: QPoint) -> None:
+        """Offer what can be done with a pixel of the grid."""
+        self.fill(column, row)
+        self.menu.popup(place)
+
+    def fill(self, column: int, row: int) -> None:
+        """Make the entries for a pixel of the grid."""
+        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
+        self._pixel = column + first_column, row + first_row
+        self.menu.clear()
+        heading = self.menu.addAction(f"Pixel ({self._pixel[0]}, {self._pixel[1]})")
+        heading.setEnabled(False)
+        is_pinned = self._session.pin == self._pixel
+        self._add("Take the pin away" if is_pinned else "Pin", "pin")
+        has_breakpoint = self._pixel in self._stepping.pixel_breakpoints
+        self._add("Take the breakpoint away" if has_breakpoint else "Breakpoint", "breakpoint")
+        self.menu.addSeparator()
+        for stage in STAGES[STAGES.index("raster") :]:
+            self._add(f"Step into it: {SHORT_TITLES[stage]}", stage)
+
+    def _add(self, text: str, name: str) -> None:
+        self.menu.addAction(text).setData(name)
+
+    @Slot(QAction)
+    def _run(self, action: QAction) -> None:
+        name = action.data()
+        if name == "pin":
+            self._session.set_pin(None if self._session.pin == self._pixel else self._pixel)
+        elif name == "breakpoint":
+            self._session.set_pin(self._pixel)
+            self._stepping.toggle_pixel_breakpoint()
+        else:
+            self._session.set_pin(self._pixel)
+            self._stepping.step_into(name, *self._pixel)

@@ -1,0 +1,372 @@
+"""Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.pages.step.rail_entries import rail_entries
+from app.session.session import Session
+from app.views.scene_figures import FrameFigures
+from core import STAGES
+from core.explain.stage_texts import SHORT_TITLES
+from core.raster.fills.tested import suited_fill
+from core.records.arrays import Flags, Integers
+from core.records.steps import Level
+from core.trace import StageTrace
+from core.trace.conditions import Condition, parse_condition
+from core.trace.run_to import next_at_pixel, next_marked
+from widgets.basics.marks import Mark
+from widgets.timeline.pipeline_rail import PipelineRail
+from widgets.timeline.run_picture import TimelineRun
+from widgets.timeline.transport import Timeline
+
+MARKS = {
+    "covered": Mark.COVERED,
+    "rejected": Mark.REJECTED,
+    "tie": Mark.TIE,
+    "nan": Mark.NAN,
+    "depth-failed": Mark.DEPTH_FAILED,
+}
+EVENT_TITLES = {
+    "covered": "covered",
+    "rejected": "rejected",
+    "tie": "tie",
+    "nan": "NaN or infinity",
+    "depth-failed": "depth failed",
+}
+LEVEL_NAMES = {
+    "transform": {Level.GROUP: "Vertex", Level.PIXEL: "Matrix"},
+    "cull": {Level.GROUP: "Test", Level.PIXEL: "Plane"},
+    "clip": {Level.GROUP: "Plane", Level.PIXEL: "Edge"},
+    "edges": {Level.GROUP: "All corners, edges", Level.PIXEL: "Corner or edge"},
+    "bin": {Level.GROUP: "Large block", Level.PIXEL: "Block"},
+}
+"""What the levels between triangle and operation are in the stages before the first pixel."""
+GROUP_OF_FILL = {
+    "hierarchy": "Block",
+    "blocks": "Block",
+    "scanline": "Span",
+    "scanline-lecture": "Span",
+    "spans": "Lane or span",
+}
+
+
+@dataclass(frozen=True)
+class Bookmark:
+    """A remembered step."""
+
+    stage: str
+    position: int
+
+
+def nearest(positions: Integers, position: int, direction: int) -> int | None:
+    """Return the nearest of rising positions after (1) or before (-1) a position, ``None`` where there is none."""
+    found = positions[positions > position] if direction > 0 else positions[positions < position]
+    return int(found[0 if direction > 0 else -1]) if len(found) else None
+
+
+class SteppingPresenter(QObject):
+    """Shows where the cursor is and moves it."""
+
+    message_sent = Signal(str)
+    """Something to tell: there is no further event."""
+    message_ended = Signal(str)
+    """What was told is true no longer, since the cursor or the pin is elsewhere."""
+    condition_changed = Signal(str)
+    """The condition of a breakpoint, empty: none."""
+
+    def __init__(
+        self, session: Session, timeline: Timeline, rail: PipelineRail, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._timeline, self._rail = session, timeline, rail
+        self.event_kind = "covered"
+        """Kind of event that N runs to."""
+        self.pixel_breakpoints: set[tuple[int, int]] = set()
+        self.line_breakpoints: set[tuple[str, int]] = set()
+        """Name of the listing's function and line."""
+        self.bookmarks: list[Bookmark] = []
+        self._condition: Condition | None = None
+        self._frame: FrameFigures | None = None
+        self._told = ""
+        session.document_changed.connect(self.refresh_run)
+        session.cursor_changed.connect(self.refresh_cursor)
+        session.pin_changed.connect(self.refresh_marks)
+        session.predicting_changed.connect(self.refresh_run)
+        session.document_changed.connect(self._end_message)
+        session.cursor_changed.connect(self._end_message)
+        session.pin_changed.connect(self._end_message)
+        timeline.position_requested.connect(session.scrub)
+        timeline.step_requested.connect(self.step)
+        timeline.ends_requested.connect(self.go_to_end)
+        timeline.level_chosen.connect(session.set_level)
+        rail.stage_chosen.connect(self.choose_stage)
+        self._stage = ""
+        self.refresh_run()
+
+    def _tell(self, text: str) -> None:
+        self._told = text
+        self.message_sent.emit(text)
+
+    @Slot()
+    def _end_message(self) -> None:
+        if self._told:
+            text, self._told = self._told, ""
+            self.message_ended.emit(text)
+
+    # Showing.
+
+    @Slot()
+    def refresh_run(self) -> None:
+        """Show another trace."""
+        self._stage = ""
+        self.refresh_cursor()
+
+    @Slot()
+    def refresh_cursor(self) -> None:
+        """Show where the cursor is."""
+        cursor = self._session.cursor
+        if cursor.stage != self._stage:
+            self._stage = cursor.stage
+            self._timeline.show_level_names(self._level_names(cursor.stage))
+            self.refresh_marks()
+            self.show_rail()
+        elif self._session.is_predicting:
+            self.refresh_marks()
+        self._timeline.show_level(cursor.level)
+        self._timeline.show_position(cursor.position)
+
+    def _level_names(self, stage: str) -> dict[Level, str]:
+        """Return what a step of each level is in a stage."""
+        settings = self._session.document.settings
+        fill = suited_fill(settings.fill, settings.coverage)
+        if stage == "raster":
+            is_wireframe = settings.polygon_mode == "wireframe"
+            return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(fill, "Row")}
+        return LEVEL_NAMES.get(stage, {Level.GROUP: "Row"})
+
+    @Slot()
+    def refresh_marks(self) -> None:
+        """Show the marks of the run, those of the pinned pixel, breakpoints and bookmarks."""
+        trace = self._session.stage_trace
+        starts = trace.steps.starts
+        marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
+        if self._session.is_predicting:
+            # What lies ahead would tell the answer.
+            done = self._session.cursor.position
+            marks = {mark: places[places < done] for mark, places in marks.items()}
+        if self._session.pin is not None:
+            marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
+        marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
+        here = [mark.position - 1 for mark in self.bookmarks if mark.stage == trace.stage]
+        marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
+        self._timeline.show_run(TimelineRun(trace.steps.count, marks))
+        self._timeline.show_position(self._session.cursor.position)
+
+    @Slot(object)
+    def show_frame(self, figures: FrameFigures | None) -> None:
+        """Show in the rail where the time of a frame of the 3D view went; None: of the traced picture again."""
+        if figures is not self._frame:
+            self._frame = figures
+            self.show_rail()
+
+    def show_rail(self) -> None:
+        """Show what every stage took in, gave out, and which part of the time it took."""
+        # A prediction is about the traced picture, whose figures are hidden then.
+        frame = None if self._session.is_predicting else self._frame
+        if frame is not None:
+            counts, whole, measured = frame.stages, frame.seconds, "the last frame of the 3D view"
+        else:
+            counts = self._session.trace.source.picture.statistics
+            whole, measured = sum(count.seconds for count in counts.values()), "the traced picture"
+        session = self._session
+        self._rail.show_stages(
+            rail_entries(
+                counts,
+                current=session.cursor.stage,
+                whole_seconds=whole,
+                measured=measured,
+                coverage=session.document.settings.coverage,
+                is_predicting=session.is_predicting,
+            )
+        )
+
+    # Moving.
+
+    @Slot(int)
+    def step(self, direction: int) -> None:
+        """Step once at the present level; playing stops at the end."""
+        before = self._session.cursor
+        self._session.step(direction)
+        if self._session.cursor == before and self._timeline.is_playing():
+            self._timeline.show_playing(False)
+
+    @Slot(int)
+    def go_to_end(self, direction: int) -> None:
+        """Go to the start (-1) or the end (1) of the stage."""
+        self._session.go_to(0 if direction < 0 else self._session.stage_trace.steps.count)
+
+    @Slot(int)
+    def choose_stage(self, index: int) -> None:
+        """Go to a stage by its place in the rail."""
+        self._session.set_stage(STAGES[index])
+
+    def toggle_play(self) -> None:
+        """Play or pause; at the end, play from the start."""
+        trace, cursor = self._session.stage_trace, self._session.cursor
+        if not self._timeline.is_playing() and cursor.position >= trace.steps.count:
+            self._session.go_to(0)
+        self._timeline.toggle_play()
+
+    def change_level(self, direction: int) -> None:
+        """Make steps smaller (1) or larger (-1)."""
+        level = self._session.cursor.level + direction
+        if Level.STAGE <= level <= Level.OPERATION:
+            self._session.set_level(Level(level))
+
+    def step_larger(self, direction: int) -> None:
+        """Step at the level above the present one."""
+        level = Level(max(self._session.cursor.level - 1, Level.STAGE))
+        self._session.step(direction, level)
+
+    def run_to_pin(self, direction: int) -> None:
+        """Go to the next or last step at the pinned pixel."""
+        pin = self._session.pin
+        if pin is None:
+            self._tell("Pin a pixel first: click it.")
+            return
+        reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
+        self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
+
+    def run_to_event(self, direction: int) -> None:
+        """Go to the next or last event of the chosen kind."""
+        trace, position = self._session.stage_trace, self._session.cursor.position
+        reached = next_marked(trace, position, self.event_kind, direction)
+        self._go_on(reached, direction, f"of the kind “{EVENT_TITLES[self.event_kind]}”")
+
+    def run_to_breakpoint(self, direction: int) -> None:
+        """Go to the next or last breakpoint, or else to the end."""
+        trace, position = self._session.stage_trace, self._session.cursor.position
+        reached = nearest(self._break_positions(trace), position, direction)
+        if reached is not None:
+            self._session.go_to(reached)
+        else:
+            self.go_to_end(direction)
+
+    def step_into(self, stage: str, column: int, row: int) -> None:
+        """Go to the first step of a stage that is about a pixel."""
+        trace = self._session.trace.stage(stage)
+        rows = trace.rows_at_pixel(column, row)
+        if len(rows):
+            self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
+        else:
+            self._tell(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
+
+    def _go_on(self, reached: int | None, direction: int, what: str) -> None:
+        """Go to a position that a run has reached, or tell that there is none."""
+        if reached is not None:
+            self._session.go_to(reached)
+        else:
+            self._tell(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
+
+    def toggle_pixel_breakpoint(self) -> None:
+        """Set or take away a breakpoint at the pinned pixel."""
+        if self._session.pin is None:
+            self._tell("Pin a pixel first: click it.")
+            return
+        self.pixel_breakpoints ^= {self._session.pin}
+        self.refresh_marks()
+
+    @property
+    def condition(self) -> str:
+        """Text of the condition that is a breakpoint, empty: none."""
+        return self._condition.text if self._condition else ""
+
+    def set_condition(self, text: str) -> None:
+        """Stop where a condition holds, as ``value_0 < 0.5 and covered``; an empty text takes it away.
+
+        Raises
+        ------
+        ValueError
+            If the text is not a condition, or names what no stage has; the old condition stays.
+        """
+        condition = parse_condition(text) if text.strip() else None
+        if condition is not None:
+            condition.holds(self._session.stage_trace)
+        self._condition = condition
+        self.refresh_marks()
+        self.condition_changed.emit(self.condition)
+
+    def toggle_line_breakpoint(self, function: str, line: int) -> None:
+        """Set or take away a breakpoint on a line of a listing."""
+        self.line_breakpoints ^= {(function, line)}
+        self.refresh_marks()
+
+    def run_to_line(self, function: str, line: int) -> None:
+        """Go to the next step of a line of a listing."""
+        positions = self._line_positions(self._session.stage_trace, function, line)
+        self._go_on(nearest(positions, self._session.cursor.position, 1), 1, f"at line {line}")
+
+    def _break_positions(self, trace: StageTrace) -> Integers:
+        """Return the positions, rising, just after a step that a breakpoint stands on."""
+        of_rows = trace.steps.starts[1:][self._break_rows(trace)]
+        if not self.line_breakpoints:
+            return of_rows
+        of_lines = [self._line_positions(trace, function, line) for function, line in self.line_breakpoints]
+        return np.unique(np.concatenate([of_rows, *of_lines]))
+
+    def _break_rows(self, trace: StageTrace) -> Flags:
+        """Return (R,) bool, the rows of a breakpoint's pixel or of the condition."""
+        found = np.zeros(trace.steps.row_count, bool)
+        for pixel in self.pixel_breakpoints:
+            found[trace.rows_at_pixel(*pixel)] = True
+        if self._condition is not None:
+            # A stage without the variables of the condition has no such row.
+            with suppress(ValueError):
+                found |= self._condition.holds(trace)
+        return found
+
+    def _line_positions(self, trace: StageTrace, function: str, line: int) -> Integers:
+        steps = trace.steps
+        found = [np.empty(0, np.int64)]
+        for number, kind in enumerate(steps.kinds):
+            for place, operation in enumerate(steps.operations[kind]):
+                listing = trace.listings.get(f"{kind}.{operation.name}", trace.listings.get(kind))
+                if listing is None or listing.function.__name__ != function:
+                    continue
+                if listing.lines.get(operation.label) == line:
+                    found.append(steps.starts[:-1][steps.kind == number] + place + 1)
+        return np.unique(np.concatenate(found))
+
+    def forget_places(self) -> None:
+        """Take away the bookmarks and pixel breakpoints of another scene."""
+        self.bookmarks.clear()
+        self.pixel_breakpoints.clear()
+        self.refresh_marks()
+
+    def set_bookmarks(self, bookmarks: list[Bookmark]) -> None:
+        """Set the bookmarks, as they were left."""
+        self.bookmarks = bookmarks
+        self.refresh_marks()
+
+    def toggle_bookmark(self) -> None:
+        """Remember this step, or forget it."""
+        cursor = self._session.cursor
+        mark = Bookmark(cursor.stage, cursor.position)
+        if mark in self.bookmarks:
+            self.bookmarks.remove(mark)
+        elif len(self.bookmarks) >= 10:
+            self._tell("Ten bookmarks are set; take one away first.")
+        else:
+            self.bookmarks.append(mark)
+        self.refresh_marks()
+
+    def go_to_bookmark(self, index: int) -> None:
+        """Go to a bookmark by its number from 0."""
+        if index >= len(self.bookmarks):
+            self._tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
+            return
+        mark = self.bookmarks[index]
+        self._session.set_stage(mark.stage, mark.position)

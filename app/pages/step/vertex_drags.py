@@ -1,0 +1,72 @@
+"""Vertices dragged in pixel grids: the scene follows, and one drag is undone as a whole."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.pages.step.grid_records import outlined_triangles
+from app.session.scene_edits import move_corner
+from app.session.session import Session
+from widgets.grid.pixel_grid import PixelGrid
+
+
+class VertexDrags(QObject):
+    """Takes the drags in grids that show ``app.pages.step.grid_records.geometry_of`` to the session."""
+
+    refused = Signal(str)
+    """Why a drag did nothing."""
+
+    def __init__(
+        self,
+        session: Session,
+        grids: Sequence[PixelGrid],
+        focus: Callable[[], int | None],
+        name: str,
+        parent: QObject | None = None,
+    ) -> None:
+        """Listen to the grids.
+
+        Parameters
+        ----------
+        session : Session
+        grids : sequence of PixelGrid
+        focus : callable
+            Returns the triangle with handles where the document has none in focus.
+        name : str
+            Of these drags, other than of those in other views.
+        parent : QObject, optional
+        """
+        super().__init__(parent)
+        self._session, self._focus, self._name = session, focus, name
+        self._count = 0
+        for grid in grids:
+            grid.vertex_dragged.connect(self._drag)
+            grid.vertex_drag_finished.connect(self._end)
+            grid.vertex_drag_taken_back.connect(self._take_back)
+
+    @property
+    def _gesture(self) -> str:
+        return f"{self._name} {self._count}"
+
+    @Slot(int, float, float)
+    def _drag(self, vertex: int, x: float, y: float) -> None:
+        document, latest, trace = self._session.document, self._session.latest, self._session.trace
+        first_column, first_row, _, _ = trace.source.raster.bounds
+        wanted = document.triangle if document.triangle is not None else self._focus()
+        triangle = int(outlined_triangles(trace, wanted)[vertex // 3])
+        place, size = (x + first_column, y + first_row), document.traced_scene.size
+        try:
+            scene = move_corner(latest.scene, triangle, vertex % 3, place, size)
+            self._session.edit(replace(latest, scene=scene), self._gesture)
+        except ValueError as error:
+            self.refused.emit(f"The vertex was not moved: {error}")
+
+    @Slot(int)
+    def _end(self, vertex: int) -> None:
+        self._count += 1
+
+    @Slot(int)
+    def _take_back(self, vertex: int) -> None:
+        self._session.take_back(self._gesture)
+        self._count += 1

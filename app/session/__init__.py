@@ -1,0 +1,1 @@
+"""The only mutable state of the program, its edits and its undo."""

@@ -1,0 +1,231 @@
+"""What is open: a scene, its settings, what is traced and on which raster. A frozen value; an edit makes a new one."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from core import STAGES, Settings, Trace, trace
+from core.antialiasing.sample_counts import sample_count
+from core.records.arrays import Floats
+from core.scene import AnyScene, ClipScene
+from core.trace import TraceSource, scene_triangle_count
+
+TEACHING_LIMIT = (96, 72)
+"""Largest teaching raster in pixels; every pixel can be pointed at, and all buffers are traced at once."""
+TEACHING_SIZES = ((8, 6), (16, 12), (24, 16), (32, 24), (48, 36), (64, 48), (96, 72))
+VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "compare")
+"""Names of the main views."""
+TRACED_TOGETHER = 400
+"""A scene of more triangles is traced one triangle at a time."""
+LONGEST_RUN = 1_500_000
+"""Pixel tests that a trace may have: each keeps all its numbers."""
+TESTS_PER_SECOND = 2_000_000
+EXACT_TESTS_PER_SECOND = 250_000
+TRIANGLES_PER_SECOND = 600_000
+"""How fast pixels are traced and triangles transformed, roughly: what takes long is done off the GUI thread."""
+
+
+@dataclass(frozen=True)
+class TeachingRaster:
+    """Which pixels are traced; it does not depend on the picture's size."""
+
+    columns: int
+    rows: int
+    origin: tuple[int, int] | None = None
+    """Column and row in the picture of the lower left pixel; ``None``: the whole view at this size, same camera."""
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.columns <= TEACHING_LIMIT[0] and 1 <= self.rows <= TEACHING_LIMIT[1]):
+            limit = f"{TEACHING_LIMIT[0]}x{TEACHING_LIMIT[1]}"
+            raise ValueError(f"teaching raster must be 1x1 to {limit} pixels, got {self.columns}x{self.rows}")
+
+    @property
+    def label(self) -> str:
+        """What a person reads."""
+        if self.origin is None:
+            return f"Whole view at {self.columns}×{self.rows}"
+        return f"{self.columns}×{self.rows} pixels at ({self.origin[0]}, {self.origin[1]})"
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """Everything that undo brings back."""
+
+    scene: AnyScene
+    raster: TeachingRaster
+    settings: Settings = field(default_factory=Settings)
+    triangle: int | None = None
+    """The triangle in focus, ``None``: all of them are stepped."""
+    before: str = "earlier"
+    """Buffers at the start: as ``"earlier"`` triangles left them, or ``"cleared"``."""
+    title: str = ""
+    path: str = ""
+    """File that the scene came from; empty: built in or typed."""
+
+    @property
+    def triangle_count(self) -> int:
+        """T."""
+        return scene_triangle_count(self.scene)
+
+    @property
+    def traced_scene(self) -> AnyScene:
+        """The scene at the size that is traced."""
+        if self.raster.origin is None:
+            return replace(self.scene, size=(self.raster.columns, self.raster.rows))
+        return self.scene
+
+    @property
+    def region(self) -> tuple[int, int, int, int] | None:
+        """Pixels of ``traced_scene`` that are traced."""
+        if self.raster.origin is None:
+            return None
+        return (*self.raster.origin, self.raster.columns, self.raster.rows)
+
+    @property
+    def most_tests(self) -> int:
+        """Pixel tests of a trace at most where every pixel is tested, else a guess."""
+        triangles = self.triangle_count if self.triangle is None else 1
+        pixels = self.raster.columns * self.raster.rows * sample_count(self.settings)
+        if self.settings.fill == "brute-force" and self.settings.polygon_mode == "fill":
+            return triangles * pixels
+        return min(triangles, 60) * pixels // 4
+
+    @property
+    def estimated_seconds(self) -> float:
+        """How long tracing takes, roughly."""
+        drawn = self.triangle_count
+        if self.settings.fill == "brute-force":
+            # The buffers that earlier triangles left are drawn as well, without being kept.
+            drawn += self.triangle_count * self.raster.columns * self.raster.rows // 20
+        is_exact = self.settings.coverage == "exact"
+        tests_per_second = EXACT_TESTS_PER_SECOND if is_exact else TESTS_PER_SECOND
+        return drawn / TRIANGLES_PER_SECOND + self.most_tests / tests_per_second
+
+    def check_length(self) -> None:
+        """Refuse a run that has too many steps to be kept.
+
+        Raises
+        ------
+        ValueError
+            With what to do about it.
+        """
+        if self.most_tests > LONGEST_RUN:
+            raise ValueError(
+                f"Testing every pixel for all {self.triangle_count:,} triangles makes {self.most_tests:,} steps, "
+                f"and {LONGEST_RUN:,} can be kept: bring one triangle into focus, or choose another fill."
+            )
+
+    def make_trace(self, settings: Settings | None = None, earlier: Trace | None = None) -> Trace:
+        """Prepare the trace, under other settings if they are given; see ``core.trace`` for the ``earlier`` one."""
+        run = self.traced_scene, settings or self.settings, self.triangle, self.region, self.before
+        return trace(*run, earlier=earlier)
+
+
+NEAR_THE_MIDDLE = 64
+"""Triangles among which the one is chosen that is stepped first."""
+LEAST_AREA = 8.0
+"""Pixels that it has at least, if one of them has."""
+STEPPED = Settings(fill="bounding-box")
+"""How a scene is first stepped: every pixel of a box tested, one after another, is the plainest fill to follow."""
+
+
+def open_document(scene: AnyScene, title: str, path: str = "", settings: Settings | None = None) -> Document:
+    """Return a scene as it is first shown: a small one as a whole, a large one at one triangle."""
+    width, height = scene.size
+    fits = width <= TEACHING_LIMIT[0] and height <= TEACHING_LIMIT[1]
+    raster = TeachingRaster(width, height) if fits else same_view(scene, 64, 48)
+    document = Document(scene, raster, settings or STEPPED, title=title, path=path)
+    if document.triangle_count <= TRACED_TOGETHER:
+        return document
+    return focus_on(document, central_triangle(document))
+
+
+def same_view(scene: AnyScene, columns: int, rows: int) -> TeachingRaster:
+    """Return the raster of about ``columns`` x ``rows`` pixels that has the picture's aspect."""
+    width, height = scene.size
+    scale = min(columns / width, rows / height)
+    return TeachingRaster(max(round(width * scale), 1), max(round(height * scale), 1))
+
+
+def central_triangle(document: Document) -> int:
+    """Return the triangle nearest to the middle of the view that has pixels to look at, as far as one has, or 0."""
+    whole = replace(document, raster=same_view(document.scene, *TEACHING_LIMIT), triangle=None)
+    source = TraceSource(whole.traced_scene, document.settings, None)
+    primitive = source.picture.primitive
+    rows, columns = np.nonzero(primitive >= 0)
+    if len(rows) == 0:
+        return 0
+    middle = np.array(primitive.shape) / 2
+    by_distance = np.argsort((rows - middle[0]) ** 2 + (columns - middle[1]) ** 2, kind="stable")
+    seen = primitive[rows, columns][by_distance]
+    triangles = seen[np.sort(np.unique(seen, return_index=True)[1])][:NEAR_THE_MIDDLE]
+    vertices = source.geometry.vertices
+    enlarged = np.array(document.scene.size) / whole.traced_scene.size
+    first, second, third = vertices.window[vertices.corners[triangles].T, :2] * enlarged
+    with np.errstate(invalid="ignore"):
+        area = np.nan_to_num(np.abs(np.linalg.det(np.stack([second - first, third - first], axis=1))) / 2)
+    enough = min(LEAST_AREA, float(area.max()))
+    return int(triangles[np.argmax(area >= enough)])
+
+
+def window_corners_of(document: Document, triangle: int) -> Floats:
+    """Return (3, 2) window positions of a triangle in the picture, NaN where w <= 0."""
+    source = TraceSource(document.scene, document.settings, triangle)
+    vertices = source.geometry.vertices
+    corners = vertices.corners[triangle]
+    return np.where(vertices.clip[corners, 3:] > 0, vertices.window[corners, :2], np.nan)
+
+
+def focus_on(document: Document, triangle: int | None) -> Document:
+    """Return the document with ``triangle`` in focus, on a raster where it can be seen."""
+    document = replace(document, triangle=triangle)
+    if triangle is None or max(document.scene.size) <= max(TEACHING_LIMIT):
+        return document
+    return fit_region(document)
+
+
+def fit_region(document: Document) -> Document:
+    """Return the document with the smallest raster around the triangle in focus.
+
+    A triangle that is larger than the largest raster, or reaches behind the eye, is shown in the whole view.
+    """
+    if document.triangle is None:
+        return replace(document, raster=same_view(document.scene, *TEACHING_LIMIT))
+    corners = window_corners_of(document, document.triangle)
+    width, height = document.scene.size
+    if not np.isfinite(corners).all():
+        return replace(document, raster=same_view(document.scene, 64, 48))
+    low = np.maximum(np.floor(corners.min(axis=0)) - 2, 0)
+    high = np.minimum(np.ceil(corners.max(axis=0)) + 2, (width, height))
+    needed = high - low
+    for columns, rows in TEACHING_SIZES:
+        if columns >= needed[0] and rows >= needed[1]:
+            break
+    else:
+        return replace(document, raster=same_view(document.scene, *TEACHING_LIMIT))
+    columns, rows = min(columns, width), min(rows, height)
+    middle = (low + high) / 2
+    origin = (
+        int(np.clip(middle[0] - columns // 2, 0, width - columns)),
+        int(np.clip(middle[1] - rows // 2, 0, height - rows)),
+    )
+    return replace(document, raster=TeachingRaster(columns, rows, origin))
+
+
+def is_typed(scene: AnyScene) -> bool:
+    """Return whether corners can be typed in window coordinates."""
+    return isinstance(scene, ClipScene)
+
+
+__all__ = [
+    "STAGES",
+    "Document",
+    "TeachingRaster",
+    "central_triangle",
+    "fit_region",
+    "focus_on",
+    "is_typed",
+    "open_document",
+    "same_view",
+    "window_corners_of",
+]

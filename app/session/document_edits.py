@@ -1,0 +1,69 @@
+"""Edits of the whole document: which triangle is in focus, which raster is drawn, what is shared and cleared."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.session.document import Document, fit_region, focus_on, same_view
+from app.session.scene_edits import join_shared, split_shared
+from app.session.session import Session
+from core.scene import ClipScene
+
+
+class DocumentEdits(QObject):
+    """Makes edits that undo takes back."""
+
+    edit_refused = Signal(object)
+    """The ValueError that says why an edit is not possible."""
+    edit_pointless = Signal(str)
+    """Why there is nothing to edit."""
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+
+    def edit(self, document: Document) -> None:
+        """Take over an edited document, or say why that is not possible."""
+        try:
+            self._session.edit(document)
+        except ValueError as error:
+            self.edit_refused.emit(error)
+
+    def toggle_shared(self) -> None:
+        """Let corners at one place move together, or each by itself."""
+        document = self._session.latest
+        scene = document.scene
+        if not isinstance(scene, ClipScene):
+            self.edit_pointless.emit("Vertices of a mesh are always shared by its triangles.")
+            return
+        edited = split_shared(scene) if scene.shared is not None else join_shared(scene)
+        self.edit(replace(document, scene=edited))
+
+    def fit_region(self) -> None:
+        """Show the smallest raster around the triangle in focus."""
+        document = self._session.latest
+        if document.triangle is None and document.triangle_count == 1:
+            document = replace(document, triangle=0)
+        self.edit(fit_region(document))
+
+    def focus_all(self) -> None:
+        """Step all triangles instead of the one in focus."""
+        document = self._session.latest
+        self.edit(replace(document, triangle=None, raster=same_view(document.scene, 64, 48)))
+
+    @Slot(int)
+    def focus_triangle(self, triangle: int) -> None:
+        """Bring a triangle into focus."""
+        self.edit(focus_on(self._session.latest, triangle))
+
+    def toggle_cleared(self) -> None:
+        """Start from cleared buffers, or as the earlier triangles left them."""
+        document = self._session.latest
+        before = "earlier" if document.before == "cleared" else "cleared"
+        self.edit(replace(document, before=before))
+
+    @Slot(int, int)
+    def choose_raster(self, columns: int, rows: int) -> None:
+        """Draw the whole view in so many columns and rows."""
+        document = self._session.latest
+        self.edit(replace(document, raster=same_view(document.scene, columns, rows)))

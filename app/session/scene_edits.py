@@ -1,0 +1,240 @@
+"""Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong."""
+
+from dataclasses import replace
+from math import degrees, radians
+
+import numpy as np
+
+from core.geometry.vertex_stage import transform_vertices
+from core.records.arrays import Floats
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
+from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue
+
+TYPED_TRIANGLES = 24
+"""Triangles whose corners the outline lists."""
+WINDOW_NAMES = ("x", "y", "depth", "w")
+
+
+def window_of_clip(clip: Floats, size: tuple[int, int]) -> Floats:
+    """Return x, y, depth, w (..., 4) of clip positions (..., 4); NaN where w = 0."""
+    width, height = size
+    w = clip[..., 3]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x, y, z = (clip[..., k] / w for k in range(3))
+    window = np.stack([(x + 1) * width / 2, (y + 1) * height / 2, (z + 1) / 2, w], axis=-1)
+    window[w == 0, :3] = np.nan
+    return window
+
+
+def clip_of_window(window: Floats, size: tuple[int, int]) -> Floats:
+    """Return clip positions (..., 4) of x, y, depth, w (..., 4)."""
+    width, height = size
+    x, y, depth, w = (window[..., k] for k in range(4))
+    return np.stack([(2 * x / width - 1) * w, (2 * y / height - 1) * w, (2 * depth - 1) * w, w], axis=-1)
+
+
+def move_corner(
+    scene: AnyScene, triangle: int, corner: int, position: tuple[float, float], size: tuple[int, int]
+) -> AnyScene:
+    """Move a corner to a window position; its depth and w stay, and corners that are shared move along.
+
+    Parameters
+    ----------
+    triangle, corner : int
+    position : (x, y)
+        Window position in pixels of a raster of ``size`` (width, height).
+
+    Raises
+    ------
+    ValueError
+        If the corner is not in front of the eye: such a corner has no window position.
+    """
+    x, y = position
+    if isinstance(scene, ClipScene):
+        window = window_of_clip(scene.clip[triangle, corner], size)
+        window[:2] = x, y
+        return set_clip_corner(scene, triangle, corner, clip_of_window(window, size))
+    vertices = transform_vertices(replace(scene, size=size))
+    vertex = int(vertices.corners[triangle, corner])
+    clip = vertices.clip[vertex]
+    if clip[3] <= 0:
+        raise ValueError("a corner behind the eye cannot be dragged in the window")
+    window = window_of_clip(clip, size)
+    window[:2] = x, y
+    mesh_index, local = _mesh_of_vertex(scene, vertex)
+    assert vertices.projection is not None
+    assert vertices.view is not None
+    matrix = vertices.projection @ vertices.view @ scene.meshes[mesh_index].transform
+    target = np.linalg.solve(matrix, clip_of_window(window, size))
+    positions = scene.meshes[mesh_index].positions.copy()
+    positions[local] = target[:3] / target[3]
+    return _with_mesh(scene, mesh_index, replace(scene.meshes[mesh_index], positions=positions))
+
+
+def set_clip_corner(scene: ClipScene, triangle: int, corner: int, clip: Floats) -> ClipScene:
+    """Put a corner, and those that share its place, at a clip position (4,)."""
+    corners = scene.clip.copy()
+    if scene.shared is None:
+        corners[triangle, corner] = clip
+    else:
+        corners[scene.shared == scene.shared[triangle, corner]] = clip
+    return replace(scene, clip=corners)
+
+
+def split_shared(scene: AnyScene) -> AnyScene:
+    """Return the scene with every corner moving by itself."""
+    return replace(scene, shared=None) if isinstance(scene, ClipScene) else scene
+
+
+def join_shared(scene: AnyScene) -> AnyScene:
+    """Return the scene with corners at the same clip position moving together."""
+    if not isinstance(scene, ClipScene):
+        return scene
+    _, names = np.unique(scene.clip.reshape(-1, 4), axis=0, return_inverse=True)
+    return replace(scene, shared=names.reshape(-1, 3))
+
+
+def outline(scene: AnyScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
+    """Return the typed values of a scene; window coordinates are those of a raster of ``size``."""
+    if isinstance(scene, ClipScene):
+        return _clip_outline(scene, triangle, size)
+    return (_camera_outline(scene.camera), *_light_outline(scene), *_mesh_outline(scene))
+
+
+def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -> AnyScene:
+    """Return the scene with the value at ``path`` of its outline replaced.
+
+    Raises
+    ------
+    ValueError
+        If the scene would not be valid.
+    """
+    kind, *names = path.split("/")
+    if isinstance(scene, ClipScene):
+        triangle, corner, name = int(names[0]), int(names[1]), names[2]
+        window = window_of_clip(scene.clip[triangle, corner], size)
+        window[WINDOW_NAMES.index(name)] = value
+        if window[3] == 0 or not np.isfinite(window).all():
+            raise ValueError("w must not be 0: such a corner has no place in the window")
+        return set_clip_corner(scene, triangle, corner, clip_of_window(window, size))
+    if kind == "camera":
+        return replace(scene, camera=_set_camera(scene.camera, names, value))
+    if kind == "light":
+        index, name, axis = int(names[0]), names[1], "xyzrgb".index(names[2]) % 3
+        light = scene.lights[index]
+        vector = np.array(getattr(light, name))
+        vector[axis] = value
+        lights = list(scene.lights)
+        lights[index] = replace(light, **{name: vector})  # type: ignore[arg-type]
+        return replace(scene, lights=tuple(lights))
+    index, name = int(names[0]), names[-1]
+    mesh = scene.meshes[index]
+    return _with_mesh(scene, index, replace(mesh, material=replace(mesh.material, **{name: value})))
+
+
+def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
+    if names[0] in ("eye", "target", "up"):
+        vector = getattr(camera, names[0]).copy()
+        vector["xyz".index(names[1])] = value
+        return replace(camera, **{names[0]: vector})
+    if names[-1] == "field_of_view":
+        return replace(camera, field_of_view=radians(value))
+    return replace(camera, **{names[-1]: value})  # type: ignore[arg-type]
+
+
+def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
+    shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
+    window = window_of_clip(scene.clip, size)
+    groups = []
+    for index in shown:
+        rows = []
+        for corner in range(3):
+            path = f"corner/{index}/{corner}"
+            if not np.isfinite(window[index, corner]).all():
+                rows.append(
+                    OutlineRow(
+                        path, f"vertex {corner}", vertex=corner, note="at w = 0: no place in the window"
+                    )
+                )
+                continue
+            values = tuple(
+                OutlineValue(name, float(number))
+                for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
+            )
+            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=corner))
+        groups.append(OutlineGroup(f"triangle/{index}", f"Triangle {index}", tuple(rows)))
+    return tuple(groups)
+
+
+def _vector_row(path: str, label: str, vector: Floats, names: str = "xyz") -> OutlineRow:
+    values = tuple(OutlineValue(name, float(number)) for name, number in zip(names, vector, strict=True))
+    return OutlineRow(path, label, values)
+
+
+def _camera_outline(camera: Camera) -> OutlineGroup:
+    angle = OutlineValue("field_of_view", degrees(camera.field_of_view))
+    height = OutlineValue("view_height", camera.view_height)
+    is_perspective = camera.projection == "perspective"
+    rows = [
+        _vector_row("camera/eye", "eye", camera.eye),
+        _vector_row("camera/target", "target", camera.target),
+        _vector_row("camera/up", "up", camera.up),
+        OutlineRow(
+            "camera/lens",
+            "view angle, °" if is_perspective else "view height",
+            (angle if is_perspective else height,),
+        ),
+        OutlineRow(
+            "camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))
+        ),
+    ]
+    return OutlineGroup("camera", f"Camera, {camera.projection}", tuple(rows))
+
+
+def _light_outline(scene: Scene) -> list[OutlineGroup]:
+    groups = []
+    for index, light in enumerate(scene.lights):
+        where = "direction" if isinstance(light, DirectionalLight) else "position"
+        vector = light.position if isinstance(light, PointLight) else light.direction
+        rows = (
+            _vector_row(f"light/{index}/{where}", where, vector),
+            _vector_row(f"light/{index}/color", "colour", light.color, "rgb"),
+        )
+        title = "Directional light" if isinstance(light, DirectionalLight) else "Point light"
+        groups.append(OutlineGroup(f"light/{index}", f"{title} {index}", rows, is_open=False))
+    return groups
+
+
+def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
+    groups = []
+    for index, mesh in enumerate(scene.meshes):
+        counts = f"{len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices"
+        texture = (
+            f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
+        )
+        rows = [OutlineRow(f"mesh/{index}/counts", counts, note=texture)]
+        rows += [
+            OutlineRow(
+                f"mesh/{index}/{name}",
+                name,
+                (OutlineValue(name, getattr(mesh.material, name), 0, 10000 if name == "shininess" else 1),),
+            )
+            for name in ("ambient", "diffuse", "specular", "shininess")
+        ]
+        groups.append(OutlineGroup(f"mesh/{index}", mesh.name, tuple(rows), is_open=False))
+    return groups
+
+
+def _mesh_of_vertex(scene: Scene, vertex: int) -> tuple[int, int]:
+    """Return which mesh a vertex of the whole scene belongs to, and its number there."""
+    for index, mesh in enumerate(scene.meshes):
+        if vertex < len(mesh.positions):
+            return index, vertex
+        vertex -= len(mesh.positions)
+    raise ValueError(f"the scene has no vertex {vertex}")
+
+
+def _with_mesh(scene: Scene, index: int, mesh: Mesh) -> Scene:
+    meshes = list(scene.meshes)
+    meshes[index] = mesh
+    return replace(scene, meshes=tuple(meshes))

@@ -1,0 +1,337 @@
+"""The only mutable state of the program: what is open, where the cursor is, what is pointed at. With signals."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.session.document import Document
+from app.session.history import History
+from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_now
+from core import STAGES, Settings, Trace
+from core.records.steps import Level
+from core.trace import Explanation, StageTrace
+
+if TYPE_CHECKING:
+    from core.study.planner import PlanReport  # As in app.pages.page_bar.
+
+Pixel = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Cursor:
+    """Where the stepping is: operations of a stage that are done, and how large a step is."""
+
+    stage: str = "raster"
+    position: int = 0
+    level: Level = Level.PIXEL
+
+
+class Session(QObject):
+    """Document, trace, cursor, pinned and hovered pixel. A value equal to the present one changes and emits nothing."""
+
+    document_changed = Signal()
+    """Another scene, other settings, focus or raster: the trace is a new one, and the cursor may have moved along."""
+    cursor_changed = Signal()
+    """Another step of the same trace, or another stage."""
+    pin_changed = Signal()
+    hover_changed = Signal()
+    history_changed = Signal()
+    """What can be undone, redone or gone back to."""
+    predicting_changed = Signal()
+    """What comes next is hidden, or shown again."""
+    plan_changed = Signal()
+    """Something else is known of what the scene needs."""
+    edit_failed = Signal(object)
+    """Why an edit that was traced in the background came to nothing: the exception."""
+
+    def __init__(self, document: Document, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.tracing = Tracing(self)
+        """What traces large documents in the background."""
+        self.tracing.traced.connect(self._take_traced)
+        self.tracing.failed.connect(self.edit_failed)
+        self.tracing.busy_changed.connect(self.history_changed)
+        self._history = History(document)
+        self._cursor = Cursor()
+        self._visited = History(self._cursor)
+        self._pin: Pixel | None = None
+        self._hover: Pixel | None = None
+        self._is_predicting = False
+        self._plan: PlanReport | None = None
+        self._trace = document.make_trace()
+
+    @property
+    def document(self) -> Document:
+        """What is open."""
+        return self._history.present
+
+    @property
+    def latest(self) -> Document:
+        """What the next edit starts from: what is still being traced, as all edits before it; else what is open."""
+        newest = self.tracing.newest
+        return self.document if newest is None else newest.document
+
+    @property
+    def trace(self) -> Trace:
+        """Its trace."""
+        return self._trace
+
+    @property
+    def cursor(self) -> Cursor:
+        """Where the stepping is."""
+        return self._cursor
+
+    @property
+    def stage_trace(self) -> StageTrace:
+        """The trace of the stage at the cursor."""
+        return self._trace.stage(self._cursor.stage)
+
+    @property
+    def explanation(self) -> Explanation | None:
+        """What the step just done did."""
+        return self.stage_trace.explain(self._cursor.position)
+
+    @property
+    def pin(self) -> Pixel | None:
+        """The pinned pixel: column and row in the traced picture."""
+        return self._pin
+
+    @property
+    def hover(self) -> Pixel | None:
+        """The pixel under the pointer."""
+        return self._hover
+
+    @property
+    def plan(self) -> "PlanReport | None":
+        """What the open scene needs; ``None``: it has not been measured, or another scene is open by now."""
+        return self._plan if self._plan is not None and self._plan.scene is self.document.scene else None
+
+    def set_plan(self, plan: "PlanReport") -> None:
+        """Say what a scene needs."""
+        self._plan = plan
+        self.plan_changed.emit()
+
+    # Editing.
+
+    def open(self, document: Document, trace: Trace | None = None) -> None:
+        """Show another document, with its trace if that is there already; undo leads back to the one before.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be traced; everything stays as it was.
+        """
+        self.tracing.cancel()
+        if trace is None:
+            trace = trace_now(document, self._cursor.stage)
+        self._history.put(document)
+        self._pin = self._hover = None
+        self._document_replaced(trace)
+        self.pin_changed.emit()
+
+    def edit(self, document: Document, gesture: str = "") -> None:
+        """Take over an edited document; edits of one ``gesture`` are undone together.
+
+        Every gesture has a name of its own. What takes long is traced in the background, and taken over when that is
+        done: also when the gesture has ended by then, as the last part of it.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be traced; everything stays as it was.
+        """
+        if document is not self.latest:
+            self._put(document, gesture)
+
+    def take_back(self, gesture: str) -> None:
+        """End a gesture as if it had not been; redo does it after all."""
+        self.tracing.cancel()
+        if self._history.is_within(gesture):
+            self.undo()
+
+    def set_setting(self, family: str, value: str | int) -> None:
+        """Choose a method (or the block size); raises ValueError if the scene cannot be drawn with it."""
+        settings: Settings = replace(self.latest.settings, **{family: value})  # type: ignore[arg-type]
+        if settings != self.latest.settings:
+            self._put(replace(self.latest, settings=settings))
+
+    def undo(self) -> None:
+        """Take the last edit back, with what is still being traced of it; or one that is being traced, alone."""
+        newest = self.tracing.newest
+        if newest is not None and newest.direction == 0:
+            self.tracing.cancel()
+            if not newest.gesture or not self._history.is_within(newest.gesture):
+                return
+        self._go_in_history(-1)
+
+    def redo(self) -> None:
+        """Do it again."""
+        self._go_in_history(1)
+
+    def _go_in_history(self, direction: int) -> None:
+        document, stage = self._history.neighbour(direction), self._cursor.stage
+        if document is None:
+            return
+        if document.estimated_seconds > QUICK_SECONDS:
+            self.tracing.start(Order(document, "", stage, direction, self._trace))
+            return
+        self.tracing.cancel()
+        self._take_neighbour(direction, trace_now(document, stage, self._trace))
+
+    def _take_neighbour(self, direction: int, trace: Trace) -> None:
+        if direction < 0:
+            self._history.undo()
+        else:
+            self._history.redo()
+        self._document_replaced(trace)
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether an edit can be taken back."""
+        return self._history.can_undo or self.tracing.newest is not None
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether one can be done again."""
+        return self._history.can_redo
+
+    def _put(self, document: Document, gesture: str = "") -> None:
+        stage = self._cursor.stage
+        if document.estimated_seconds > QUICK_SECONDS:
+            document.check_length()
+            self.tracing.start(Order(document, gesture, stage, earlier=self._trace))
+            return
+        # An edit that is ready takes the place of one that is still being traced.
+        self.tracing.cancel()
+        self._take(document, gesture, trace_now(document, stage, self._trace))
+
+    @Slot(object)
+    def _take_traced(self, traced: Traced) -> None:
+        order = traced.order
+        if order.direction == 0:
+            self._take(order.document, order.gesture, traced.trace)
+        elif self._history.neighbour(order.direction) is order.document:
+            self._take_neighbour(order.direction, traced.trace)
+
+    def _take(self, document: Document, gesture: str, trace: Trace) -> None:
+        self._history.put(document, gesture)
+        self._document_replaced(trace)
+
+    def _document_replaced(self, trace: Trace) -> None:
+        was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
+        # The trace of before stays until everything shows the new one, which takes over what did not change.
+        earlier, self._trace = self._trace, trace
+        count = self.stage_trace.steps.count
+        position = count if was_at_end else min(self._cursor.position, count)
+        self._cursor = replace(self._cursor, position=position)
+        has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
+        if has_lost_pin:
+            self._pin = None
+        if self._hover is not None and not self.has_pixel(self._hover):
+            self._hover = None
+        self.document_changed.emit()
+        del earlier
+        if has_lost_pin:
+            self.pin_changed.emit()
+        self.history_changed.emit()
+
+    # Stepping.
+
+    def step(self, direction: int, level: Level | None = None) -> None:
+        """Go one step forward (1) or back (-1), at the present level or another one."""
+        steps = self.stage_trace.steps
+        level = self._cursor.level if level is None else level
+        move = steps.forward if direction > 0 else steps.back
+        self._move(replace(self._cursor, position=move(self._cursor.position, level)))
+
+    def go_to(self, position: int) -> None:
+        """Go to a position of the present stage; the jump can be undone by ``go_back``."""
+        count = self.stage_trace.steps.count
+        self._jump(replace(self._cursor, position=min(max(position, 0), count)))
+
+    def scrub(self, position: int) -> None:
+        """Go to a position while a slider is dragged: not remembered."""
+        count = self.stage_trace.steps.count
+        self._move(replace(self._cursor, position=min(max(position, 0), count)))
+
+    def set_stage(self, stage: str, position: int | None = None) -> None:
+        """Go to another stage, to its end unless a position is given."""
+        count = self._trace.stage(stage).steps.count
+        self._jump(
+            Cursor(stage, count if position is None else min(max(position, 0), count), self._cursor.level)
+        )
+
+    def next_stage(self, direction: int) -> None:
+        """Go to the neighbouring stage."""
+        index = STAGES.index(self._cursor.stage) + direction
+        if 0 <= index < len(STAGES):
+            self.set_stage(STAGES[index])
+
+    def set_level(self, level: Level) -> None:
+        """Choose how large a step is."""
+        self._move(replace(self._cursor, level=Level(level)))
+
+    def go_back(self) -> None:
+        """Undo the last jump exactly."""
+        if self._visited.can_undo:
+            self._restore(self._visited.undo())
+
+    def go_forward(self) -> None:
+        """Do it again."""
+        if self._visited.can_redo:
+            self._restore(self._visited.redo())
+
+    def _restore(self, cursor: Cursor) -> None:
+        count = self._trace.stage(cursor.stage).steps.count
+        self._move(replace(cursor, position=min(cursor.position, count)))
+
+    def _jump(self, cursor: Cursor) -> None:
+        if cursor == self._cursor:
+            return
+        if self._visited.present != self._cursor:
+            self._visited.put(self._cursor)
+        self._visited.put(cursor)
+        self._move(cursor)
+        self.history_changed.emit()
+
+    def _move(self, cursor: Cursor) -> None:
+        if cursor != self._cursor:
+            self._cursor = cursor
+            self.cursor_changed.emit()
+
+    # Pointing.
+
+    def set_pin(self, pixel: Pixel | None) -> None:
+        """Pin a pixel, or none."""
+        if pixel != self._pin and (pixel is None or self.has_pixel(pixel)):
+            self._pin = pixel
+            self.pin_changed.emit()
+
+    def nudge_pin(self, columns: int, rows: int) -> None:
+        """Move the pin; without one it appears in the middle."""
+        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
+        at = self._pin or ((first_column + end_column) // 2 - columns, (first_row + end_row) // 2 - rows)
+        self.set_pin((at[0] + columns, at[1] + rows))
+
+    def set_hover(self, pixel: Pixel | None) -> None:
+        """Say which pixel the pointer is on."""
+        if pixel != self._hover:
+            self._hover = pixel
+            self.hover_changed.emit()
+
+    @property
+    def is_predicting(self) -> bool:
+        """Whether results are hidden until they have been predicted."""
+        return self._is_predicting
+
+    def set_predicting(self, is_predicting: bool) -> None:
+        """Hide results, or show them again."""
+        if is_predicting != self._is_predicting:
+            self._is_predicting = is_predicting
+            self.predicting_changed.emit()
+
+    def has_pixel(self, pixel: Pixel) -> bool:
+        """Return whether the traced raster has this pixel."""
+        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
+        return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row

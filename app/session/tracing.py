@@ -1,0 +1,121 @@
+"""Tracing off the GUI thread where it would hold up the window: one at a time, and of those that wait the last."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job, Progress
+from app.session.document import Document
+from core import Trace
+
+QUICK_SECONDS = 0.3
+"""What is estimated to take longer is traced off the GUI thread."""
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """A document to be traced, and the gesture that it belongs to."""
+
+    document: Document
+    gesture: str
+    stage: str
+    direction: int = 0
+    """-1: it comes from undoing, 1: from redoing, 0: it is a new edit."""
+    earlier: Trace | None = None
+    """What is shown until then: triangles that are the same in it are not traced again."""
+
+
+@dataclass(frozen=True, eq=False)
+class Traced:
+    """A document with its trace; the picture and the stage in question are ready."""
+
+    order: Order
+    trace: Trace
+
+
+def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> Trace:
+    """Trace a document and one of its stages, and draw its picture, so that nothing can fail later.
+
+    Triangles that are the same in the ``earlier`` trace are not traced again.
+
+    Raises
+    ------
+    ValueError
+        If the document has more steps than can be held, or a method does not serve the scene.
+    """
+    document.check_length()
+    trace = document.make_trace(earlier=earlier)
+    trace.stage(stage)
+    assert trace.source.picture is not None
+    return trace
+
+
+class Tracing(QObject):
+    """Runs orders one after another; of those that wait only the last is kept."""
+
+    traced = Signal(object)
+    """A `Traced`."""
+    failed = Signal(object)
+    """The exception; nothing has changed."""
+    busy_changed = Signal(str)
+    """What is being waited for, empty: nothing."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._job = Job(self)
+        self._waiting: Order | None = None
+        self._newest: Order | None = None
+        self._job.succeeded.connect(self._succeed)
+        self._job.failed.connect(self._fail)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a trace is being waited for."""
+        return self._job.is_running
+
+    @property
+    def newest(self) -> Order | None:
+        """What was ordered last of what is not done yet; ``None``: nothing is waited for."""
+        return self._newest
+
+    def start(self, order: Order) -> None:
+        """Trace as soon as what is being traced now is done."""
+        self._newest = order
+        if self._job.is_running:
+            self._waiting = order
+            return
+
+        def work(progress: Progress, is_cancelled: object) -> Traced:
+            return Traced(order, trace_now(order.document, order.stage, order.earlier))
+
+        self._job.start(work)
+        self.busy_changed.emit(f"Tracing {order.document.title or 'the scene'}")
+
+    @Slot()
+    def cancel(self) -> None:
+        """Stop waiting; what is open stays as it is."""
+        self._waiting = self._newest = None
+        if self._job.is_running:
+            self._job.cancel()
+            self.busy_changed.emit("")
+
+    def shut_down(self) -> None:
+        """Cancel and wait for the thread."""
+        self._waiting = self._newest = None
+        self._job.shut_down()
+
+    @Slot(object)
+    def _succeed(self, traced: Traced) -> None:
+        self.traced.emit(traced)
+        self._go_on()
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        self.failed.emit(error)
+        self._go_on()
+
+    def _go_on(self) -> None:
+        waiting, self._waiting, self._newest = self._waiting, None, None
+        self.busy_changed.emit("")
+        if waiting is not None:
+            self.start(waiting)

@@ -1,0 +1,354 @@
+"""The 3D view of the session: draws while the user turns it, picks triangles, and drags vertices."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
+
+from app.session.document import Document
+from app.session.session import Session
+from app.views.hidden_backs import HiddenBacks
+from app.views.pixel_ray import pixel_marks
+from app.views.pointed_pixel import pointed_pixels
+from app.views.scene_figures import drawing_text, figures_text
+from app.views.scene_picture import (
+    DrawnScene,
+    SceneShot,
+    draw_scene,
+    fractions,
+    moved_parallel,
+    space_words,
+    triangle_seen,
+)
+from app.views.scene_sizes import OWN_SIZE, fixed_size, size_choices
+from app.views.scene_worker import SceneWorker
+from app.views.vertex_drag import move_corner_to
+from app.views.view_space import ViewSpace, make_space, thinned
+from core.fast_path.workers import BandWorkers
+from core.records.arrays import Integers
+from core.scene import AnyScene, Scene
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.space.frame_rate import FrameRate
+from widgets.space.orbit import Orbit, fitted
+from widgets.space.scene_view import SceneHandle, ScenePicture, SceneView
+
+MOST_TRIANGLES = 600_000
+"""A scene of more is thinned to so many."""
+FIGURES_MS = 200
+"""Figures change at most this often: faster, nobody could read them."""
+
+
+class ScenePresenter(QObject):
+    """Shows the session's scene in a :class:`~widgets.space.scene_view.SceneView`.
+
+    Every picture is drawn whole and off the GUI thread. While one is drawn, the user goes on turning; the next one
+    is that of the newest orbit. What lies over a picture is placed by the orbit that it was drawn from.
+
+    Pictures are drawn in this process unless `draw_with` gives workers.
+    """
+
+    triangle_picked = Signal(int)
+    """A triangle that was clicked."""
+    refused = Signal(str)
+    """Why a drag did nothing, or a picture could not be drawn."""
+    frame_measured = Signal(object)
+    """:class:`~app.views.scene_figures.FrameFigures` of a picture that was shown; None: no picture is."""
+
+    def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._view = session, view
+        self._space: ViewSpace | None = None
+        self._document: Document | None = None
+        self._drawable: tuple[AnyScene, Integers | None] | None = None
+        """The document's scene as it is drawn, and the numbers of its triangles where they are not all."""
+        self._drawn: DrawnScene | None = None
+        self._home = Orbit()
+        self._size_name = OWN_SIZE
+        self._rate = FrameRate()
+        self._is_shown = False
+        self._has_new_figures = False
+        self._drags = 0
+        self._band_workers, self._backs = BandWorkers(1), HiddenBacks()
+        self._worker, self._picker = SceneWorker(self), SceneWorker(self)
+        self._worker.done.connect(self._take_drawn)
+        self._worker.failed.connect(self.refused)
+        self._picker.done.connect(self._take_picked)
+        self._picker.failed.connect(self.refused)
+        self._figures_timer = QTimer(self)
+        self._figures_timer.setSingleShot(True)
+        self._figures_timer.setInterval(FIGURES_MS)
+        self._figures_timer.timeout.connect(self._tell_new_figures)
+        view.view_changed.connect(self._turned)
+        view.size_changed.connect(self._resized)
+        view.size_chosen.connect(self.choose_size)
+        # Queued: what the figures change is not to be laid out while the view is painted.
+        view.picture_painted.connect(self._count_frame, Qt.ConnectionType.QueuedConnection)
+        view.picked.connect(self._pick)
+        view.vertex_dragged.connect(self._drag)
+        view.vertex_drag_finished.connect(self._end_drag)
+        view.vertex_drag_taken_back.connect(self._take_drag_back)
+        theme_notifier().theme_changed.connect(self._theme_changed)
+
+    def refresh(self) -> None:
+        """Show the session's document as it is now."""
+        document = self._session.document
+        if self._document is document and self._space is not None:
+            self.refresh_marks()
+            return
+        before = self._document
+        self._document = document
+        if before is None or before.scene is not document.scene:
+            self._drawable = None
+        self._space = make_space(document.traced_scene, self._session.trace.source.geometry.vertices)
+        if before is None or _place_of(before) != _place_of(document):
+            self._begin_anew()
+        self._view.set_caption(self._caption())
+        self.refresh_marks()
+        self._draw()
+
+    def look_at_focus(self) -> None:
+        """Magnify the triangle in focus, from the present direction."""
+        if self._space is None or self.focus is None:
+            return
+        corners = self._space.corners(self.focus)
+        if np.isfinite(corners).all():
+            x, y, z = corners.mean(axis=0).tolist()
+            reach = float(np.linalg.norm(corners - corners.mean(axis=0), axis=1).max())
+            width, height = self._view.picture_size()
+            self._view.set_orbit(fitted(self._view.orbit(), (x, y, z), 2 * reach, width / height))
+            self._draw()
+
+    def refresh_marks(self) -> None:
+        """Show pin, hover and corners over the present picture."""
+        if self._drawn is not None:
+            self._show(self._drawn)
+
+    def set_shown(self, is_shown: bool) -> None:
+        """Say whether the view is in sight: figures are told only then."""
+        self._is_shown = is_shown
+        self._tell_figures()
+        if is_shown and self._drawn is not None and self._drawn.shot.size != self._view.picture_size():
+            self._draw()
+
+    @Slot(str)
+    def choose_size(self, name: str) -> None:
+        """Draw at a size of ``app.views.scene_sizes``, by its name."""
+        self._size_name = name
+        self._offer_sizes()
+
+    def draw_with(self, workers: BandWorkers) -> None:
+        """Let workers draw parts of the pictures that are worth it, from the next one on; `stop` closes them."""
+        self._band_workers.close()
+        self._band_workers = workers
+
+    def stop(self) -> None:
+        """End drawing, and the worker processes."""
+        self._figures_timer.stop()
+        self._worker.stop()
+        self._picker.stop()
+        self._band_workers.close()
+
+    @property
+    def space(self) -> ViewSpace | None:
+        """What is shown."""
+        return self._space
+
+    @property
+    def drawn(self) -> DrawnScene | None:
+        """The present picture."""
+        return self._drawn
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether a newer picture is still to come."""
+        return self._worker.is_busy
+
+    @property
+    def focus(self) -> int | None:
+        """The triangle whose vertices can be dragged."""
+        document = self._session.document
+        return 0 if document.triangle is None and document.triangle_count == 1 else document.triangle
+
+    # Drawing.
+
+    def _begin_anew(self) -> None:
+        """Forget the pictures of another scene, and look at the whole of this one."""
+        self._worker.forget()
+        self._picker.forget()
+        self._drawn = None
+        self._rate = FrameRate()
+        self._view.empty_text = "Drawing…"
+        self._view.show_picture(None)
+        self._view.show_figures("")
+        self._tell_figures()
+        self._offer_sizes()
+        self._go_home()
+
+    def _draw(self) -> None:
+        """Ask for a picture of what is to be seen now."""
+        if self._space is None:
+            return
+        if self._drawable is None:
+            scene = self._space.scene
+            is_too_large = self._session.document.triangle_count > MOST_TRIANGLES
+            self._drawable = thinned(scene, MOST_TRIANGLES) if is_too_large else (scene, None)
+        scene, numbers = self._drawable
+        thickness = self._view.pixels_per_point() * current_theme().text_px / 13
+        shot = SceneShot(
+            self._space,
+            scene,
+            numbers,
+            self._session.document.settings,
+            self._view.orbit(),
+            self._view.picture_size(),
+            self.focus,
+            thickness,
+            current_theme(),
+        )
+        self._worker.start(partial(draw_scene, shot, self._band_workers, self._backs))
+
+    @Slot(object)
+    def _take_drawn(self, drawn: DrawnScene) -> None:
+        self._drawn = drawn
+        self._show(drawn)
+
+    def _show(self, drawn: DrawnScene) -> None:
+        space, orbit, size = self._space, drawn.shot.orbit, drawn.shot.size
+        if space is None:
+            return
+        handles = []
+        if self.focus is not None:
+            for index, (x, y) in enumerate(fractions(space, orbit, size, space.corners(self.focus)).tolist()):
+                if np.isfinite([x, y]).all():
+                    handles.append(SceneHandle(index, x, y))
+        words = space_words(space)
+        places = fractions(space, orbit, size, np.stack([place for place, _ in words]))
+        labels = tuple(
+            (x, y, text, "muted_text")
+            for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
+            if 0 <= x <= 1 and 0 <= y <= 1
+        )
+        marks = pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
+        picture = ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption(), drawn.sight)
+        self._view.show_picture(picture)
+
+    # Figures.
+
+    def _offer_sizes(self) -> None:
+        """Show the sizes that there are, and have the chosen one drawn."""
+        size = self._session.document.scene.size
+        self._view.show_sizes(size_choices(size), self._size_name)
+        self._view.fix_picture_size(fixed_size(self._size_name, size))
+
+    @Slot(float)
+    def _count_frame(self, seconds: float) -> None:
+        """Take a picture that was painted, and tell its figures unless others were told just now."""
+        self._rate.add(seconds)
+        self._has_new_figures = True
+        if not self._figures_timer.isActive():
+            self._tell_new_figures()
+
+    @Slot()
+    def _tell_new_figures(self) -> None:
+        if self._has_new_figures and self._drawn is not None:
+            self._has_new_figures = False
+            self._figures_timer.start()
+            self._view.show_figures(figures_text(self._drawn.figures, self._rate.per_second()))
+            self._view.corner().show_details(drawing_text(self._drawn.figures))
+            self._tell_figures()
+
+    def _tell_figures(self) -> None:
+        drawn = self._drawn if self._is_shown else None
+        self.frame_measured.emit(None if drawn is None else drawn.figures)
+
+    def _caption(self) -> str:
+        document = self._session.document
+        count = document.triangle_count
+        noun = "triangle" if count == 1 else "triangles"
+        parts = [f"{count:,} {noun}."]
+        if isinstance(document.scene, Scene):
+            parts.append("Camera and view volume are drawn as lines, the near plane thick.")
+        else:
+            parts.append("Given in clip space: the box is the view volume, its near face in front.")
+        if self.focus is not None:
+            parts.append("Drag a corner to move it; click another triangle to choose it.")
+        else:
+            parts.append("Click a triangle to choose it.")
+        if count > MOST_TRIANGLES:
+            parts.append(f"One in {-(-count // MOST_TRIANGLES)} is drawn.")
+        return " ".join(parts)
+
+    # Acting.
+
+    def _go_home(self) -> None:
+        """Look at the whole space from where it is first seen."""
+        if self._space is not None:
+            self._home = self._fitted_home(self._space)
+            self._view.set_home(self._home)
+            self._view.set_orbit(self._home)
+
+    def _fitted_home(self, space: ViewSpace) -> Orbit:
+        """Return the orbit that shows the whole space in the picture as it is now."""
+        width, height = self._view.picture_size()
+        return fitted(space.home, space.center, space.radius, width / height)
+
+    @Slot(object)
+    def _turned(self, orbit: Orbit) -> None:
+        self._draw()
+
+    @Slot()
+    def _resized(self) -> None:
+        if self._space is None or not self._view.isVisible():
+            return
+        is_at_home, self._home = self._view.orbit() == self._home, self._fitted_home(self._space)
+        self._view.set_home(self._home)
+        if is_at_home:
+            self._view.set_orbit(self._home)
+        self._draw()
+
+    @Slot(object)
+    def _theme_changed(self, theme: object) -> None:
+        self._draw()
+
+    @Slot(int, int)
+    def _pick(self, column: int, row: int) -> None:
+        if self._drawn is not None:
+            self._picker.start(partial(triangle_seen, self._drawn.shot, column, row))
+
+    @Slot(object)
+    def _take_picked(self, triangle: int) -> None:
+        if triangle >= 0:
+            self.triangle_picked.emit(triangle)
+
+    @Slot(int, float, float)
+    def _drag(self, index: int, x: float, y: float) -> None:
+        latest, space, triangle = self._session.latest, self._space, self.focus
+        if space is None or triangle is None or self._drawn is None:
+            return
+        corner, shot = space.corners(triangle)[index], self._drawn.shot
+        place = moved_parallel(space, shot.orbit, shot.size, corner, x, y)
+        try:
+            moved = move_corner_to(replace(space, scene=latest.scene), triangle, index, place)
+        except ValueError as error:
+            self.refused.emit(str(error))
+            return
+        self._session.edit(replace(latest, scene=moved), self._gesture)
+
+    @Slot(int)
+    def _end_drag(self, index: int) -> None:
+        self._drags += 1
+
+    @Slot(int)
+    def _take_drag_back(self, index: int) -> None:
+        self._session.take_back(self._gesture)
+        self._drags += 1
+
+    @property
+    def _gesture(self) -> str:
+        return f"drag in space {self._drags}"
+
+
+def _place_of(document: Document) -> tuple[str, str, int, bool]:
+    """Return what stays the same while one scene is edited."""
+    return document.title, document.path, document.triangle_count, isinstance(document.scene, Scene)

@@ -1,0 +1,223 @@
+"""The one table of keys: menus, tooltips and the ``?`` page are made from it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from core.explain.stage_texts import SHORT_TITLES
+from core.records.frame import STAGES
+
+
+@dataclass(frozen=True)
+class KeyAction:
+    """Something a key does."""
+
+    name: str
+    """Name of the handler, as ``step_forward``."""
+    keys: tuple[str, ...]
+    """Qt's portable texts; the first is shown in menus."""
+    title: str
+    group: str
+    """Heading on the ``?`` page."""
+    menu: str = ""
+    """Menu that it stands in; empty: none."""
+    is_checkable: bool = False
+    page: str = ""
+    """The page on which it does something; empty: all of them."""
+
+
+def _on(page: str, *actions: KeyAction) -> Iterator[KeyAction]:
+    """Yield actions as those of one page."""
+    return (replace(action, page=page) for action in actions)
+
+
+STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
+    "Stepping",
+    "Pixels",
+    "Stages",
+    "Run to",
+    "View",
+    "Edit",
+    "Files",
+    "Pages",
+)
+MEASURING = "Measuring"
+EXPERIMENTS = "Experiments"
+MAPS = "Maps"
+CHARTS = "Charts"
+PLANNING = "Planning"
+
+ACTIONS: tuple[KeyAction, ...] = (
+    *_on(
+        "step",
+        KeyAction("step_forward", ("Right",), "Step forward", STEPPING, "Step"),
+        KeyAction("step_back", ("Left",), "Step back", STEPPING, "Step"),
+        KeyAction("larger_forward", ("Shift+Right", "F10"), "Larger step forward (over)", STEPPING, "Step"),
+        KeyAction("larger_back", ("Shift+Left", "Ctrl+F10"), "Larger step back", STEPPING, "Step"),
+        KeyAction("level_in", ("Down", "F11"), "Smaller steps (into)", STEPPING, "Step"),
+        KeyAction("level_out", ("Up", "Shift+F11"), "Larger steps (out)", STEPPING, "Step"),
+        KeyAction("go_first", ("Home",), "Go to the start of the stage", STEPPING, "Step"),
+        KeyAction("go_last", ("End",), "Go to the end of the stage", STEPPING, "Step"),
+        KeyAction("toggle_play", ("Space",), "Play or pause", STEPPING, "Step"),
+        KeyAction("faster", ("+", "="), "Play faster", STEPPING),
+        KeyAction("slower", ("-",), "Play slower", STEPPING),
+        KeyAction(
+            "visited_back", ("Ctrl+[",), "Back to where the cursor was before the jump", STEPPING, "Step"
+        ),
+        KeyAction("visited_forward", ("Ctrl+]",), "Forward again", STEPPING, "Step"),
+        KeyAction("next_at_pin", ("J",), "Next step at the pinned pixel", RUNNING, "Step"),
+        KeyAction("previous_at_pin", ("K",), "Previous step at the pinned pixel", RUNNING, "Step"),
+        KeyAction("next_event", ("N",), "Next event of the chosen kind", RUNNING, "Step"),
+        KeyAction("previous_event", ("Shift+N",), "Previous event of the chosen kind", RUNNING, "Step"),
+        KeyAction("run_forward", ("F5",), "Run to the next breakpoint", RUNNING, "Step"),
+        KeyAction("run_back", ("Ctrl+F5",), "Run back to the last breakpoint", RUNNING, "Step"),
+        KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
+        KeyAction("edit_condition", ("Ctrl+F9",), "Breakpoint on a condition…", RUNNING, "Step"),
+        KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
+        *(
+            KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
+            for k in range(10)
+        ),
+        *(
+            KeyAction(
+                f"stage_{k}",
+                (str((k + 1) % 10),) if k < 10 else (),
+                SHORT_TITLES[stage],
+                STAGE_GROUP,
+                "Stage",
+            )
+            for k, stage in enumerate(STAGES)
+        ),
+        KeyAction("next_stage", ("Ctrl+PgDown",), "Next stage", STAGE_GROUP, "Stage"),
+        KeyAction("previous_stage", ("Ctrl+PgUp",), "Previous stage", STAGE_GROUP, "Stage"),
+        KeyAction("pin_left", ("Alt+Left",), "Move the pin left", POINTING),
+        KeyAction("pin_right", ("Alt+Right",), "Move the pin right", POINTING),
+        KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
+        KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
+        KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
+    ),
+    KeyAction("unpin", ("Escape",), "Close what is on top, stop what runs, or take the pin away", VIEWING),
+    *_on(
+        "step",
+        KeyAction("fit_view", ("W",), "Show all stepped pixels", VIEWING, "View"),
+        KeyAction("next_view", ("V",), "Next main view", VIEWING, "View"),
+        KeyAction("compare", ("Ctrl+D",), "A | B | difference", VIEWING, "View", is_checkable=True),
+        KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
+    ),
+    KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
+    KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
+    KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
+    KeyAction("page_plan", ("Alt+4",), "What does this scene need?", PAGES, "View", is_checkable=True),
+    KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
+    KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Page before", PAGES),
+    KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
+    KeyAction(
+        "presenter",
+        ("Ctrl+Shift+P",),
+        "Presenter: full screen, large type",
+        VIEWING,
+        "View",
+        is_checkable=True,
+    ),
+    KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
+    KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
+    KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
+    *_on(
+        "step",
+        KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
+        KeyAction(
+            "toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True
+        ),
+        KeyAction("focus_all", ("A",), "Step all triangles", EDITING, "Raster"),
+        KeyAction(
+            "toggle_cleared", ("Ctrl+K",), "Start from cleared buffers", EDITING, "Raster", is_checkable=True
+        ),
+    ),
+    *_on(
+        "compare",
+        KeyAction("measure", ("F5",), "Measure all methods of the family", MEASURING, "Compare"),
+        KeyAction(
+            "measure_scene", ("Ctrl+M",), "Measure the whole pipeline on the open scene", MEASURING, "Compare"
+        ),
+        KeyAction("cancel_measuring", ("Shift+F5",), "Cancel measuring", MEASURING, "Compare"),
+        KeyAction("next_family", ("Ctrl+PgDown",), "Next family", MEASURING, "Compare"),
+        KeyAction("previous_family", ("Ctrl+PgUp",), "Family before", MEASURING, "Compare"),
+        KeyAction("next_error", ("E",), "Next error on the axis", CHARTS, "Compare"),
+        KeyAction("next_cost", ("X",), "Time, or the next count of work, on the axis", CHARTS, "Compare"),
+        KeyAction("show_numbers", ("T",), "Charts or numbers", CHARTS, "Compare"),
+        KeyAction("fit_charts", ("W",), "Show everything in the charts", CHARTS, "Compare"),
+        KeyAction("step_run", ("Ctrl+Return",), "Open the chosen run in the stepper", CHARTS, "Compare"),
+        KeyAction(
+            "step_divergence",
+            ("Ctrl+Shift+Return",),
+            "Step two runs to their first divergence",
+            CHARTS,
+            "Compare",
+        ),
+        KeyAction("copy_pictures", (), "Copy the pictures", CHARTS, "Compare"),
+    ),
+    *_on(
+        "stability",
+        KeyAction("run_experiment", ("F5",), "Run every method of the experiment", EXPERIMENTS, "Stability"),
+        KeyAction("cancel_experiment", ("Shift+F5",), "Cancel running", EXPERIMENTS, "Stability"),
+        KeyAction("next_experiment", ("Ctrl+PgDown",), "Next experiment", EXPERIMENTS, "Stability"),
+        KeyAction("previous_experiment", ("Ctrl+PgUp",), "Experiment before", EXPERIMENTS, "Stability"),
+        KeyAction("step_cell", ("Ctrl+Return",), "Open the chosen cell in the stepper", MAPS, "Stability"),
+        KeyAction("shrink_cell", ("S",), "Shrink the chosen cell", MAPS, "Stability"),
+        KeyAction("save_case", (), "Save the smallest case…", MAPS, "Stability"),
+    ),
+    *_on(
+        "plan",
+        KeyAction("look", ("F5",), "Look at the scene and choose", PLANNING, "Plan"),
+        KeyAction("cancel_look", ("Shift+F5",), "Stop looking", PLANNING, "Plan"),
+        KeyAction("apply_plan", ("Ctrl+Return",), "Apply what was chosen", PLANNING, "Plan"),
+        KeyAction("plan_difference", ("D",), "Difference from everything on", PLANNING, "Plan"),
+        KeyAction("plan_chart", ("Ctrl+M",), "Show the choice on the chart of the scene", PLANNING, "Plan"),
+        KeyAction("plan_findings", ("I",), "Show or hide what was seen in the scene", PLANNING, "Plan"),
+    ),
+    KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
+    KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
+    KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),
+    KeyAction("copy_view", ("Ctrl+Shift+C",), "Copy view", FILES, "File"),
+    KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
+)
+
+LOCAL_KEYS = (
+    *_on(
+        "compare",
+        KeyAction(
+            "chart_go", ("Left", "Right", "Up", "Down"), "In a chart: go to the neighbouring point", CHARTS
+        ),
+        KeyAction(
+            "chart_choose", ("Return",), "In a chart: open the point’s pictures, as a click does", CHARTS
+        ),
+        KeyAction(
+            "chart_add",
+            ("Shift+Return",),
+            "In a chart: lock a second point to the first, as Ctrl+click does",
+            CHARTS,
+        ),
+    ),
+    *_on(
+        "stability",
+        KeyAction("map_go", ("Left", "Right", "Up", "Down"), "In a map: go to the neighbouring cell", MAPS),
+        KeyAction(
+            "map_next",
+            ("Tab",),
+            "In a map: the same cell of the next map; Shift+Tab: of the one before",
+            MAPS,
+        ),
+        KeyAction("map_open", ("Return",), "In a map: open the chosen cell in the stepper", MAPS),
+    ),
+)
+"""What a widget does by itself while it has the keyboard: for the page of keys only."""
+
+
+def key_text(action: KeyAction) -> str:
+    """Return the keys of an action as they are shown."""
+    names = {"PgDown": "Page Down", "PgUp": "Page Up"}
+    texts = []
+    for key in action.keys:
+        for short, long in names.items():
+            key = key.replace(short, long)
+        texts.append(key)
+    return ", ".join(texts)

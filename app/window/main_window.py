@@ -1,0 +1,376 @@
+"""The main window: its layout, what every action does, and how it comes back as it was left."""
+
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+
+from PySide6.QtCore import QByteArray, QEvent, Qt, Slot
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
+
+from app.files.file_desk import FileDesk
+from app.files.state_files import EXTENSION, StateFileError, save_state
+from app.pages.page_bar import Page, Pages
+from app.pages.page_table import PAGE_KINDS, page_of_file
+from app.pages.step.opening import StepOpening
+from app.pages.step.page import StepPage
+from app.session.document import Document
+from app.session.document_edits import DocumentEdits
+from app.session.session import Session
+from app.window.appearance import Look, the_application
+from app.window.key_focus import has_use_for
+from app.window.menus import Menus
+from app.window.message_words import sentence_case
+from app.window.overlays import Overlays
+from app.window.preferences import Preferences, preferences_folder, save_preferences, with_recent_file
+from core.records.steps import Level
+from core.scene import ClipScene
+from widgets.basics.message_bar import Message, MessageBar, MessageKind
+
+HINT_MILLISECONDS = 8000
+"""How long a hint stays in the status bar."""
+
+
+class MainWindow(QMainWindow):
+    """One session and the pages around it."""
+
+    def __init__(self, document: Document, preferences: Preferences | None = None) -> None:
+        super().__init__()
+        self.preferences = preferences or Preferences()
+        self.session = Session(document, self)
+        self.messages = MessageBar(self)
+        self.pages = Pages(PAGE_KINDS, self.session, self.messages, self)
+        step_page = self.pages.page("step")
+        assert isinstance(step_page, StepPage)
+        self.page = step_page
+        self._has_mouse_focus = False
+        self._keeps_results = False
+        self._lay_out()
+        self.menus = Menus(self)
+        self.menus.show_recent(self.preferences.recent_files)
+        self.look = Look(self)
+        self.edits = DocumentEdits(self.session, self)
+        self.overlays = Overlays(self.page, self.pages, self)
+        self.files = FileDesk(self.page, self.pages, self.messages, self)
+        self.opening = StepOpening(self.session, self.page, self)
+        self.setAcceptDrops(True)
+        self.setMinimumSize(900, 600)
+        self._connect()
+        self._take_page(self.page)
+        self._show_page("step")
+        self._show_document()
+
+    # Layout.
+
+    def _lay_out(self) -> None:
+        self.setCentralWidget(self.pages)
+        self.messages.clear()
+        self.pointed = QLabel(self)
+        self.pointed.setContentsMargins(0, 0, 8, 0)
+        self.statusBar().addPermanentWidget(self.pointed)
+        self.statusBar().setSizeGripEnabled(False)
+
+    def _connect(self) -> None:
+        session, page, menus = self.session, self.page, self.menus
+        session.document_changed.connect(self._show_document)
+        session.history_changed.connect(self._show_history)
+        session.hover_changed.connect(self._show_pointed)
+        session.pin_changed.connect(self._show_pointed)
+        session.cursor_changed.connect(self._show_pointed)
+        session.edit_failed.connect(self._edit_failed)
+        self.pages.page_made.connect(self._take_page)
+        self.pages.page_changed.connect(self._show_page)
+        page.timeline.speed_changed.connect(self._remember_speed)
+        page.stepping.message_ended.connect(self._end_hint)
+        page.views.triangle_picked.connect(self.edits.focus_triangle)
+        page.view_bar.currentChanged.connect(self._show_view)
+        menus.action_chosen.connect(self.run_action)
+        menus.scene_chosen.connect(self.open_path)
+        menus.recent_chosen.connect(self.open_path)
+        menus.raster_chosen.connect(self.edits.choose_raster)
+        menus.theme_chosen.connect(self.look.set_theme)
+        self.look.theme_changed.connect(self._remember_theme)
+        self.opening.message_sent.connect(self._show_message)
+        self.opening.opened.connect(self._show_step)
+        self.edits.edit_refused.connect(self.refuse)
+        self.edits.edit_pointless.connect(self._tell_pointless)
+        self.files.path_chosen.connect(self.open_path)
+        self.files.message_sent.connect(self._show_message)
+        self.files.file_used.connect(self._remember_file)
+        self.files.progress.edit_cancelled.connect(self._edit_cancelled)
+        self.messages.message_dismissed.connect(self.messages.clear)
+        the_application().focusChanged.connect(self._focus_moved)
+
+    # Actions by key and menu.
+
+    @Slot(str)
+    def run_action(self, name: str) -> None:
+        """Do what the key of this name does."""
+        if name.startswith("page_"):
+            self.pages.show_page(name.removeprefix("page_"))
+            self.menus.show_page(self.pages.current_name)
+        else:
+            {**self._handlers(), **self.pages.current.handlers()}[name]()
+
+    def _handlers(self) -> dict[str, Callable[[], object]]:
+        """Return what the actions of ``app.window.keys.ACTIONS`` do that a page cannot do alone."""
+        return {
+            "next_page": lambda: self.pages.show_next(1),
+            "previous_page": lambda: self.pages.show_next(-1),
+            "edit_condition": self.overlays.ask_condition,
+            "go_to_pixel": self.overlays.ask_pixel,
+            "unpin": self.dismiss,
+            "predict": self.toggle_predict,
+            "toggle_theme": self.look.toggle_theme,
+            "presenter": self.toggle_presenter,
+            "show_keys": self.overlays.toggle_keys,
+            "undo": self.session.undo,
+            "redo": self.session.redo,
+            "fit_region": self.fit_to_triangle,
+            "toggle_shared": self.edits.toggle_shared,
+            "focus_all": self.edits.focus_all,
+            "toggle_cleared": self.edits.toggle_cleared,
+            "open_file": self.files.ask_file,
+            "save_state": self.files.ask_save,
+            "export_view": self.files.ask_export,
+            "copy_view": self.files.copy_view,
+            "quit": self.close,
+        }
+
+    @Slot(str)
+    def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
+        """Show a message where the window is looked at; it does not stop anything.
+
+        What only informs goes to the status bar, so that the page does not move while one steps.
+        """
+        text = sentence_case(text)
+        if kind is MessageKind.INFORMATION and not details:
+            self.statusBar().showMessage(text, HINT_MILLISECONDS)
+        else:
+            self.messages.show_message(Message(kind, text, details))
+
+    @Slot(str)
+    def _end_hint(self, text: str) -> None:
+        """Take a hint away that is true no longer, if it is still shown."""
+        if self.statusBar().currentMessage() == sentence_case(text):
+            self.statusBar().clearMessage()
+
+    @Slot(str)
+    def _warn(self, text: str) -> None:
+        self.tell(text, MessageKind.WARNING)
+
+    @Slot(object)
+    def _show_message(self, message: Message) -> None:
+        self.tell(message.text, message.kind, message.details)
+
+    @Slot(object)
+    def refuse(self, error: Exception) -> None:
+        """Say why an edit came to nothing."""
+        self.tell(f"{error}", MessageKind.WARNING)
+        self.page.scene.refresh()
+        self._show_document()
+
+    @Slot(object)
+    def _edit_failed(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self.refuse(error)
+
+    @Slot(str)
+    def _tell_pointless(self, text: str) -> None:
+        self.tell(text)
+        self._show_document()
+
+    @Slot()
+    def _edit_cancelled(self) -> None:
+        self.refuse(ValueError("The edit was cancelled; nothing has changed."))
+
+    def dismiss(self) -> None:
+        """Close what is open on top, stop what runs, or else take the pin away."""
+        if self.overlays.close_top():
+            return
+        if self.files.progress.is_busy:
+            self.files.progress.cancel()
+        elif self.messages.isVisible():
+            self.messages.clear()
+        else:
+            self.pages.current.dismiss()
+
+    def fit_to_triangle(self) -> None:
+        """Fit the raster to the triangle in focus, and the 3D view too where that is shown."""
+        self.edits.fit_region()
+        if self.page.current_view() == "scene":
+            self.page.views.look_at_focus()
+
+    def toggle_predict(self) -> None:
+        """Ask before showing, or stop asking."""
+        is_on = not self.page.predicting.is_active
+        self.page.set_predicting(is_on)
+        self.menus.show_checked("predict", is_on)
+
+    def toggle_presenter(self) -> None:
+        """Fill the screen with large type, or go back to the window."""
+        self.look.toggle_presenter()
+        self.menus.show_checked("presenter", self.isFullScreen())
+
+    # Pages.
+
+    @Slot(object)
+    def _take_page(self, page: Page) -> None:
+        """Listen to a page that has just been made, and give its panes the sizes that they had."""
+        page.message_sent.connect(self.tell)
+        page.edit_refused.connect(self._warn)
+        page.step_requested.connect(self.opening.open_request)
+        page.action_requested.connect(self.run_action)
+        page.restore_layout(self.preferences.layout)
+        if self._keeps_results:
+            page.keep_results()
+
+    @Slot(str)
+    def _show_page(self, name: str) -> None:
+        """Let the keys and menus be those of the page that is shown now."""
+        self.menus.show_page(name)
+        self.overlays.show_page(name)
+        self._show_pointed()
+
+    @Slot()
+    def _show_step(self) -> None:
+        self.pages.show_page("step")
+
+    # Showing the state.
+
+    @Slot()
+    def _show_view(self) -> None:
+        self.menus.show_checked("compare", self.page.current_view() == "compare")
+
+    @Slot()
+    def _show_document(self) -> None:
+        document = self.session.document
+        self.setWindowTitle(f"{document.title} – Rasterscope" if document.title else "Rasterscope")
+        shared = isinstance(document.scene, ClipScene) and document.scene.shared is not None
+        self.menus.show_checked("toggle_shared", shared or not isinstance(document.scene, ClipScene))
+        self.menus.show_checked("toggle_cleared", document.before == "cleared")
+        self._show_history()
+        self._show_pointed()
+
+    @Slot()
+    def _show_history(self) -> None:
+        self.menus.show_enabled("undo", self.session.can_undo)
+        self.menus.show_enabled("redo", self.session.can_redo)
+
+    @Slot()
+    def _show_pointed(self) -> None:
+        is_stepping = self.pages.current is self.page
+        pixel = (self.session.hover or self.session.pin) if is_stepping else None
+        self.pointed.setText(
+            f"pixel ({pixel[0]}, {pixel[1]})   {self.page.pointed_text(pixel)}" if pixel else ""
+        )
+
+    def report(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        """Tell a mistake of the program in the window too; what is open is still there."""
+        text = "".join(traceback.format_exception(kind, error, trace))
+        print(text, file=sys.stderr)
+        said = f"Something went wrong in the program ({kind.__name__}: {error}). What is open is as it was."
+        self.messages.show_message(Message(MessageKind.ERROR, said, text))
+
+    # Coming and going.
+
+    def restore(self) -> None:
+        """Put window and panes where they were left, and keep results from this start to the next."""
+        self._keeps_results = True
+        if geometry := self.preferences.geometry:
+            self.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii")))
+        for page in self.pages.made:
+            page.restore_layout(self.preferences.layout)
+            page.keep_results()
+        self.page.inspector.set_folded(self.preferences.folded_cards)
+        self.page.timeline.show_speed(self.preferences.speed)
+        self.session.set_level(Level(self.preferences.level))
+        self.pages.show_page(self.preferences.page)
+
+    @Slot(float)
+    def _remember_speed(self, speed: float) -> None:
+        self.preferences = self.preferences.model_copy(update={"speed": speed})
+
+    @Slot(str)
+    def _remember_theme(self, name: str) -> None:
+        self.preferences = self.preferences.model_copy(update={"theme": name})
+        self.menus.show_theme(name)
+
+    @Slot(str)
+    def _remember_file(self, path: str) -> None:
+        self.preferences = with_recent_file(self.preferences, path)
+        self.menus.show_recent(self.preferences.recent_files)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Remember window, panes and scene, end all work, then close."""
+        layout = dict(self.preferences.layout)
+        for page in self.pages.made:
+            page.stop()
+            layout |= page.layout_state()
+        self.files.shut_down()
+        self.opening.shut_down()
+        self.session.tracing.shut_down()
+        try:
+            last = preferences_folder() / f"last{EXTENSION}"
+            last.parent.mkdir(parents=True, exist_ok=True)
+            save_state(str(last), self.files.state())
+            self.preferences = self.preferences.model_copy(
+                update={
+                    "geometry": self.saveGeometry().toBase64().toStdString(),
+                    "layout": layout,
+                    "page": self.pages.current_name,
+                    "last_state": str(last),
+                    "folded_cards": self.page.inspector.folded(),
+                    "level": int(self.session.cursor.level),
+                }
+            )
+            save_preferences(self.preferences)
+        except (OSError, StateFileError) as error:
+            print(f"rasterscope: the window could not be remembered: {error}", file=sys.stderr)
+        super().closeEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep inside what lies over the page."""
+        super().resizeEvent(event)
+        self.overlays.place()
+
+    def event(self, event: QEvent) -> bool:
+        """Leave a control that Tab has reached the keys it needs: Space presses a button, it does not play."""
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
+            is_needed = not self._has_mouse_focus and has_use_for(self.focusWidget(), event)
+            if is_needed:
+                event.accept()
+                return True
+        return super().event(event)
+
+    @Slot(QWidget, QWidget)
+    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
+        """Remember whether the focus was given by a click: then the keys go on stepping."""
+        if now is not None and now.window() is self:
+            self._has_mouse_focus = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open the file that was dropped."""
+        paths = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
+        if len(paths) > 1:
+            self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
+        if paths:
+            self.open_path(paths[0])
+
+    @Slot(str)
+    def open_path(self, path: str) -> None:
+        """Open a scene or a state, or what a page knows how to show, on that page."""
+        name = page_of_file(path)
+        if name:
+            self.pages.show_page(name)
+            self.pages.current.open_path(path)
+        else:
+            self.files.open_path(path)

@@ -1,0 +1,165 @@
+"""The menus and their actions, made from the one table of keys."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu
+
+from app.session.document import TEACHING_SIZES
+from app.window.appearance import THEMES
+from app.window.keys import ACTIONS, KeyAction, key_text
+from lessons.scenes import CATALOGUE
+from widgets.basics.theme import current_theme
+
+MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "Plan", "View", "Help")
+BEFORE_SEPARATORS = (
+    "save_state",
+    "copy_view",
+    "redo",
+    "visited_forward",
+    "next_view",
+    "predict",
+    "page_plan",
+    "previous_family",
+    "fit_charts",
+    "previous_experiment",
+)
+"""Actions that a separator follows."""
+
+
+class Menus(QObject):
+    """Fills the menu bar of a window, holds its actions, and tells what was chosen."""
+
+    action_chosen = Signal(str)
+    """Name of an action of ``app.window.keys.ACTIONS``, by key or menu."""
+    scene_chosen = Signal(str)
+    """Name of a built-in scene."""
+    recent_chosen = Signal(str)
+    """Path of a file."""
+    raster_chosen = Signal(int, int)
+    """Columns and rows for the whole view."""
+    theme_chosen = Signal(str)
+
+    def __init__(self, window: QMainWindow) -> None:
+        super().__init__(window)
+        self.actions_by_name: dict[str, QAction] = {}
+        self.recent_menu = QMenu("Open &recent", window)
+        self.scene_menu = QMenu("Built-in &scenes", window)
+        self.theme_group = QActionGroup(self)
+        menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
+        self._menus = menus
+        for entry in ACTIONS:
+            made = self._make_action(entry, window)
+            if entry.menu:
+                menus[entry.menu].addAction(made)
+            else:
+                window.addAction(made)
+            if entry.name == "open_file":
+                menus["File"].addMenu(self.recent_menu)
+                menus["File"].addMenu(self.scene_menu)
+            if entry.name in BEFORE_SEPARATORS:
+                menus[entry.menu].addSeparator()
+        self._fill_scenes()
+        self._add_rasters(menus["Raster"])
+        self._add_themes(menus["View"])
+        self.recent_menu.triggered.connect(self._choose_recent)
+        self.show_recent(())
+
+    def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
+        made = QAction(entry.title, window)
+        made.setShortcuts([QKeySequence(key) for key in entry.keys])
+        made.setCheckable(entry.is_checkable)
+        made.setData(entry.name)
+        if entry.keys:
+            made.setToolTip(f"{entry.title} ({key_text(entry)})")
+        made.triggered.connect(self._choose_action)
+        self.actions_by_name[entry.name] = made
+        return made
+
+    def _fill_scenes(self) -> None:
+        for scene in CATALOGUE:
+            made = self.scene_menu.addAction(scene.title)
+            made.setStatusTip(scene.description)
+            made.setToolTip(scene.description)
+            made.setData(scene.name)
+        self.scene_menu.setToolTipsVisible(True)
+        self.scene_menu.triggered.connect(self._choose_scene)
+
+    def _add_rasters(self, menu: QMenu) -> None:
+        sizes = menu.addMenu("Whole view at")
+        for columns, rows in TEACHING_SIZES:
+            made = sizes.addAction(f"{columns} × {rows}")
+            made.setData((columns, rows))
+        sizes.triggered.connect(self._choose_raster)
+
+    def _add_themes(self, menu: QMenu) -> None:
+        themes = menu.addMenu("Theme")
+        for name in THEMES:
+            made = themes.addAction({"presenter": "Presenter (large type)"}.get(name, name.capitalize()))
+            made.setCheckable(True)
+            made.setData(name)
+            made.setChecked(THEMES[name] == current_theme())
+            self.theme_group.addAction(made)
+        themes.triggered.connect(self._choose_theme)
+
+    # Showing.
+
+    def show_checked(self, name: str, is_checked: bool) -> None:
+        """Show whether what an action switches is on."""
+        self.actions_by_name[name].setChecked(is_checked)
+
+    def show_enabled(self, name: str, is_enabled: bool) -> None:
+        """Show whether an action can be done now."""
+        self.actions_by_name[name].setEnabled(is_enabled)
+
+    def show_page(self, name: str) -> None:
+        """Offer the actions of a page and those of all pages; the others' keys are free for what is on the page."""
+        for entry in ACTIONS:
+            if entry.page:
+                self.show_enabled(entry.name, entry.page == name)
+            if entry.name.startswith("page_"):
+                self.show_checked(entry.name, entry.name == f"page_{name}")
+        for title, menu in self._menus.items():
+            pages = {entry.page for entry in ACTIONS if entry.menu == title}
+            menu.menuAction().setEnabled(bool(pages & {"", name}))
+
+    def show_recent(self, paths: Sequence[str]) -> None:
+        """Show the files that were open last."""
+        self.recent_menu.clear()
+        for path in paths:
+            self.recent_menu.addAction(path).setData(path)
+        if self.recent_menu.isEmpty():
+            self.recent_menu.addAction("No files yet").setEnabled(False)
+
+    @Slot(str)
+    def show_theme(self, name: str) -> None:
+        """Show which theme is on."""
+        for action in self.theme_group.actions():
+            action.setChecked(action.data() == name)
+
+    # What was chosen.
+
+    @Slot()
+    def _choose_action(self) -> None:
+        action = self.sender()
+        assert isinstance(action, QAction)
+        self.action_chosen.emit(action.data())
+
+    @Slot(QAction)
+    def _choose_scene(self, action: QAction) -> None:
+        self.scene_chosen.emit(action.data())
+
+    @Slot(QAction)
+    def _choose_recent(self, action: QAction) -> None:
+        if action.data():
+            self.recent_chosen.emit(action.data())
+
+    @Slot(QAction)
+    def _choose_raster(self, action: QAction) -> None:
+        columns, rows = action.data()
+        self.raster_chosen.emit(columns, rows)
+
+    @Slot(QAction)
+    def _choose_theme(self, action: QAction) -> None:
+        self.theme_chosen.emit(action.data())

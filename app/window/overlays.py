@@ -1,0 +1,94 @@
+"""What lies over the page: the page of all keys, and the bar that asks for a pixel or a condition."""
+
+from PySide6.QtCore import QObject, Slot
+from PySide6.QtWidgets import QWidget
+
+from app.pages.step.page import StepPage
+from app.window.keys import ACTIONS, LOCAL_KEYS, key_text
+from core.trace.conditions import variable_names
+from widgets.basics.ask_bar import AskBar
+from widgets.basics.key_help import KeyEntry, KeyHelp
+
+
+class Overlays(QObject):
+    """Shows, places and closes the overlays, and takes what is typed into them."""
+
+    def __init__(self, page: StepPage, below: QWidget, window: QWidget) -> None:
+        """Lie in ``window``, inside of its part ``below``."""
+        super().__init__(window)
+        self._page, self._session, self._below = page, page.session, below
+        self.key_help = KeyHelp(window)
+        self.key_help.hide()
+        self.key_help.closed.connect(self.key_help.hide)
+        self.ask_bar = AskBar(window)
+        self.ask_bar.text_entered.connect(self._take_answer)
+
+    def show_page(self, name: str) -> None:
+        """Show the keys of a page and those of all pages."""
+        actions = [action for action in (*ACTIONS, *LOCAL_KEYS) if action.keys and action.page in ("", name)]
+        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
+        self.ask_bar.hide()
+
+    def place(self) -> None:
+        """Keep what lies over the page inside of it."""
+        inside = self._below.geometry()
+        if self.key_help.isVisible():
+            self.key_help.setGeometry(inside.adjusted(24, 24, -24, -24))
+        if self.ask_bar.isVisible():
+            width = min(inside.width() - 48, 720)
+            height = max(self.ask_bar.heightForWidth(width), self.ask_bar.sizeHint().height())
+            self.ask_bar.setGeometry(inside.center().x() - width // 2, inside.top() + 8, width, height)
+
+    def close_top(self) -> bool:
+        """Close the overlay on top; return whether there was one."""
+        for overlay in (self.key_help, self.ask_bar):
+            if overlay.isVisible():
+                overlay.hide()
+                return True
+        return False
+
+    def toggle_keys(self) -> None:
+        """Show or hide the page of all keys."""
+        self.key_help.setVisible(not self.key_help.isVisible())
+        self.place()
+        self.key_help.raise_()
+
+    def ask_pixel(self) -> None:
+        """Ask for a pixel to pin."""
+        first_column, first_row, end_column, end_row = self._session.trace.source.raster.bounds
+        hint = f"Column {first_column} to {end_column - 1}, row {first_row} to {end_row - 1}, as 12, 7."
+        self._ask("pixel", "Go to pixel", hint)
+
+    def ask_condition(self) -> None:
+        """Ask for the condition of a breakpoint."""
+        names = ", ".join(variable_names(self._session.stage_trace))
+        hint = f"F5 stops where it holds. Names here: {names}. Leave it empty to stop nowhere."
+        self._ask("condition", "Break where", hint, self._page.stepping.condition)
+
+    def _ask(self, name: str, label: str, hint: str, text: str = "") -> None:
+        self.ask_bar.ask(name, label, hint, text)
+        self.place()
+        self.ask_bar.raise_()
+
+    @Slot(str, str)
+    def _take_answer(self, name: str, text: str) -> None:
+        try:
+            if name == "pixel":
+                self._go_to_pixel(text)
+            else:
+                self._page.stepping.set_condition(text)
+        except ValueError as error:
+            self.ask_bar.show_problem(f"{error}")
+            self.place()
+        else:
+            self.ask_bar.hide()
+            self._page.grid.setFocus()
+
+    def _go_to_pixel(self, text: str) -> None:
+        parts = text.replace(",", " ").split()
+        if len(parts) != 2 or not all(part.isdecimal() for part in parts):
+            raise ValueError(f"Wanted column and row, as 12, 7; got “{text}”.")
+        pixel = int(parts[0]), int(parts[1])
+        if not self._session.has_pixel(pixel):
+            raise ValueError(f"Pixel ({pixel[0]}, {pixel[1]}) is not in the raster.")
+        self._session.set_pin(pixel)

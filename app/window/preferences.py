@@ -1,0 +1,119 @@
+"""What the program remembers between two starts: a small JSON file in the user's configuration folder."""
+
+import os
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from PySide6.QtCore import QStandardPaths
+
+from app.files.field_problems import field_problem
+from app.files.file_writing import FileWriteError, make_folder, whole_file
+from core.records.frame import STAGES
+
+FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
+"""Environment variable that names another folder."""
+FILE_NAME = "preferences.json"
+RECENT_LIMIT = 10
+
+
+class Preferences(BaseModel):
+    """Everything that comes back as it was left."""
+
+    model_config = ConfigDict(strict=True, frozen=True, extra="ignore", allow_inf_nan=False)
+
+    recent_files: list[str] = []
+    """Absolute paths, the last opened first."""
+    theme: Literal["system", "light", "dark", "presenter"] = "system"
+    geometry: str = ""
+    """Place and size of the window, as Qt saves them, in base 64."""
+    layout: dict[str, str] = {}
+    """Sizes of panes by name, as Qt saves them, in base 64."""
+    folded_cards: list[str] = list(STAGES)
+    """Stages whose card is folded."""
+    last_state: str = ""
+    """State file with what was open last; empty: none."""
+    page: str = "step"
+    """Page that was shown last."""
+    level: Annotated[int, Field(ge=0, le=4)] = 3
+    """Level of stepping, a ``core.records.steps.Level``."""
+    speed: Annotated[float, Field(gt=0)] = 4.0
+    """Steps per second while playing."""
+
+
+def with_recent_file(preferences: Preferences, path: str | Path) -> Preferences:
+    """Return the preferences with ``path`` as the file opened last."""
+    path = os.path.abspath(path)
+    recent = [path, *(other for other in preferences.recent_files if other != path)]
+    return preferences.model_copy(update={"recent_files": recent[:RECENT_LIMIT]})
+
+
+def preferences_folder() -> Path:
+    """Return the folder of preferences and of the last state; it may not exist yet.
+
+    Raises
+    ------
+    FileWriteError
+        If this user has no configuration folder.
+    """
+    chosen = os.environ.get(FOLDER_VARIABLE)
+    if chosen:
+        return Path(chosen).absolute()
+    # Not AppConfigLocation: that one depends on how the running program is called.
+    folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.GenericConfigLocation)
+    if not folder:
+        raise FileWriteError(f"there is no folder for preferences; {FOLDER_VARIABLE} may name one")
+    return Path(folder) / "rasterscope"
+
+
+def load_preferences() -> tuple[Preferences, str]:
+    """Read the preferences.
+
+    Returns
+    -------
+    Preferences
+        Those of the file, without recent files that are gone; the defaults where there is none or it is
+        broken.
+    str
+        What to tell the user, empty if all is well. A broken file is kept under the ending ``.broken``.
+    """
+    try:
+        path = preferences_folder() / FILE_NAME
+        content = path.read_bytes()
+    except FileNotFoundError:
+        return Preferences(), ""
+    except OSError as problem:
+        reason = problem.strerror or str(problem)
+        return Preferences(), f"The preferences cannot be read: {reason.lower()}. The defaults are used."
+    try:
+        preferences = Preferences.model_validate_json(content)
+    except ValidationError as problem:
+        return Preferences(), _set_aside(path, field_problem(problem))
+    recent = [name for name in preferences.recent_files if os.path.isfile(name)]
+    return preferences.model_copy(update={"recent_files": recent}), ""
+
+
+def _set_aside(path: Path, reason: str) -> str:
+    """Rename a broken file and say so."""
+    broken = path.with_name(path.name + ".broken")
+    try:
+        os.replace(path, broken)
+    except OSError as problem:
+        kept = f"it could not be set aside ({(problem.strerror or str(problem)).lower()})"
+    else:
+        kept = f"it is kept as {broken.name}"
+    return f"The preferences were broken: {reason}. The defaults are used; {kept}."
+
+
+def save_preferences(preferences: Preferences) -> None:
+    """Write the preferences, and the folder where it is missing.
+
+    Raises
+    ------
+    OSError
+        If that is not possible; the message is one sentence.
+    """
+    folder = preferences_folder()
+    make_folder(folder)
+    with whole_file(folder / FILE_NAME) as file:
+        file.write(preferences.model_dump_json(indent=1).encode() + b"\n")

@@ -1,0 +1,156 @@
+"""Starting the window: what it shows first, how it looks, and a picture of it without showing it."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+
+from app.export.views import export_widget
+from app.files.open_any import Opened, open_any
+from app.pages.page_table import page_of_file
+from app.session.document import open_document
+from app.window.appearance import THEMES, the_application
+from app.window.main_window import MainWindow
+from app.window.preferences import Preferences, load_preferences
+from core.fast_path.workers import BandWorkers
+from core.settings import Settings
+from lessons.scenes import CATALOGUE
+from widgets.basics.message_bar import MessageKind
+from widgets.basics.theme import DARK, LIGHT, Theme, apply_theme
+
+if TYPE_CHECKING:
+    from app.pages.page_filling import PageContent
+
+
+def theme_of(name: str, application: QApplication) -> Theme:
+    """Return the theme of a name; ``system`` follows the desktop."""
+    if name in THEMES:
+        return THEMES[name]
+    is_dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
+    return DARK if is_dark else LIGHT
+
+
+def first_document(preferences: Preferences) -> tuple[Opened, str]:
+    """Return what the window shows without a file: what was open last, or else the single triangle."""
+    warning = ""
+    if preferences.last_state:
+        try:
+            return open_any(preferences.last_state), ""
+        except (OSError, ValueError) as error:
+            warning = f"What was open last could not be opened again: {error}"
+    scene = CATALOGUE[0]
+    return Opened(open_document(scene.make(), scene.title)), warning
+
+
+def run_window(target: str | None = None) -> int:
+    """Show the window until it is closed; return the exit code.
+
+    Parameters
+    ----------
+    target : str, optional
+        Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
+        told in the window.
+    """
+    application = the_application()
+    application.setApplicationName("Rasterscope")
+    preferences, warning = load_preferences()
+    apply_theme(application, theme_of(preferences.theme, application))
+    opened, not_reopened = first_document(preferences)
+    window = MainWindow(opened.document, preferences)
+    window.page.views.scene_presenter.draw_with(BandWorkers())
+    window.files.show_opened(opened)
+    window.resize(1280, 800)
+    window.restore()
+    window.show()
+    window.setFocus(Qt.FocusReason.OtherFocusReason)
+    sys.excepthook = window.report
+    for text in (warning, not_reopened):
+        if text:
+            window.tell(text, MessageKind.WARNING)
+    if target is not None:
+        window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
+        window.open_path(target)
+    code = application.exec()
+    sys.excepthook = sys.__excepthook__
+    window.close()
+    return code
+
+
+def grab_window(
+    target: str,
+    path: str,
+    size: tuple[int, int] = (1280, 800),
+    theme: str = "light",
+    stage: str | None = None,
+    step: int | None = None,
+    view: str | None = None,
+    choose: Callable[[Settings], Settings] | None = None,
+    content: "PageContent | None" = None,
+) -> None:
+    """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
+
+    Parameters
+    ----------
+    target : str
+        A mesh, a state, the name of a built-in scene, or a saved study or atlas, which is shown on its page.
+    stage : str, optional
+        A stage of ``core.STAGES``; by default the one that a state file was saved at, or ``raster``.
+    step : int, optional
+        Position in the stage, in operations done; by default all of them.
+    view : str, optional
+        Main view, as ``pixels`` or ``scene``.
+    choose : callable, optional
+        Takes the document's settings and returns those that are shown.
+    content : PageContent, optional
+        Another page, and what it is filled with; by default the Step page, or that of a saved study or atlas.
+
+    Raises
+    ------
+    ValueError, OSError
+        If the file cannot be opened, the picture not be written, or there is no such view, family or experiment.
+    """
+    application = the_application()
+    apply_theme(application, theme_of(theme, application))
+    is_saved = bool(page_of_file(target))
+    opened = Opened(open_document(CATALOGUE[0].make(), CATALOGUE[0].title)) if is_saved else open_any(target)
+    document = opened.document
+    if choose is not None:
+        document = replace(document, settings=choose(document.settings))
+    window = MainWindow(document)
+    window.files.show_opened(replace(opened, document=document))
+    if stage is not None or step is not None or opened.state is None:
+        window.session.set_stage(stage or window.session.cursor.stage, step)
+    if view is not None and view not in window.page.view_names():
+        raise ValueError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
+    if view is not None:
+        window.page.show_view(view)
+    window.resize(*size)
+    window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)
+    window.show()
+    try:
+        if is_saved or content is not None:
+            _fill(window, target if is_saved else "", content)
+        for _ in range(20):
+            application.processEvents()
+        window.page.settle()
+        export_widget(window, path)
+    finally:
+        window.hide()
+        for page in window.pages.made:
+            page.stop()
+
+
+def _fill(window: MainWindow, saved: str, content: "PageContent | None") -> None:
+    """Show a saved study or atlas, or fill a page."""
+    from app.pages.page_filling import (  # All pages come along: not before one is wanted.
+        fill_page,
+        open_saved,
+    )
+
+    if saved:
+        open_saved(window, saved)
+    elif content is not None:
+        fill_page(window, content)

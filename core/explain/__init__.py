@@ -1,0 +1,1 @@
+"""Explanations of every step and method: sentences, formulas, variables and questions. NumPy only."""

@@ -1,0 +1,338 @@
+"""The history of a pixel in plain words: the keys and numbers of ``core.pixel_history`` become sentences.
+
+Every key has one sentence in a table; a number goes through the same text rules as everywhere else.
+"""
+
+from collections.abc import Callable, Mapping
+from math import isfinite
+from typing import Any
+
+from core.explain.number_text import number_text
+from core.pixel_history.records import Link, PixelEvent, PixelHistory
+
+Values = Mapping[str, Any]
+Sentence = str | Callable[[Values], str]
+
+POLYGONS = {3: "a triangle", 4: "a quad", 5: "a pentagon", 6: "a hexagon"}
+
+
+def verdict_sentence(history: PixelHistory) -> str:
+    """Return the first line of a history."""
+    return _sentence(history.verdict)
+
+
+def event_title(event: PixelEvent) -> str:
+    """Return what an event is called: ``Initial value``, ``Clear``, ``Triangle 12, piece 1 of 2``."""
+    if event.triangle < 0:
+        return {"initial": "Initial value", "clear": "Clear"}[event.kind]
+    clip = event.link("clip")
+    if event.primitive >= 0 and clip is not None and clip.values.get("piece_count", 1) > 1:
+        values = clip.values
+        return f"Triangle {event.triangle}, piece {values['piece'] + 1} of {values['piece_count']}"
+    return f"Triangle {event.triangle}"
+
+
+def event_reason(event: PixelEvent) -> str:
+    """Return why an event was kept or rejected, in one line; clipping on the way there comes first."""
+    links = [event.reason]
+    clip = event.link("clip")
+    if clip is not None and clip is not event.reason and clip.key == "clipped":
+        links.insert(0, clip)
+    text = "; ".join(_words(link) for link in links)
+    return text[0].upper() + text[1:] + "."
+
+
+def chain_sentences(event: PixelEvent) -> tuple[tuple[str, str], ...]:
+    """Return stage and sentence of every link, from the vertices to the end."""
+    return tuple((link.stage, link_sentence(link)) for link in event.chain)
+
+
+def count_sentences(history: PixelHistory) -> tuple[str, ...]:
+    """Return one line for every group of triangles that are not listed."""
+    return tuple(
+        f"{_plural(count, 'more triangle')}: {COUNTED[reason]}." for reason, count in history.counts.items()
+    )
+
+
+def link_sentence(link: Link) -> str:
+    """Return the sentence of one link of a chain."""
+    return _sentence(link)
+
+
+def _sentence(link: Link) -> str:
+    text = _words(link)
+    return text[0].upper() + text[1:] + "."
+
+
+def _words(link: Link) -> str:
+    """Return a sentence without its capital and full stop, to be a part of another."""
+    sentence = SENTENCES[link.stage, link.key]
+    return sentence if isinstance(sentence, str) else sentence(link.values)
+
+
+# Pieces of sentences
+
+
+def _plural(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def _pixels(distance: float) -> str:
+    """Return a length in pixels; a very small one in 1/256 of a pixel too."""
+    length = abs(distance)
+    if not isfinite(length):
+        return "an unknown distance"
+    text = f"{number_text(length)} px"
+    if 0 < length < 0.25:
+        text += f" ({number_text(length * 256)}/256)"
+    return text
+
+
+def _corners(numbers: tuple[int, ...]) -> str:
+    """Return ``vertex 2 is``, ``vertices 0 and 1 are`` or ``all vertices are``."""
+    if len(numbers) == 3:
+        return "all vertices are"
+    if len(numbers) == 1:
+        return f"vertex {numbers[0]} is"
+    return "vertices " + " and ".join(map(str, numbers)) + " are"
+
+
+DIVISIONS = {
+    "mirrored": "the division by w has mirrored what is behind the eye",
+    "undefined": "a vertex cannot be divided by its w",
+}
+"""What dividing before clipping did to a triangle."""
+
+
+def _outside(values: Values) -> str:
+    """Return which vertices lie outside which planes; of many planes the first is named.
+
+    Where the division came first, what it did to vertices that are not in front of the eye.
+    """
+    if values["division"]:
+        return DIVISIONS[values["division"]]
+    planes_of: dict[tuple[int, ...], list[str]] = {}
+    for plane, corners in values["outside"]:
+        planes_of.setdefault(corners, []).append(PLANES[plane])
+    parts = []
+    for corners, planes in planes_of.items():
+        more = f" and outside of {_plural(len(planes) - 1, 'more plane')}" if len(planes) > 1 else ""
+        parts.append(f"{_corners(corners)} {planes[0]}{more}")
+    return ", ".join(parts)
+
+
+def _missed(values: Values) -> str:
+    """Return by how much which edge was missed."""
+    if not isfinite(values["distance"]):
+        return f"the pixel centre is outside edge {values['edge']}"
+    text = f"the pixel centre missed edge {values['edge']} by {_pixels(values['distance'])}"
+    if not values["is_exact"] and abs(values["ulps"]) < 1000:
+        text += f", {number_text(abs(values['ulps']))} units in the last place"
+    return text
+
+
+def _tie(values: Values) -> str:
+    on_edge = [k for k in range(3) if values["ties"][k] and not values["owns_tie"][k]]
+    names = " and ".join(f"edge {k}" for k in on_edge)
+    return f"the pixel centre is exactly on {names}, which the triangle does not own"
+
+
+def _not_here(values: Values) -> str:
+    """Return the nearest edge and its distance, or that the pixel was inside of all edges."""
+    if values["doubled_area"] == 0:
+        return "it has no area"
+    if values["inside"].all():
+        return "the pixel centre is inside all three edges"
+    return _tie(values) if values["value"] == 0 else _missed(values)
+
+
+def _would(values: Values) -> str:
+    return "; it would have had a fragment here" if values.get("would_cover") else ""
+
+
+def _block(values: Values) -> str:
+    column, row = values["block"]
+    return f"block ({column}, {row}) of {values['block_size']}x{values['block_size']} pixels"
+
+
+def _outside_block(values: Values) -> str:
+    return f"outside {_block(values)}, rejected by edge {values['rejected_by']}; {_not_here(values)}"
+
+
+def _outside_box(values: Values) -> str:
+    column, row, column_end, row_end = values["box"]
+    if column_end <= column or row_end <= row:
+        return f"its bounding box contains no pixel centre of the image; {_not_here(values)}"
+    return (
+        f"not in its bounding box, columns {column} to {column_end - 1}, rows {row} to {row_end - 1};"
+        f" {_not_here(values)}"
+    )
+
+
+def _span(values: Values) -> str:
+    return f"columns {values['start']} to {values['stop'] - 1}"
+
+
+def _missed_edge(values: Values) -> str:
+    span = f"; the span of this row is {_span(values)}" if "start" in values else ""
+    return _missed(values) + span
+
+
+def _accepted(values: Values) -> str:
+    if "start" in values:
+        outside = "" if values["inside"].all() else f", although {_not_here(values)}"
+        return f"covered: in the span of this row, {_span(values)}{outside}"
+    return f"covered: {_block(values)} is inside as a whole"
+
+
+def _edge_margin(values: Values) -> str:
+    return f"covered: inside all three edges, {_pixels(values['distance'])} from edge {values['edge']}"
+
+
+def _on_edge(values: Values) -> str:
+    names = " and ".join(f"edge {k}" for k in range(3) if values["ties"][k])
+    return f"covered: the pixel centre is exactly on {names}, which the triangle owns"
+
+
+def _clipped(values: Values) -> str:
+    polygon = POLYGONS.get(values["corner_count"], f"a polygon of {values['corner_count']} corners")
+    asked = f" (for {values['inserted_for']})" if values["inserted_for"] else ""
+    return f"{_outside(values)}; clipped to {polygon}{asked}"
+
+
+def _against(values: Values) -> str:
+    holder = "the cleared depth" if values["against"] < 0 else f"triangle {values['against']}"
+    return f"{holder} ({number_text(values['before'])})"
+
+
+def _holder(values: Values) -> str:
+    return "all others so far" if values["against"] < 0 else f"triangle {values['against']}"
+
+
+def _reason(values: Values) -> str:
+    return _words(values["reason"])
+
+
+def _all_rejected(values: Values) -> str:
+    count = values["fragment_count"]
+    if not count:
+        return f"nothing was drawn here: triangle {values['triangle']} was left out; {_reason(values)}"
+    if count == 1:
+        return f"the only fragment here, of triangle {values['triangle']}, was rejected; {_reason(values)}"
+    return f"all {count} fragments here were rejected; the last one: {_reason(values)}"
+
+
+def _seen(values: Values) -> str:
+    rejected = values["fragment_count"] - values["passed_count"]
+    behind = f"; {_plural(rejected, 'fragment')} rejected" if rejected else ""
+    return f"triangle {values['triangle']} is seen here{behind}"
+
+
+def _seen_over(values: Values) -> str:
+    return f"{_seen(values)}, {_plural(values['overwritten_count'], 'fragment')} overwritten"
+
+
+PLANES = {
+    "near": "behind the near plane",
+    "far": "beyond the far plane",
+    "left": "left of the view",
+    "right": "right of the view",
+    "bottom": "below the view",
+    "top": "above the view",
+}
+
+SENTENCES: dict[tuple[str, str], Sentence] = {
+    ("verdict", "nothing-near"): lambda v: (
+        "nothing was drawn here: the pixel is in the box of none of "
+        + _plural(v["triangle_count"], "triangle")
+    ),
+    ("verdict", "all-missed"): lambda v: (
+        f"nothing was drawn here: triangle {v['triangle']} comes nearest; {_reason(v)}"
+    ),
+    ("verdict", "all-rejected"): _all_rejected,
+    ("verdict", "seen"): _seen,
+    ("verdict", "seen-over"): _seen_over,
+    ("verdict", "blended"): lambda v: (
+        f"{v['passed_count'] - v['overwritten_count']} fragments are blended here,"
+        f" triangle {v['triangle']} last"
+    ),
+    ("verdict", "triangle-seen"): lambda v: f"triangle {v['triangle']} is seen here",
+    ("verdict", "triangle-blended"): lambda v: (
+        f"triangle {v['triangle']} is blended here, under triangle {v['seen']}"
+    ),
+    ("verdict", "triangle-overwritten"): lambda v: (
+        f"triangle {v['triangle']} was drawn here and then overwritten by triangle {v['reason'].values['by']}"
+    ),
+    ("verdict", "triangle-rejected"): lambda v: f"triangle {v['triangle']} was rejected here: {_reason(v)}",
+    ("verdict", "triangle-absent"): lambda v: f"triangle {v['triangle']} has no fragment here: {_reason(v)}",
+    ("blend", "initial"): "nobody has written here yet",
+    ("blend", "clear"): "the background colour and the farthest depth",
+    ("transform", "in-front"): "all three vertices are in front of the eye",
+    ("transform", "crosses-eye"): lambda v: f"{_corners(v['behind'])} behind the eye (w ≤ 0)",
+    ("transform", "behind-eye"): "all three vertices are behind the eye (w ≤ 0)",
+    ("cull", "kept"): lambda v: f"not culled: the {'front' if v['facing'] > 0 else 'back'} is seen",
+    ("cull", "back-facing"): lambda v: f"culled: its back is turned to the eye{_would(v)}",
+    ("cull", "front-facing"): lambda v: f"culled: its front is turned to the eye{_would(v)}",
+    ("cull", "degenerate"): "culled: it has no area",
+    ("cull", "behind-eye"): "culled: all three vertices are behind the eye (w ≤ 0)",
+    ("cull", "outside-plane"): lambda v: f"culled: all vertices are {PLANES[v['plane']]}{_would(v)}",
+    ("clip", "no-clipping"): "not clipped",
+    ("clip", "inside"): "not clipped: inside of all planes",
+    ("clip", "clipped"): _clipped,
+    ("clip", "clipped-away"): lambda v: f"{_outside(v)}; clipped away as a whole",
+    ("bin", "no-area"): "it has no area on the lattice of 1/256 pixel",
+    ("bin", "in-box"): "in its bounding box",
+    ("bin", "whole-image"): "no bounding box: not all of its corners can be projected",
+    ("bin", "inside-block"): lambda v: f"{_block(v)} is inside as a whole",
+    ("bin", "outside-block"): _outside_block,
+    ("bin", "outside-box"): _outside_box,
+    ("raster", "covered"): _edge_margin,
+    ("raster", "covered-on-edge"): _on_edge,
+    ("raster", "accepted"): _accepted,
+    ("raster", "missed-edge"): _missed_edge,
+    ("raster", "tie-not-owned"): _tie,
+    ("raster", "undefined"): "an edge function is not a number here",
+    ("raster", "outside-span"): lambda v: f"outside the span of this row, {_span(v)}; {_not_here(v)}",
+    ("raster", "row-not-drawn"): lambda v: f"the printed fill draws no span in this row; {_not_here(v)}",
+    ("raster", "on-outline"): lambda v: (
+        f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
+    ),
+    ("raster", "off-outline"): lambda v: (
+        f"not on its outline; edge {v['edge']} is nearest, {_pixels(v['distance'])} away"
+    ),
+    ("raster", "no-outline"): "none of its edges is drawn near the window",
+    ("interpolate", "weights"): lambda v: "weights " + ", ".join(number_text(w) for w in v["weights"]),
+    ("shade", "color"): lambda v: "colour " + ", ".join(number_text(c) for c in v["color"]),
+    ("depth", "passed"): lambda v: f"passed the depth test: {number_text(v['stored'])} against {_against(v)}",
+    ("depth", "failed"): lambda v: (
+        f"failed the depth test: {number_text(v['stored'])} is not nearer than {_against(v)}"
+    ),
+    ("depth", "tied"): lambda v: (
+        f"failed the depth test: as far as {_against(v)}, and a tie keeps what is there"
+    ),
+    ("depth", "ray-nearer"): lambda v: f"the ray meets it before {_holder(v)}, compared exactly",
+    ("depth", "ray-farther"): lambda v: f"the ray meets {_holder(v)} first, compared exactly",
+    ("depth", "ray-tied"): lambda v: (
+        f"the ray meets it exactly where it meets {_holder(v)}, which came first"
+    ),
+    ("depth", "not-tested"): lambda v: f"depth {number_text(v['stored'])} stored without a test",
+    ("depth", "before-near"): lambda v: f"before the near plane: depth {number_text(v['depth'])} is below 0",
+    ("depth", "behind-far"): lambda v: f"beyond the far plane: depth {number_text(v['depth'])} is above 1",
+    ("depth", "undefined"): "its depth is not a number",
+    ("blend", "written"): "written, and seen",
+    ("blend", "overwritten"): lambda v: f"written, later overwritten by triangle {v['by']}",
+    ("blend", "blended"): lambda v: f"blended with alpha {number_text(v['alpha'])}",
+}
+"""Stage and key to the sentence, without capital and full stop."""
+
+COUNTED = {
+    "back-facing": "culled, back-facing",
+    "front-facing": "culled, front-facing",
+    "degenerate": "culled, no area",
+    "behind-eye": "culled, behind the eye",
+    "outside-plane": "culled, outside the view",
+    "clipped-away": "clipped away",
+    "outside-box": "the pixel is not in their box",
+    "missed": "the pixel is in their box, but farther from them than from those listed",
+}
+"""Reason of triangles that are not listed, to words."""

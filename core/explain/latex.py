@@ -1,0 +1,210 @@
+r"""Rules on LaTeX text: cut it into cells, colour a vertex's symbols, and write it plainly.
+
+A formula is two lines, the symbols and the same with numbers put in. Both are cut into cells at ``&``, or,
+where there is none, at every relation, plus and binary minus outside brackets. Equal cell counts put each
+number under its symbol; and as only the cells with numbers change from step to step, the others come from the
+cache.
+"""
+
+import re
+from collections.abc import Sequence
+
+VERTEX_COUNT = 3
+"""Vertices, edges and weights are numbered 0, 1, 2; each number has its colour."""
+
+_TOKEN = re.compile(r"\\(?:[A-Za-z]+|.)|\s+|.", re.DOTALL)
+_OPENING = {"{", "(", "[", r"\{", r"\left", r"\begin", r"\lfloor", r"\lceil", r"\langle"}
+_CLOSING = {"}", ")", "]", r"\}", r"\right", r"\end", r"\rfloor", r"\rceil", r"\rangle"}
+_RELATIONS = {
+    *(
+        "=",
+        "<",
+        ">",
+        r"\le",
+        r"\leq",
+        r"\ge",
+        r"\geq",
+        r"\ne",
+        r"\neq",
+        r"\approx",
+        r"\to",
+        r"\equiv",
+        r"\in",
+    ),
+    *(
+        r"\Rightarrow",
+        r"\rightarrow",
+        r"\mapsto",
+        r"\land",
+        r"\lor",
+        r"\wedge",
+        r"\vee",
+        r"\iff",
+        r"\quad",
+        r"\qquad",
+    ),
+}
+_SIGNS = {"+", "-", r"\pm"}
+_PRODUCTS = {r"\cdot", r"\times"}
+_VERTEX_MACRO = re.compile(r"\\vertex\s*\{([012])\}")
+_SUBSCRIPTED = re.compile(
+    r"(?P<symbol>\\(?:[A-Za-z]+)|[A-Za-z])_(?:(?P<bare>[012])|\{(?P<braced>[012])\})(?![0-9])"
+)
+_EDGE_LETTER = re.compile(r"\\(alpha|beta|gamma)(?![A-Za-z_])(?!\s*_)")
+MATRIX_WITH_SCRIPT = re.compile(
+    r"(\\begin\{([bpvBV]?matrix|array)\}(?:(?!\\begin).)*?\\end\{\2\})(?=\s*[\^_])", re.DOTALL
+)
+_EDGE_LETTERS = {"alpha": 0, "beta": 1, "gamma": 2}
+_PLAIN = {
+    **{
+        r"\cdot": "\u00b7",
+        r"\times": "\u00d7",
+        r"\le": "\u2264",
+        r"\leq": "\u2264",
+        r"\ge": "\u2265",
+        r"\geq": "\u2265",
+    },
+    **{r"\ne": "\u2260", r"\neq": "\u2260", r"\approx": "\u2248", r"\to": "\u2192", r"\rightarrow": "\u2192"},
+    **{
+        r"\Rightarrow": "\u21d2",
+        r"\alpha": "\u03b1",
+        r"\beta": "\u03b2",
+        r"\gamma": "\u03b3",
+        r"\lambda": "\u03bb",
+    },
+    **{
+        r"\pi": "\u03c0",
+        r"\theta": "\u03b8",
+        r"\Delta": "\u0394",
+        r"\delta": "\u03b4",
+        r"\epsilon": "\u03b5",
+        r"\rho": "\u03c1",
+        r"\log": "log",
+    },
+    **{r"\infty": "\u221e", r"\pm": "\u00b1", r"\sqrt": "\u221a", r"\sum": "\u03a3", r"\in": "\u2208"},
+    **{r"\land": "and", r"\wedge": "and", r"\lor": "or", r"\vee": "or", r"\max": "max", r"\min": "min"},
+    **{r"\lfloor": "\u230a", r"\rfloor": "\u230b", r"\lceil": "\u2308", r"\rceil": "\u2309", r"\det": "det"},
+}
+
+
+def split_cells(latex: str, *, splits_products: bool = False) -> tuple[str, ...]:
+    """Cut a line at top-level ``&``, or else around each top-level relation, plus and binary minus.
+
+    Parameters
+    ----------
+    latex : str
+        One line of mathematics.
+    splits_products : bool
+        Cut around multiplication signs as well.
+
+    Returns
+    -------
+    tuple of str
+        Cells in reading order, none empty; joined by blanks they are the line again, less the ``&``.
+    """
+    tokens = _TOKEN.findall(latex)
+    has_marks = _has_top_level_mark(tokens)
+    cells = [""]
+    depth = 0
+    for token in tokens:
+        depth += (token in _OPENING) - (token in _CLOSING)
+        if depth > 0 or token in _CLOSING:
+            cells[-1] += token
+        elif has_marks:
+            if token == "&":
+                cells.append("")
+            else:
+                cells[-1] += token
+        elif (
+            token in _RELATIONS
+            or (token in _PRODUCTS and splits_products)
+            or (token in _SIGNS and _ends_a_term(cells))
+        ):
+            cells.extend((token, ""))
+        else:
+            cells[-1] += token
+    return tuple(cell.strip() for cell in cells if cell.strip())
+
+
+def _has_top_level_mark(tokens: Sequence[str]) -> bool:
+    depth = 0
+    for token in tokens:
+        depth += (token in _OPENING) - (token in _CLOSING)
+        if token == "&" and depth == 0:
+            return True
+    return False
+
+
+def _ends_a_term(cells: Sequence[str]) -> bool:
+    present = cells[-1].rstrip()
+    return bool(present) and not present.endswith(("^", "_", r"\cdot", r"\times", ",", "/"))
+
+
+def is_operator(cell: str) -> bool:
+    """Tell whether a cell is a lone relation, sign or multiplication sign, which takes room on both sides."""
+    return cell in _RELATIONS or cell in _SIGNS or cell in _PRODUCTS
+
+
+def may_begin_line(cells: Sequence[str], place: int) -> bool:
+    """Tell whether a wrapped line may begin at a cell: not at a product, nor behind an operator."""
+    return cells[place] not in _PRODUCTS and (place == 0 or not is_operator(cells[place - 1]))
+
+
+def vertex_of(latex: str) -> int | None:
+    """Return the vertex (0, 1, 2) that all symbols of a cell belong to; None where there is none."""
+    if _VERTEX_MACRO.search(latex):
+        rest = ""
+    else:
+        rest = _EDGE_LETTER.sub("", _SUBSCRIPTED.sub("", latex))
+    if re.search(r"[A-Za-z]", re.sub(r"\\[A-Za-z]+", "", rest)):
+        return None
+    found = {int(match[1]) for match in _VERTEX_MACRO.finditer(latex)}
+    found |= {int(match["bare"] or match["braced"]) for match in _SUBSCRIPTED.finditer(latex)}
+    found |= {_EDGE_LETTERS[match[1]] for match in _EDGE_LETTER.finditer(latex)}
+    return found.pop() if len(found) == 1 else None
+
+
+def color_vertices(latex: str, colors: Sequence[str]) -> str:
+    r"""Give each vertex's symbols its colour.
+
+    Parameters
+    ----------
+    latex : str
+        Symbols with a subscript 0, 1 or 2, the edge functions ``\alpha``, ``\beta``, ``\gamma`` (edges 0, 1,
+        2), and anything inside ``\vertex{k}{...}`` belong to a vertex.
+    colors : sequence of str
+        Three colours as ``#rrggbb``.
+    """
+    if _VERTEX_MACRO.search(latex):
+        return _VERTEX_MACRO.sub(lambda match: rf"\textcolor{{{colors[int(match[1])]}}}", latex)
+
+    def subscripted(match: re.Match[str]) -> str:
+        number = match["bare"] or match["braced"]
+        return rf"\textcolor{{{colors[int(number)]}}}{{{match['symbol']}_{number}}}"
+
+    def letter(match: re.Match[str]) -> str:
+        return rf"\textcolor{{{colors[_EDGE_LETTERS[match[1]]]}}}{{\{match[1]}}}"
+
+    return _EDGE_LETTER.sub(letter, _SUBSCRIPTED.sub(subscripted, latex))
+
+
+def without_macros(latex: str) -> str:
+    r"""Return standard LaTeX for the clipboard: ``\vertex{k}{...}`` becomes ``{...}``, alignment marks go."""
+    text = _VERTEX_MACRO.sub("", latex)
+    cells = split_cells(text)
+    return " ".join(cells)
+
+
+def plain_text(latex: str) -> str:
+    """Readable text for screen readers, tooltips, and formulas that cannot be typeset."""
+    text = _VERTEX_MACRO.sub("", latex)
+    text = re.sub(r"\\(?:textcolor|color)\{[^{}]*\}", "", text)
+    text = re.sub(r"\\(?:mathrm|text)\s*\{([^{}]*)\}", r"\1", text)
+    for _ in range(4):
+        text = re.sub(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}", r"(\1)/(\2)", text)
+    text = re.sub(r"\\(?:begin|end)\{[^{}]*\}(?:\{[^{}]*\})?", " ", text).replace(r"\\", "; ")
+    text = re.sub(r"\\(?:quad|qquad|,|;|!|left|right)(?![A-Za-z])", " ", text)
+    text = re.sub(r"\\[A-Za-z]+", lambda match: _PLAIN.get(match[0], match[0][1:]), text)
+    text = re.sub(r"[{}&\\]", " ", text).replace("-", "\u2212")
+    text = re.sub(r"\((\w+)\)/\((\w+)\)", r"\1/\2", text)
+    return re.sub(r"\s+", " ", text).strip()

@@ -1,0 +1,1 @@
+"""The sentences of a step, one for every key."""

@@ -1,0 +1,1 @@
+"""The variables of a step, in the order of the algorithm."""

@@ -1,0 +1,201 @@
+"""Draw a picture: choose by what the scene holds, draw, and say which way was taken.
+
+A way that is not that of most pictures is imported when it is first taken: the first picture does not wait for it.
+"""
+
+from dataclasses import replace
+from functools import partial
+from threading import local
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.antialiasing.sample_counts import sample_count, side_of
+from core.fast_path.draw_context import Job, Words, encode
+from core.fast_path.opaque import draw_opaque
+from core.fast_path.palette import palette
+from core.fast_path.record import Coloring, Passing, Picture, Route
+from core.methods import table
+from core.numeric.numpy_buffers import short_buffers
+from core.raster.number_formats.number_format import number_format
+from core.raster.pixel_runs import Raster, make_raster
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Integers, read_only
+from core.records.frame import STAGES, StageCount
+from core.records.timing import timed
+from core.scene import AnyScene
+from core.settings import Settings
+from core.stages.vertices import process_geometry
+
+ENCODINGS = ("srgb", "linear")
+
+_memory = local()
+
+
+@short_buffers()
+def draw_picture(
+    scene: AnyScene,
+    settings: Settings | None = None,
+    *,
+    encoding: str = "srgb",
+    with_depth: bool = False,
+    depth_at: Integers | None = None,
+    region: tuple[int, int, int, int] | None = None,
+    out: NDArray[np.uint8] | None = None,
+    arena: Arena | None = None,
+    plain_colors: bool = False,
+) -> Picture:
+    """Draw a scene as the bytes of a screen.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    settings : Settings, optional
+    encoding : str
+        ``"srgb"`` as `to_display`, or ``"linear"``: bytes of the linear colours.
+    with_depth : bool
+        Keep the depth buffer.
+    depth_at : (N,) int64, optional
+        Keep the depth of these pixels only: of row times columns plus column, counted in what is drawn.
+    region : (column, row, columns, rows), optional
+        Pixels of the image that are drawn; the whole image by default.
+    out : (H, W, 4) uint8, C-contiguous, optional
+        Memory for the pixels.
+    arena : Arena, optional
+        Memory to work in; one per thread by default.
+    plain_colors : bool
+        Attributes and light at every pixel, even where the triangles of the region allow cheaper colours: those of the
+        whole picture may not, see `Route`.
+
+    Returns
+    -------
+    Picture
+
+    Raises
+    ------
+    ValueError
+        As `core.render`, for an unknown encoding, and where `out` or `depth_at` do not fit what is drawn.
+
+    Notes
+    -----
+    A supersampled picture is drawn as the bytes of its samples, which are resolved in linear light: up to one byte
+    more away than they are.
+
+    The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
+    `Route` has the colours ``palette`` or ``deferred``, as multisampled pictures always have; with ``bytes``,
+    ``some-bytes``, ``normals``, ``lit-texture`` and ``meshes`` they are up to one away, with ``texture`` up to three;
+    but the filter ``nearest`` may take the other texel on the border between two. In a triangle that is hardly wider
+    than snapping moves it, ``bytes`` stay between those of the corners, where `render` extrapolates.
+    """
+    settings = settings or Settings()
+    raster = make_raster(scene.size, settings.pixel_center, region)
+    if encoding not in ENCODINGS:
+        raise ValueError(f"encoding must be one of {', '.join(ENCODINGS)}, got {encoding}")
+    shape = (*raster.shape, 4)
+    if out is not None and (out.shape != shape or out.dtype != np.uint8 or not out.flags.c_contiguous):
+        raise ValueError(f"out must be {shape} uint8 and contiguous, got {out.shape} {out.dtype}")
+    count = raster.shape[0] * raster.shape[1]
+    if depth_at is not None and not (depth_at.min(initial=0) >= 0 and depth_at.max(initial=-1) < count):
+        raise ValueError(
+            f"depth_at must be places of pixels, 0 to {count - 1}, got {depth_at.min()} to {depth_at.max()}"
+        )
+    arena = arena or _memory.__dict__.setdefault("arena", Arena())
+    counts = {stage: StageCount() for stage in STAGES}
+    with timed(counts["resolve"]):
+        pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
+
+    keeps_depth = with_depth or depth_at is not None
+    if not keeps_depth and _is_supersampled(settings):
+        from core.fast_path.supersampled import draw_supersampled
+
+        draw_part = partial(draw_picture, plain_colors=plain_colors)
+        return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
+    depth = None
+    if not keeps_depth and _is_multisampled(settings):
+        from core.fast_path.multisampled import draw_multisampled
+
+        route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
+    elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and keeps_depth):
+        return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
+    else:
+        geometry = process_geometry(scene, settings, counts, raster=raster)
+        job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
+        if settings.blend == "opaque":
+            route, depth = draw_opaque(job, with_depth, depth_at, plain_colors)
+            passing = Passing(route.visible, route.visible)
+        else:
+            route, passing = _draw_stacks(job)
+    _count(counts, route, passing, sample_count(settings) * len(pixels), len(pixels))
+    return Picture(_bytes(pixels, raster), depth, counts, route)
+
+
+def _is_supersampled(settings: Settings) -> bool:
+    """Tell whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
+    if not side_of(settings) or settings.pixel_center != "half":
+        return False
+    from core.antialiasing.supersampling import finer_settings
+
+    return is_drawn_by_spans(finer_settings(settings))
+
+
+def _is_multisampled(settings: Settings) -> bool:
+    """Tell whether spans can find what each of four samples shows."""
+    is_plain = settings.antialiasing == "msaa-4" and settings.blend == "opaque"
+    return is_plain and is_drawn_by_spans(replace(settings, antialiasing="none"))
+
+
+def _draw_frame(
+    scene: AnyScene,
+    settings: Settings,
+    raster: Raster,
+    encoding: str,
+    pixels: Words,
+    with_depth: bool,
+    depth_at: Integers | None,
+) -> Picture:
+    """Draw all buffers, and encode the colours."""
+    from core.pipeline import draw
+
+    frame = draw(scene, settings, raster)
+    with timed(frame.statistics["resolve"]):
+        pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
+    route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
+    depth = frame.depth if with_depth else None
+    if depth_at is not None:
+        depth = read_only(frame.depth.reshape(-1).take(depth_at))
+    return Picture(_bytes(pixels, raster), depth, frame.statistics, route)
+
+
+def _draw_stacks(job: Job) -> tuple[Route, Passing]:
+    """Draw every fragment in its turn."""
+    from core.fast_path.blended import draw_blended
+
+    with job.timed("shade"):
+        of_triangles = palette(job)
+    blended = draw_blended(job, of_triangles)
+    color: Coloring = "deferred" if of_triangles is None else "palette"
+    return Route("stacks", color, blended.split, blended.visible), Passing(blended.passed, blended.passed)
+
+
+def is_drawn_by_spans(settings: Settings) -> bool:
+    """Tell whether spans can draw with these settings: all filled, at centres, in numbers that suit, without rays."""
+    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
+    suits_spans = number_format(settings.coverage).suits_spans and settings.visibility != "ray-casting"
+    return settings.fill == "spans" and not is_outlined and suits_spans and settings.antialiasing == "none"
+
+
+def _count(
+    counts: dict[str, StageCount], route: Route, passing: Passing, sample_count: int, pixel_count: int
+) -> None:
+    """Note how much each stage took in and gave out; the ends of spans are computed, so no pixel was tested."""
+    fragments = route.split.fragments if route.split else 0
+    counts["bin"].incoming = counts["edges"].outgoing
+    counts["bin"].outgoing = counts["raster"].outgoing = counts["depth"].incoming = fragments
+    for stage in ("interpolate", "shade"):
+        counts[stage].incoming = counts[stage].outgoing = passing.shaded
+    counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = passing.passed
+    counts["resolve"].incoming, counts["resolve"].outgoing = sample_count, pixel_count
+
+
+def _bytes(words: Words, raster: Raster) -> NDArray[np.uint8]:
+    return read_only(words.view(np.uint8).reshape(*raster.shape, 4))

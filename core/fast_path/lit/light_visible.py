@@ -1,0 +1,78 @@
+"""Light once for every visible pixel; and what is in doubt once more, as ``render`` has it.
+
+A highlight ends where the light goes behind the surface, and it may end abruptly. There the least turn of a normal
+decides between a highlight and none, and no bound holds. Nor does one for triangles hardly wider than snapping moves
+their corners: attributes belong to the unsnapped ones, and pixels may lie far outside of these. The few pixels that are
+so are coloured once more, with the attributes and the light of every other picture, and so are those of the few
+triangles whose normals differ too much.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from core.fast_path.draw_context import Job, blocks
+from core.fast_path.fragment_colors import FragmentColors
+from core.fast_path.lit.normals import NormalPlanes, unit_normals
+from core.fast_path.lit.pixel_light import PixelLight, lit_pixels
+from core.framebuffer.nearest import NearestFragments
+from core.records.arrays import Flags, Integers, Singles
+
+Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]]
+"""Linear grey, or red, green and blue, of primitives (F,) at columns and rows (F,)."""
+Seen = Iterable[tuple[Integers, Integers]]
+"""Places in the picture (V,), and the primitives (V,) that are seen there, some at a time."""
+
+
+class Lit(NamedTuple):
+    """What has been lit."""
+
+    seen_count: int
+    """Pixels that something is seen at."""
+    place: Integers
+    """(D,) int64, those whose colour is in doubt, maybe twice."""
+
+
+@dataclass(frozen=True, eq=False)
+class LitPlanes:
+    """Normals of P triangles in camera space, and what lights them."""
+
+    normals: NormalPlanes
+    light: PixelLight
+    turn: float
+    """Angle that a normal may be off, in radians."""
+    is_doubtful: Flags
+    """(P,) bool, those in doubt where they are (``corner_places``), and those whose normals differ too much
+    (``normals``): their pixels are coloured once more."""
+
+    def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
+        """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
+        seen_count, has_doubtful = 0, bool(self.is_doubtful.any())
+        doubtful = [np.empty(0, np.int64)]
+        for place, primitive in seen:
+            seen_count += len(place)
+            column, row = job.raster.position(place)
+            color = albedo(primitive, column, row)
+            normal = unit_normals(self.normals, job, primitive, column, row)
+            diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
+            job.pixels[place] = lit_pixels(job, color, diffuse, specular)
+            doubtful.append(place.take(in_doubt))
+            if has_doubtful:
+                doubtful.append(place[self.is_doubtful.take(primitive)])
+        return Lit(seen_count, np.concatenate(doubtful))
+
+
+def color_doubtful(job: Job, nearest: NearestFragments, lit: Lit) -> int:
+    """Colour pixels in doubt as ``render`` has them, and return how many pixels are lit."""
+    if len(lit.place):
+        # Only the primitives that are shown there are set up.
+        is_shown = np.zeros(len(job.geometry.primitives), bool)
+        for part in blocks(len(lit.place)):
+            is_shown[nearest.primitive_at(lit.place[part])] = True
+        colors, number = FragmentColors(job.part(np.flatnonzero(is_shown))), np.cumsum(is_shown) - 1
+        for part in blocks(len(lit.place)):
+            place = lit.place[part]
+            colors.write(place, number.take(nearest.primitive_at(place)))
+    return lit.seen_count

@@ -1,0 +1,217 @@
+"""Light at pixels in float32, from directions in camera space; and the bytes of lit colours, through a table.
+
+The rule is that of ``core.fragments.lighting`` (Blinn-Phong), for lights from far away: the direction to the eye
+follows from the pixel alone, so a unit normal is all that is asked of a fragment. How far it may be from ``render``:
+see ``light_errors``.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from core.fast_path.draw_context import Job, Words
+from core.framebuffer.display import encode_linear, encode_srgb
+from core.geometry.matrices import world_to_camera
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.scene import Camera, DirectionalLight, Light, Material, Mesh, Scene
+
+LEVELS = 1 << 14
+"""Linear colours that are told apart."""
+OPPOSITE = -7 / 8
+"""Cosine between the directions to eye and light below which their sum is shorter than 1/2, and off by more than twice
+the angle that they are."""
+UNSEEN = 1e-5
+"""Light that changes no byte by more than a thirtieth."""
+
+MOST = np.float32(2)
+"""Greater than any cosine: cutting off at both ends takes half the time of cutting off at one (NumPy 2.4)."""
+
+FarLight = tuple[Singles, tuple[float, ...]]
+"""Unit direction to a light in camera space, (3,) float32, and its colour."""
+
+
+@dataclass(frozen=True, eq=False)
+class PixelLight:
+    """What lights a mesh, and how it is seen."""
+
+    material: Material
+    lights: tuple[FarLight, ...]
+    camera: Camera
+
+    def at(
+        self, job: Job, normal: Singles, turn: float, column: Integers, row: Integers
+    ) -> tuple[Singles, Singles, Integers]:
+        """Return the light that falls on points, the light that they mirror, and where that is in doubt.
+
+        Parameters
+        ----------
+        normal : (3, F) float32 array
+            Unit normals in camera space.
+        turn : float
+            Angle that they may be off, in radians.
+        column, row : (F,) int64 arrays
+            The pixels.
+
+        Returns
+        -------
+        diffuse, specular : (1 or 3, F) float32 arrays
+            One row where light is grey; in the job's arena.
+        doubtful : (D,) int64 array
+            Points, maybe twice, whose highlight ends within ``turn``, or whose light comes from beyond them so straight
+            that it has no half-way to the eye: there a small error is a large one.
+        """
+        arena, material, count = job.arena, self.material, normal.shape[1]
+        is_gray = all(len(set(color)) == 1 for _, color in self.lights)
+        channels = 1 if is_gray else 3
+        diffuse, specular = (arena(f"light_{name}", channels, count, dtype=np.float32) for name in ("d", "s"))
+        diffuse.fill(material.ambient)
+        specular.fill(0)
+        to_eye = self._to_eye(job, column, row)
+        doubtful = [np.empty(0, np.int64)]
+        for to_light, color in self.lights:
+            cosine, power = self._terms(normal, to_eye, to_light, arena)
+            if material.specular:
+                found = _at_the_edge(cosine, to_eye, to_light, turn, arena)
+                doubtful.append(found[power.take(found) * material.specular * max(color) > UNSEEN])
+                power *= cosine > 0
+            np.clip(cosine, np.float32(0), MOST, out=cosine)
+            for channel in range(channels):
+                if len(self.lights) == 1 and channel == channels - 1:
+                    product = cosine
+                else:
+                    product = arena("light_product", count, dtype=np.float32)
+                np.multiply(cosine, np.float32(material.diffuse * color[channel]), out=product)
+                diffuse[channel] += product
+                if material.specular:
+                    np.multiply(power, np.float32(material.specular * color[channel]), out=product)
+                    specular[channel] += product
+        return diffuse, specular, np.concatenate(doubtful)
+
+    def _to_eye(self, job: Job, column: Integers, row: Integers) -> Singles:
+        """Return the unit directions (3, F) float32 from pixels to the eye, in camera space."""
+        direction: Singles = job.arena("to_eye", 3, len(column), dtype=np.float32)
+        if self.camera.projection == "orthographic":
+            direction[:2], direction[2] = 0, 1
+            return direction
+        (width, height), center = job.scene.size, job.raster.center
+        half_height = float(np.tan(self.camera.field_of_view / 2))
+        pixel = np.float32(2 * half_height / height)
+        np.copyto(direction[0], column, casting="unsafe")
+        np.copyto(direction[1], row, casting="unsafe")
+        direction[0] -= np.float32(width / 2 - center)
+        direction[1] -= np.float32(height / 2 - center)
+        direction[:2] *= -pixel
+        direction[2] = 1
+        return make_unit(direction, job.arena)
+
+    def _terms(
+        self, normal: Singles, to_eye: Singles, to_light: Singles, arena: Arena
+    ) -> tuple[Singles, Singles]:
+        """Return the cosine to a light, and the power of a highlight wherever it shines, (F,) float32 each."""
+        cosine = _dot(normal, to_light, arena("cosine", normal.shape[1], dtype=np.float32), arena)
+        power = arena("power", normal.shape[1], dtype=np.float32)
+        if self.material.specular:
+            half = arena("half", *normal.shape, dtype=np.float32)
+            np.add(to_eye, to_light[:, None], out=half)
+            _dot(normal, make_unit(half, arena), power, arena)
+            np.clip(power, np.float32(1e-30), MOST, out=power)
+            np.log2(power, out=power)
+            power *= np.float32(self.material.shininess)
+            np.exp2(power, out=power)
+        return cosine, power
+
+
+def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: float, arena: Arena) -> Integers:
+    """Return the points (D,) of which a turn of the normal decides whether they mirror a light; see `PixelLight.at`."""
+    size = np.abs(cosine, out=arena("cosine_size", len(cosine), dtype=np.float32))
+    is_at_edge: Flags = size <= np.float32(turn)
+    # Light from this side of the window is never opposite to an eye that looks at most 60 degrees past its middle.
+    if to_light[2] < 0 or to_eye[2].min(initial=1) < 0.5:
+        facing = _dot(to_eye, to_light, size, arena)
+        is_opposite: Flags = facing < np.float32(OPPOSITE)
+        is_opposite &= cosine > -np.float32(turn)
+        is_at_edge |= is_opposite
+    return np.flatnonzero(is_at_edge)
+
+
+def pixel_light(scene: Scene, mesh: Mesh) -> PixelLight | None:
+    """Return what lights a mesh of a scene, or ``None`` where a light is not far away, or takes light away."""
+    rotation = world_to_camera(scene.camera)[:3, :3]
+    lights = [_far_light(light, rotation) for light in scene.lights if isinstance(light, DirectionalLight)]
+    if len(lights) < len(scene.lights) or any(min(color) < 0 for _, color in lights):
+        return None
+    return PixelLight(mesh.material, tuple(lights), scene.camera)
+
+
+def _far_light(light: Light, rotation: Floats) -> FarLight:
+    """Return a light as seen from the camera, whose axes are the rows of ``rotation`` (3, 3)."""
+    assert isinstance(light, DirectionalLight)
+    to_light = -(rotation @ light.direction)
+    direction: Singles = (to_light / np.linalg.norm(to_light)).astype(np.float32)
+    return direction, tuple(float(part) for part in light.color)
+
+
+def lit_pixels(
+    job: Job, albedo: Sequence[Singles | np.float32], diffuse: Singles, specular: Singles
+) -> Words:
+    """Return the opaque pixels (F,) uint32 of albedo times diffuse light plus specular light.
+
+    Parameters
+    ----------
+    albedo : sequence of 1 or 3 numbers or (F,) float32 arrays
+        Linear grey, or red, green and blue.
+    diffuse, specular : (1 or 3, F) float32 arrays
+        As from `PixelLight.at`.
+    """
+    arena, count = job.arena, diffuse.shape[1]
+    is_gray = len(diffuse) == len(albedo) == 1
+    level = arena("level", count, dtype=np.float32)
+    # Floats are cut off to 32 bits five times as fast as to 64.
+    index = arena("level_index", count, dtype=np.int32)
+    pixels, byte = (arena(f"level_{name}", count, dtype=np.uint32) for name in ("pixels", "byte"))
+    tables = level_words(job.encoding)
+    for channel in range(1 if is_gray else 3):
+        source = min(channel, len(diffuse) - 1)
+        np.multiply(diffuse[source], albedo[min(channel, len(albedo) - 1)], out=level)
+        level += specular[source]
+        level *= np.float32(LEVELS - 1)
+        level += np.float32(0.5)
+        np.clip(level, np.float32(0), np.float32(LEVELS - 1), out=level)
+        np.copyto(index, level, casting="unsafe")
+        table = tables[3] if is_gray else tables[channel]
+        table.take(index, out=pixels if channel == 0 else byte, mode="clip")
+        if channel:
+            pixels |= byte
+    return pixels
+
+
+@lru_cache(maxsize=2)
+def level_words(encoding: str) -> tuple[Words, Words, Words, Words]:
+    """Return for every one of (16384,) linear levels its red, green, blue and grey pixel, uint32; red has the alpha."""
+    level = np.linspace(0, 1, LEVELS).astype(np.float32)
+    byte = (encode_linear(level) if encoding == "linear" else encode_srgb(level)).astype(np.uint32)
+    opaque = np.uint32(0xFF000000)
+    red, green, blue = byte | opaque, byte << np.uint32(8), byte << np.uint32(16)
+    return read_only(red), read_only(green), read_only(blue), read_only(red | green | blue)
+
+
+def make_unit(vectors: Singles, arena: Arena) -> Singles:
+    """Make vectors (3, F) that are not zero unit, in place, and return them."""
+    length = _dot(vectors, vectors, arena("squared_length", vectors.shape[1], dtype=np.float32), arena)
+    np.sqrt(length, out=length)
+    np.divide(np.float32(1), length, out=length)
+    vectors *= length
+    return vectors
+
+
+def _dot(a: Singles, b: Singles, out: Singles, arena: Arena) -> Singles:
+    """Write the dot products (F,) of vectors (3, F) with others, (3, F) or (3,)."""
+    part = arena("dot_part", len(out), dtype=np.float32)
+    np.multiply(a[0], b[0], out=out)
+    for axis in (1, 2):
+        np.multiply(a[axis], b[axis], out=part)
+        out += part
+    return out

@@ -1,0 +1,136 @@
+"""Phong's shading of a textured mesh: normals and texture coordinates from planes, lit in float32.
+
+Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
+float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
+precision (``single_texture``), normals and light are those of ``one_color``.
+
+How close the bytes are: the rounding of the planes moves the position in the texture by some part of a texel
+(`position_error`), the texture is off by no more, neighbours being 1 apart at most, and bytes by as much times the
+steepest that sRGB rises. It is added to what the light may be off (``light_errors``), and only where the sum stays
+within the tolerance is this way taken. Triangles hardly wider than snapping moves their corners have no such bound:
+their pixels are coloured once more, exactly (``light_visible``).
+"""
+
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+import numpy as np
+
+from core.fast_path.draw_context import Job
+from core.fast_path.lit.corner_places import CornerPlaces, corner_places
+from core.fast_path.lit.light_errors import STEEPEST
+from core.fast_path.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
+from core.fast_path.lit.one_color import LitMesh, have_few_unlike, lit_mesh, lit_planes
+from core.fast_path.lit.planes import Plane, evaluate, plane_through, rounding
+from core.fast_path.lit.vertex_facts import Color
+from core.fast_path.record import Coloring
+from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
+from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
+from core.framebuffer.nearest import NearestFragments
+from core.records.arrays import Floats, Integers, Singles
+from core.scene import Texture
+from core.stages.geometry import Geometry
+
+
+@dataclass(frozen=True, eq=False)
+class LitTexture:
+    """Normals and texture coordinates of P triangles, and what lights them."""
+
+    planes: LitPlanes
+    coordinates: tuple[Plane, Plane, Plane]
+    """1/w, and the position in texels over w."""
+    color: Color
+    """What the texture is multiplied with: linear grey, or red, green and blue."""
+    sampler: SingleSampler
+    name: ClassVar[Coloring] = "lit-texture"
+    stage = "shade"
+    for_layer: ClassVar[None] = None
+    """None: they light what is seen once it is known, so a picture has its depth first."""
+
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
+        return color_doubtful(job, nearest, self.light_seen(job, nearest.seen()))
+
+    def light_seen(self, job: Job, seen: Seen) -> Lit:
+        """Write the lit colour of what is seen at some of the (H*W,) pixels."""
+        return self.planes.light_seen(job, seen, partial(self._albedo, job))
+
+    def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
+        """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
+        x, y = job.raster.centers(column, row)
+        inverse_w, u, v = job.arena("texture_position", 3, len(x))
+        term = job.arena("texture_term", len(x))
+        for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
+            evaluate(plane, primitive, x, y, values, term)
+        np.divide(1, inverse_w, out=inverse_w)
+        u *= inverse_w
+        v *= inverse_w
+        colors = job.arena("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
+        self.sampler.write_colors(u, v, colors)
+        if all(part == 1 for part in self.color):
+            return list(colors)
+        count = max(len(colors), len(self.color))
+        return [
+            colors[min(k, len(colors) - 1)] * self.color[min(k, len(self.color) - 1)] for k in range(count)
+        ]
+
+
+def lit_texture(job: Job) -> LitTexture | None:
+    """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
+
+    They are what ``one_color`` draws, with a texture that is looked up bilinearly.
+    """
+    mesh = lit_mesh(job)
+    if mesh is None or mesh.mesh.texture is None or not have_few_unlike(job, [mesh.facts]):
+        return None
+    return texture_of(job, mesh, corner_places(job.geometry))
+
+
+def texture_of(job: Job, mesh: LitMesh, places: CornerPlaces) -> LitTexture | None:
+    """Return the lit texture of a mesh whose corners are at ``places``; ``None``: it has none, or as above."""
+    texture, settings = mesh.mesh.texture, job.settings
+    if texture is None or settings.texture_filter != "bilinear" or not is_plain(texture, settings.wrap):
+        return None
+    if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
+        return None
+    position = _texel_positions(job.geometry, mesh, texture)
+    error = _texture_bytes(mesh, position_error(places, position))
+    planes = lit_planes(job, mesh, places, error)
+    if planes is None:
+        return None
+    inverse = list(1 / places.w)
+    over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
+    inverse_w, u, v = (plane_through(places, values) for values in (inverse, *over_w))
+    sampler = SingleSampler(texture, job.settings.wrap)
+    return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
+
+
+def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> list[list[Floats]]:
+    """Return the texture coordinates of the corners in texels: for u and v three times (P,) float64."""
+    rows, columns, _ = texture.pixels.shape
+    index = geometry.primitives.values.index
+    return [
+        [(of_vertices * size).take(of_corner) for of_corner in index]
+        for of_vertices, size in zip(mesh.facts.values.uv, (columns, rows), strict=True)
+    ]
+
+
+def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
+    """Return by how many texels the position of a fragment of a triangle that is not doubtful may be off.
+
+    ``position`` are the corners' places in the texture: for u and v three times (P,) float64 texels.
+    """
+    extent = np.zeros(len(places.is_doubtful))
+    for first, second, third in position:
+        extent += np.abs(second - first)
+        extent += np.abs(third - first)
+    # Of one triangle, so that what holds for all bands of a picture holds for the picture.
+    return float(rounding(places, extent).max(initial=0))
+
+
+def _texture_bytes(mesh: LitMesh, texels: float) -> float:
+    """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
+    material, lights = mesh.light.material, mesh.light.lights
+    strength = material.ambient + material.diffuse * sum(max(color) for _, color in lights)
+    return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))

@@ -1,0 +1,149 @@
+"""A supersampled picture the fast way: the bytes of its samples, drawn as any picture, resolved in linear light.
+
+Bytes end at 1, and light does not: where a pixel has samples as bright as a byte can be beside darker ones, what was
+cut off might have made it brighter. Such pixels are drawn by all buffers instead.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from core.antialiasing.sample_counts import side_of
+from core.antialiasing.sampled import grown, inner_of
+from core.antialiasing.supersampling import (
+    bands_of,
+    finer_raster,
+    finer_scene,
+    finer_settings,
+    samples_by_place,
+)
+from core.fast_path.draw_context import Words, encode
+from core.fast_path.record import Picture, Route
+from core.framebuffer.display import Bytes, from_display
+from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
+from core.framebuffer.sample_positions import grid_positions
+from core.pipeline import draw
+from core.raster.pixel_runs import Raster
+from core.raster.spans.scratch_buffers import Arena
+from core.records.arrays import Flags, Singles, read_only
+from core.records.frame import STAGES, StageCount
+from core.records.timing import timed
+from core.scene import AnyScene
+from core.settings import Settings
+
+BAND = 1 << 19
+"""Samples that are drawn and resolved in one go."""
+BRIGHTEST = 255
+
+
+def draw_supersampled(
+    draw_picture: Callable[..., Picture],
+    scene: AnyScene,
+    settings: Settings,
+    raster: Raster,
+    encoding: str,
+    pixels: Words,
+    arena: Arena,
+) -> Picture:
+    """Draw a picture with n x n samples a pixel into ``pixels`` (H*W,).
+
+    Parameters
+    ----------
+    draw_picture : callable
+        Draws the samples, as a picture of n times the size.
+    """
+    side = side_of(settings)
+    finer, plain = finer_scene(scene, side), finer_settings(settings)
+    weights = filter_weights(grid_positions(side), settings.resolve_filter)
+    counts = {stage: StageCount() for stage in STAGES}
+    route = Route("supersampled", "bytes")
+    for band in _pixel_bands(raster, side):
+        wide_pixels = grown(band, reach_of(weights))
+        drawn = draw_picture(finer, plain, region=_region(finer_raster(wide_pixels, side)), arena=arena)
+        _add(counts, drawn.statistics)
+        route = replace(route, color=drawn.route.color, visible=route.visible + drawn.route.visible)
+        with timed(counts["resolve"]):
+            samples = samples_by_place(drawn.pixels, side)
+            inner = inner_of(wide_pixels, band)
+            light = from_display(samples.reshape(-1, *samples.shape[2:])).reshape(samples.shape)
+            color = resolve_samples(light, weights)[inner]
+            cut_off = is_cut_off(samples, reach_of(weights))[inner]
+        if cut_off.any():
+            _draw_exactly(color, cut_off, scene, settings, band, counts)
+        with timed(counts["resolve"]):
+            at = (band.bounds[1] - raster.bounds[1]) * raster.shape[1]
+            pixels[at : at + cut_off.size] = encode(color.reshape(-1, 4), encoding)
+    counts["resolve"].incoming, counts["resolve"].outgoing = side * side * len(pixels), len(pixels)
+    return Picture(read_only(pixels.view("u1").reshape(*raster.shape, 4)), None, counts, route)
+
+
+def is_cut_off(samples: Bytes, reach: int) -> Flags:
+    """Tell of which pixels light above 1 may have been cut off before it was averaged with other samples.
+
+    Parameters
+    ----------
+    samples : (S, H, W, 4) uint8
+    reach : int
+        How many pixels away the filter looks: 0 or 1.
+
+    Returns
+    -------
+    (H, W) bool
+    """
+    greatest, least = samples[..., :3].max(axis=0), samples[..., :3].min(axis=0)
+    if reach:
+        greatest, least = _over_neighbours(greatest, np.maximum), _over_neighbours(least, np.minimum)
+    found: Flags = ((greatest == BRIGHTEST) & (least < BRIGHTEST)).any(axis=2)
+    return found
+
+
+def _over_neighbours(values: Bytes, choose: Callable[..., Bytes]) -> Bytes:
+    """Return the greatest or least of values (H, W, C) over 3 x 3 pixels."""
+    result = values.copy()
+    result[1:] = choose(result[1:], values[:-1])
+    result[:-1] = choose(result[:-1], values[1:])
+    across = result.copy()
+    result[:, 1:] = choose(result[:, 1:], across[:, :-1])
+    result[:, :-1] = choose(result[:, :-1], across[:, 1:])
+    return result
+
+
+def _draw_exactly(
+    color: Singles,
+    chosen: Flags,
+    scene: AnyScene,
+    settings: Settings,
+    raster: Raster,
+    counts: dict[str, StageCount],
+) -> None:
+    """Draw the ``chosen`` (H, W) pixels of a raster by all buffers, into ``color`` (H, W, 4)."""
+    rows, columns = np.flatnonzero(chosen.any(axis=1)), np.flatnonzero(chosen.any(axis=0))
+    first_column, first_row, _, _ = raster.bounds
+    at = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    size = int(columns[-1] - columns[0]) + 1, int(rows[-1] - rows[0]) + 1
+    region = (first_column + int(columns[0]), first_row + int(rows[0]), *size)
+    frame = draw(scene, settings, replace(raster, region=region))
+    _add(counts, frame.statistics)
+    color[at][chosen[at]] = frame.color[chosen[at]]
+
+
+def _pixel_bands(raster: Raster, side: int) -> Iterator[Raster]:
+    """Yield parts of a raster of pixels whose samples are drawn in one go."""
+    yield from bands_of(raster, 1, BAND // (side * side))
+
+
+def _region(raster: Raster) -> tuple[int, int, int, int]:
+    first_column, first_row, end_column, end_row = raster.bounds
+    return first_column, first_row, end_column - first_column, end_row - first_row
+
+
+def _add(counts: dict[str, StageCount], of_band: dict[str, StageCount]) -> None:
+    """Add the counts of a band: each of them has all triangles, and pixels of its own."""
+    for stage, count in of_band.items():
+        place = STAGES.index(stage)
+        is_of_triangles, gives_pixels = place <= STAGES.index("bin"), place >= STAGES.index("bin")
+        counts[stage].incoming = count.incoming + (0 if is_of_triangles else counts[stage].incoming)
+        counts[stage].outgoing = count.outgoing + (counts[stage].outgoing if gives_pixels else 0)
+        counts[stage].seconds += count.seconds
+        counts[stage].note = count.note

@@ -1,0 +1,153 @@
+"""Large triangles with nothing but a texture: coordinates band by band, texels packed, bytes at once.
+
+For a picture whose bytes are linear, of triangles so few and large that a band of each is worth its calls; see
+``packed_texture`` for how close the bytes are.
+"""
+
+from typing import ClassVar
+
+import numpy as np
+
+from core.fast_path.draw_context import Job, Words
+from core.fast_path.record import Coloring
+from core.fragments.interpolation import value_plane
+from core.fragments.packed_texture import FARTHEST, PackedSampler, has_bytes, is_packable, linear_levels
+from core.framebuffer.display import encode_linear
+from core.framebuffer.nearest import NearestFragments
+from core.raster.spans.bands import Band, Strip, bands
+from core.records.arrays import Singles
+from core.scene import AnyScene, ClipScene, Texture
+
+MOST = 64
+"""Triangles: of more, bands are not worth their calls."""
+MOST_ROUNDING = 2.0
+"""Parts of 256 of a texel that positions in float32 may be off by a bound that is seldom reached."""
+SINGLE = 2.0**-23
+"""A sum of two rounded to float32 is off by at most this part of what they may be, so is a product of quotients."""
+
+
+class TextureColors:
+    """Colours of the textured triangles of a job, block by block; the texture is packable."""
+
+    name: ClassVar[Coloring] = "texture"
+    stage = "shade"
+
+    @property
+    def for_layer(self) -> "TextureColors":
+        """These, for a picture that is one layer: no pixel that is drawn is 0."""
+        return self
+
+    def __init__(self, job: Job, texture: Texture) -> None:
+        geometry = job.geometry
+        values = geometry.primitives.values
+        uv = values.rows[:, values.layout["uv"]]
+        levels = None if has_bytes(texture) else encode_linear(linear_levels())
+        self._sampler = PackedSampler(texture, job.settings.texture_filter, job.settings.wrap, levels)
+        inverse_w = geometry.inverse_w_plane
+        self._planes = [inverse_w]
+        """Of 1 / w, and of the positions in the texture divided by w."""
+        self._corner_positions = []
+        """Of u and of v, (P, 3) float64 in 256ths of a texel."""
+        for number, axis in enumerate(self._sampler.axes):
+            of_corners = uv[:, number].take(values.index).T
+            self._corner_positions.append(axis.scale * of_corners + axis.offset)
+            plane = value_plane(geometry.planes, of_corners)
+            a, b, c = (
+                axis.scale * of + axis.offset * of_w for of, of_w in zip(plane, inverse_w, strict=True)
+            )
+            self._planes.append((a, b, c))
+
+    def rounding(self, job: Job) -> float:
+        """Return by how many 256ths of a texel a position may be off, as planes and quotient are in float32.
+
+        Of one triangle and the whole window, so that what holds for all bands of a picture holds for the picture.
+        """
+        width, height = job.scene.size
+        w = job.geometry.primitives.clip[..., 3].max(axis=1)
+        of_w, *positions = (
+            (np.abs(a) * width + np.abs(b) * height + np.abs(c)) * w * SINGLE for a, b, c in self._planes
+        )
+        corners = (np.abs(of).max(axis=1) for of in self._corner_positions)
+        off = [of + at * (of_w + SINGLE) for of, at in zip(positions, corners, strict=True)]
+        return float(np.max(off, initial=0.0))
+
+    def block(self, job: Job, triangle: int, band: Band | Strip) -> Words:
+        """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
+        rows, steps = band.inside, band.steps
+        x, y, step = job.raster.along(rows.origin), job.raster.along(rows.row), steps.number
+        shape = (len(rows), steps.width)
+        inverse_w, u, v = (job.arena(f"texture_{name}", *shape, dtype=np.float32) for name in ("w", "u", "v"))
+        for values, (a, b, c) in zip((inverse_w, u, v), self._planes, strict=True):
+            ramp = (a[triangle] * step).astype(np.float32)
+            of_row = (a[triangle] * x + (b[triangle] * y + c[triangle])).astype(np.float32)
+            np.add(steps.spread(ramp), of_row[:, None], out=values)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            is_near = _is_positive(inverse_w)
+            np.divide(np.float32(1), inverse_w, out=inverse_w)
+            for position in (u, v):
+                position *= inverse_w
+                is_near = is_near and _largest_at_ends(position) <= FARTHEST
+        pixels: Words = job.arena("texture_pixels", *shape, dtype=np.uint32)
+        u, v, flat = u.reshape(-1), v.reshape(-1), pixels.reshape(-1)
+        if is_near:
+            self._sampler.write_words_at(u, v, flat)
+        else:
+            across, up = self._sampler.axes
+            self._sampler.write_words((u - across.offset) / across.scale, (v - up.offset) / up.scale, flat)
+        return pixels
+
+    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+        """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
+        number = nearest.number_in(slice(None), np.empty(len(job.pixels), np.int64)).reshape(job.raster.shape)
+        image = job.pixels.reshape(job.raster.shape)
+        for triangle, rows in job.rows_of_each(np.arange(len(job.geometry.primitives))):
+            for band in bands(rows, job.raster):
+                is_seen = number[band.rows, band.columns] == triangle + 1
+                if is_seen.any():
+                    np.copyto(image[band.rows, band.columns], self.block(job, triangle, band), where=is_seen)
+        return int(np.count_nonzero(number))
+
+
+def _is_positive(inverse_w: Singles) -> bool:
+    """Return whether 1 / w (R, C), linear along every row, is positive everywhere."""
+    return bool((_ends(inverse_w) > 0).all())
+
+
+def _largest_at_ends(position: Singles) -> float:
+    """Return the largest size of positions (R, C), which grow or fall all along a row where w is positive."""
+    return float(np.abs(_ends(position)).max())
+
+
+def _ends(values: Singles) -> Singles:
+    """Return the first and the last value of all rows (R, C)."""
+    return values[:, :: max(values.shape[1] - 1, 1)]
+
+
+def texture_colors(job: Job) -> TextureColors | None:
+    """Return the colours of all primitives, or ``None`` where they are more than one texture, or too many."""
+    primitives, settings = job.geometry.primitives, job.settings
+    if (
+        job.encoding != "linear"
+        or job.counts["cull"].outgoing > MOST
+        or settings.interpolation != "perspective"
+    ):
+        return None
+    if settings.texture_filter not in ("bilinear", "nearest"):
+        return None
+    texture = _only_texture(job.scene)
+    if texture is None or not is_packable(texture, settings.wrap):
+        return None
+    values = primitives.values
+    if not set(values.layout) <= {"uv", "color"} or not job.geometry.is_projected.all():
+        return None
+    if not isinstance(job.scene, ClipScene) and (values.rows[:, values.layout["color"]] != 1).any():
+        return None
+    colors = TextureColors(job, texture)
+    return colors if colors.rounding(job) <= MOST_ROUNDING else None
+
+
+def _only_texture(scene: AnyScene) -> Texture | None:
+    """Return the texture that everything in the scene has."""
+    if isinstance(scene, ClipScene):
+        return scene.texture
+    return scene.meshes[0].texture if len(scene.meshes) == 1 else None

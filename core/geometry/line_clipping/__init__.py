@@ -1,0 +1,1 @@
+"""Line clipping: the methods of the family ``line_clipping``, one file each."""

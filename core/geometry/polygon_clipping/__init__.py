@@ -1,0 +1,1 @@
+"""Polygon clipping: Sutherland-Hodgman in clip space, and the methods of the family ``clipping``."""

@@ -1,0 +1,85 @@
+"""Why a pixel looks as it does: its history from the vertices to the blended colour, for every triangle.
+
+The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
+Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
+own; of exact areas ``pieces`` tells who covers how much of the pixel, and this one what is at its centre.
+"""
+
+from core.antialiasing.sample_counts import sample_count
+from core.framebuffer.depth import DepthFormat
+from core.methods import table
+from core.pixel_history.at_samples import candidates_at
+from core.pixel_history.candidates import PixelCandidates, whole_geometry
+from core.pixel_history.events import list_events
+from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
+from core.pixel_history.verdict import pixel_verdict, triangle_verdict
+from core.settings import Settings
+from core.stages.blend_choice import blend_choice
+from core.trace.source import TraceSource
+
+
+def why(
+    source: TraceSource, column: int, row: int, triangle: int | None = None, sample: int | None = None
+) -> PixelHistory:
+    """Return the history of a pixel in the picture of the whole scene.
+
+    Parameters
+    ----------
+    source : TraceSource
+        Scene and settings; which triangle it traces and its region do not matter here.
+    column, row : int
+        The pixel, row 0 at the bottom.
+    triangle : int, optional
+        A triangle of the scene: it is listed even if it is far away, and the verdict is about it.
+    sample : int, optional
+        One of several samples of the pixel, instead of its centre. Of n x n samples, columns and rows in the events
+        are those of samples.
+
+    Raises
+    ------
+    ValueError
+        For a pixel outside the image, a triangle or a sample that is not there.
+
+    Examples
+    --------
+    >>> from core import ClipScene, Settings
+    >>> scene = ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(4, 3))
+    >>> why(TraceSource(scene, Settings()), 0, 0).verdict.key
+    'seen'
+    >>> why(TraceSource(scene, Settings()), 3, 2).verdict.key
+    'all-missed'
+    """
+    scene, settings = source.scene, source.settings
+    width, height = scene.size
+    if not (0 <= column < width and 0 <= row < height):
+        raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
+    geometry = whole_geometry(source)
+    count = len(geometry.assembled)
+    if triangle is not None and not 0 <= triangle < count:
+        raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
+    if sample is None:
+        candidates = PixelCandidates(scene, settings, geometry, column, row, triangle)
+    else:
+        _check_sample(sample, settings)
+        candidates = candidates_at(source, column, row, triangle, sample)
+    depth_format: DepthFormat = table.get("depth", settings.depth).function()
+    events, counts, cover_count = list_events(candidates, depth_format)
+    if triangle is None:
+        verdict = pixel_verdict(events, counts, blend_choice(settings)[0])
+    else:
+        verdict = triangle_verdict(events, triangle)
+    return PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
+
+
+def _check_sample(sample: int, settings: Settings) -> None:
+    """Refuse a sample that pixels do not have."""
+    count = sample_count(settings)
+    if count == 1:
+        raise ValueError(
+            f"a pixel must have several samples to be asked of one, got antialiasing {settings.antialiasing}"
+        )
+    if not 0 <= sample < count:
+        raise ValueError(f"sample must be 0 to {count - 1}, got {sample}")
+
+
+__all__ = ["Link", "PixelEvent", "PixelHistory", "PixelState", "why"]

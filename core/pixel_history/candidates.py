@@ -1,0 +1,244 @@
+"""Which triangles could matter at a pixel: those whose box contains it; the others are only counted."""
+
+from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from core.methods import table
+from core.pipeline import schedule
+from core.raster.binning import bound
+from core.raster.coverage import Fragments, PixelTests, examine_pixels, join_fragments
+from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
+from core.raster.edges.snapping import CornerPositions, place_corners
+from core.raster.lines.wireframe import Outlines, draw_outlines
+from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
+from core.records.arrays import Flags, Floats, Integers
+from core.records.cached import cached_property
+from core.records.frame import STAGES, StageCount
+from core.scene import AnyScene
+from core.settings import Settings
+from core.stages.vertices import Geometry, process_geometry
+from core.trace.source import TraceSource
+
+ROUNDING_REACH = 2
+"""Pixels by which a fill that rounds corners, or a line, may leave the triangle's box."""
+
+_geometries: "WeakKeyDictionary[AnyScene, tuple[Settings, Geometry]]" = WeakKeyDictionary()
+
+
+def whole_geometry(source: TraceSource) -> Geometry:
+    """Return the geometry of all triangles; that of a scene is kept for its next pixel."""
+    if source.triangle is None:
+        return source.geometry
+    found = _geometries.get(source.scene)
+    if found is None or found[0] != source.settings:
+        counts = {stage: StageCount() for stage in STAGES}
+        found = source.settings, process_geometry(source.scene, source.settings, counts)
+        _geometries[source.scene] = found
+    return found[1]
+
+
+def take_outlines(outlines: Outlines, index: Integers) -> Outlines:
+    """Return the segments (M,) of a wireframe."""
+    return Outlines(*(values[index] for values in vars(outlines).values()))
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeTests:
+    """Q primitives at one pixel centre: the numbers of the inside test."""
+
+    values: Floats
+    """(Q, 3) float64, the edge functions."""
+    inside: Flags
+    """(Q, 3) bool, by the fill rule."""
+    distance: Floats
+    """(Q, 3) float64, signed distance from the edges in pixels, positive inside; NaN: no direction."""
+    ulps: Floats
+    """(Q, 3) float64, the value in units of the last place of its largest term."""
+
+    @property
+    def clearance(self) -> Floats:
+        """(Q,) float64, the least distance: how far inside, or (negative) how far past the worst edge."""
+        return np.asarray(np.where(np.isnan(self.distance), -np.inf, self.distance).min(axis=1))
+
+
+def examine_edges(edges: EdgeFunctions, x: float, y: float) -> EdgeTests:
+    """Apply the inside test of all edges to one pixel centre."""
+    numbers, a, b, c = edges.numbers, edges.shown_a, edges.shown_b, edges.shown_c
+    columns, rows = (numbers.of_pixels(np.full((len(edges), 1), place)) for place in (x, y))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        held = edge_value(edges.a, edges.b, edges.c, columns, rows)
+        values = numbers.shown_values(held)
+        largest = np.maximum(np.abs(a * x), np.maximum(np.abs(b * y), np.abs(c)))
+        distance = values / np.hypot(a, b)
+        ulps = values / numbers.spacing(largest)
+    return EdgeTests(values, is_inside(held, edges.owns_tie), distance, ulps)
+
+
+@dataclass(frozen=True, eq=False)
+class PixelCandidates:
+    """The primitives that could matter at one pixel, and what the fill did with them there."""
+
+    scene: AnyScene
+    settings: Settings
+    geometry: Geometry
+    column: int
+    row: int
+    focus: int | None
+    """A triangle that is a candidate in any case."""
+    colored_by: Geometry | None = None
+    """Where colours are taken from, if not from ``geometry``: at the pixel's centre, for any of its samples."""
+
+    @cached_property
+    def raster(self) -> Raster:
+        """The pixel as a raster of its own."""
+        return make_raster(self.scene.size, self.settings.pixel_center, (self.column, self.row, 1, 1))
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """X and y of the pixel's centre."""
+        return self.column + self.raster.center, self.row + self.raster.center
+
+    @property
+    def image(self) -> Raster:
+        """The whole picture."""
+        return make_raster(self.scene.size, self.settings.pixel_center)
+
+    @property
+    def rounds_corners(self) -> bool:
+        """Whether the fill may leave the box of a triangle."""
+        is_filled = self.geometry.outlines is None
+        return is_filled and "projected" in table.get("fill", self.settings.fill).needs
+
+    @cached_property
+    def primitive(self) -> Integers:
+        """(Q,) int64, primitives whose box contains the pixel, and those of the focus; in drawing order."""
+        if self.rounds_corners or self.geometry.outlines is not None:
+            contains = boxes_reach(self.geometry.edges.corners, self.center, ROUNDING_REACH)
+        else:
+            boxes = bound(self.geometry.edges, self.raster)
+            contains = (boxes.column_end > boxes.column) & (boxes.row_end > boxes.row)
+        if self.focus is not None:
+            contains |= self.geometry.primitives.triangle == self.focus
+        return np.flatnonzero(contains)
+
+    @cached_property
+    def edges(self) -> EdgeFunctions:
+        """Edge functions of the candidates."""
+        return self.geometry.edges.take(self.primitive)
+
+    @cached_property
+    def triangle(self) -> Integers:
+        """(Q,) int64, the triangle of every candidate."""
+        return self.geometry.primitives.triangle[self.primitive]
+
+    @cached_property
+    def boxes(self) -> Boxes:
+        """Boxes of the candidates in the whole image."""
+        return bound(self.edges, self.image)
+
+    @cached_property
+    def runs(self) -> Runs:
+        """What the fill looks at, of this pixel."""
+        return schedule(self.edges, self.settings, self.raster)[1]
+
+    @cached_property
+    def row_runs(self) -> Runs:
+        """What the fill looks at in the whole row of the pixel."""
+        row = make_raster(self.scene.size, self.settings.pixel_center, (0, self.row, self.scene.size[0], 1))
+        return schedule(self.edges, self.settings, row)[1]
+
+    @cached_property
+    def pixel_tests(self) -> PixelTests:
+        """The tests of this pixel as the picture makes them; ``primitive`` counts the candidates."""
+        return examine_pixels(self.edges, self.runs, self.raster)
+
+    @cached_property
+    def fragments(self) -> Fragments:
+        """(F,) fragments at this pixel in drawing order, as the picture makes them; a wireframe's are lines."""
+        outlines = self.geometry.outlines
+        if outlines is not None:
+            near = np.flatnonzero(np.isin(outlines.primitive, self.primitive))
+            drawn = [
+                found
+                for found, _ in draw_outlines(take_outlines(outlines, near), self.raster, self.settings.line)
+            ]
+            found = join_fragments(drawn)
+            segment = near[found.segment]
+            return replace(found, primitive=outlines.primitive[segment], segment=segment)
+        tests = self.pixel_tests
+        primitive = self.primitive[tests.primitive[tests.covered]]
+        return Fragments(primitive, *self._here(len(primitive)))
+
+    @cached_property
+    def covering(self) -> Integers:
+        """(F,) int64, the candidate of every fragment; which of Q."""
+        return np.searchsorted(self.primitive, self.fragments.primitive)
+
+    def _here(self, count: int) -> tuple[Integers, Integers]:
+        return np.full(count, self.column), np.full(count, self.row)
+
+    @cached_property
+    def edge_tests(self) -> EdgeTests:
+        """The inside test of every candidate, whether the fill made it or not; the fill's own values, where it adds."""
+        tests = examine_edges(self.edges, *self.center)
+        if self.runs.stepping is None:
+            return tests
+        values, stepped = tests.values.copy(), self.pixel_tests
+        values[stepped.primitive] = stepped.values
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            distance = values / np.hypot(self.edges.shown_a, self.edges.shown_b)
+            ulps = tests.ulps * (values / tests.values)
+        return EdgeTests(values, is_inside(values, self.edges.owns_tie), distance, ulps)
+
+    @cached_property
+    def culled(self) -> Integers:
+        """(C,) int64, culled triangles to be listed: their box contains the pixel."""
+        return self._undrawn(np.flatnonzero(~self.geometry.culled.kept))
+
+    @cached_property
+    def clipped_away(self) -> Integers:
+        """(C,) int64, triangles of which clipping left nothing, to be listed."""
+        if self.geometry.clipped is None:
+            return np.empty(0, np.int64)
+        return self._undrawn(np.setdiff1d(self.geometry.kept.triangle, self.geometry.primitives.triangle))
+
+    def placed(self, clip: Floats) -> CornerPositions:
+        """Return the corners of triangles (C, 3, 4) in the window, moved as the geometry is."""
+        corners = place_corners(clip, self.scene.size, self.settings.coverage)
+        shift = self.geometry.shift
+        return corners.moved(*shift) if any(shift) else corners
+
+    def unclipped(self, triangle: Integers) -> EdgeFunctions:
+        """Return the edge functions that triangles (C,) would have as they are."""
+        corners = self.placed(self.geometry.assembled.clip[triangle])
+        return set_up_edges(corners, self.settings.fill_rule)
+
+    def _undrawn(self, triangle: Integers) -> Integers:
+        """Choose those whose box contains the pixel; one that crosses the eye must cover it too."""
+        # A box first, for all; edge functions for those that are left.
+        clip = self.geometry.assembled.clip
+        corners = self.placed(clip[triangle])
+        x, y = self.center
+        near = boxes_reach(corners, (x, y), 0)
+        near &= (corners.homogeneous[..., 2] > 0).any(axis=1)
+        chosen = triangle[near]
+        if len(chosen):
+            edges = self.unclipped(chosen)
+            inside = examine_edges(edges, x, y).inside.all(axis=1) & (edges.doubled_area != 0)
+            crossing = bound(edges, self.image).case != PROJECTED
+            chosen = chosen[inside | ~crossing]
+        if self.focus is not None and self.focus in triangle:
+            chosen = np.union1d(chosen, [self.focus])
+        return np.asarray(chosen, np.int64)
+
+
+def boxes_reach(corners: CornerPositions, center: tuple[float, float], reach: float) -> Flags:
+    """Return (P,) bool: the box of the corners, grown by ``reach`` pixels, contains a pixel centre.
+
+    A triangle with a corner that cannot be projected has no box, and might be anywhere.
+    """
+    low, high = corners.decided.min(axis=1) - reach, corners.decided.max(axis=1) + reach
+    within = (low <= center) & (high >= center)
+    return np.asarray(~corners.is_projected.all(axis=1) | within.all(axis=1))

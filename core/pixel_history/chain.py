@@ -1,0 +1,204 @@
+"""The links of a triangle's chain up to the raster: transformed, culled, clipped, binned, covered or not."""
+
+from typing import Any
+
+import numpy as np
+
+from core.geometry.culling import PLANES, REASONS
+from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
+from core.pixel_history.candidates import EdgeTests, PixelCandidates, examine_edges
+from core.pixel_history.outlines import missed_outline
+from core.pixel_history.records import Link
+from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.edges.snapping import SUBPIXELS, place_corners
+from core.raster.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
+from core.records.arrays import Floats, Integers
+
+
+def vertex_link(candidates: PixelCandidates, triangle: int) -> Link:
+    """Return where the corners of a triangle are: in front of the eye, behind it, or on both sides."""
+    clip = candidates.geometry.assembled.clip[triangle : triangle + 1]
+    corners = place_corners(clip, candidates.scene.size, candidates.settings.coverage)
+    w = clip[0, :, 3]
+    behind = tuple(int(k) for k in np.flatnonzero(w <= 0))
+    key = "in-front" if not behind else "behind-eye" if len(behind) == 3 else "crosses-eye"
+    return Link("transform", key, {"w": w, "window": corners.window[0], "behind": behind})
+
+
+def cull_link(candidates: PixelCandidates, triangle: int, tests: dict[str, Any] | None = None) -> Link:
+    """Return the verdict of culling; ``tests``: what the inside test says of a culled triangle."""
+    culled = candidates.geometry.culled
+    plane = int(culled.plane[triangle])
+    values: dict[str, Any] = {
+        "facing": float(culled.facing[triangle]),
+        "plane": PLANES[plane] if plane >= 0 else "none",
+        "plane_distances": culled.distances[triangle, :, plane] if plane >= 0 else None,
+    }
+    return Link("cull", REASONS[int(culled.verdict[triangle])], values | (tests or {}))
+
+
+def clip_link(candidates: PixelCandidates, triangle: int, piece: int = -1) -> Link:
+    """Return what clipping did: which corners lie outside which planes, and how many corners are left."""
+    geometry = candidates.geometry
+    clipped = geometry.clipped
+    is_spared = geometry.clipping_inserted and (geometry.assembled.clip[triangle, :, 3] > 0).all()
+    if clipped is None or is_spared:
+        return Link("clip", "no-clipping", {})
+    place = int(np.flatnonzero(geometry.kept.triangle == triangle)[0])
+    distances = geometry.culled.distances[triangle]
+    outside = tuple(
+        (PLANES[plane], tuple(int(k) for k in np.flatnonzero(distances[:, plane] < 0)))
+        for plane in clipped.planes
+        if (distances[:, plane] < 0).any()
+    )
+    which = np.flatnonzero(clipped.clipped == place)
+    count = int(clipped.counts[-1][which[0]]) if len(which) else 3
+    values = {
+        "outside": outside,
+        "corner_count": count,
+        "piece": piece,
+        "piece_count": max(count - 2, 0),
+        "inserted_for": geometry.clipping_inserted,
+        "division": _division(clipped, which, geometry.assembled.clip[triangle, :, 3]),
+    }
+    key = "inside" if not len(which) else "clipped-away" if count < 3 else "clipped"
+    return Link("clip", key, values)
+
+
+def _division(clipped: Clipped, which: Integers, w: Floats) -> str:
+    """Return what dividing corners with ``w`` (3,) before clipping did: ``mirrored``, ``undefined``, or nothing.
+
+    ``which`` (0 or 1,) is the triangle's place among those that were clipped.
+    """
+    if not clipped.is_divided or not len(which):
+        return ""
+    if not clipped.counts[0][which[0]]:
+        return "undefined"
+    return "mirrored" if (w < 0).any() else ""
+
+
+def undrawn_values(candidates: PixelCandidates, triangle: int) -> dict[str, Any]:
+    """Return what the inside test says of a triangle that was culled or clipped away.
+
+    ``would_cover``: whether it would have had a fragment here.
+    """
+    edges = candidates.unclipped(np.array([triangle]))
+    tests = examine_edges(edges, *candidates.center)
+    values = edge_values(edges, tests, 0)
+    is_in_front = bool((edges.corners.homogeneous[..., 2] > 0).any())
+    return values | {
+        "would_cover": is_in_front and values["doubled_area"] != 0 and bool(values["inside"].all())
+    }
+
+
+def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any]:
+    """Return the numbers of the inside test of primitive ``k``, and those of its worst edge apart.
+
+    Notes
+    -----
+    ``distance`` is signed, positive inside, in pixels; ``subpixels`` the same in 1/256 pixel; ``ulps`` the
+    value in units in the last place of its largest term. The value of an edge with a snapped end is exact.
+    """
+    distance, inside = tests.distance[k], tests.inside[k]
+    failing = ~inside if not inside.all() else np.ones(3, bool)
+    edge = int(np.argmin(np.where(failing, np.nan_to_num(distance, nan=-np.inf), np.inf)))
+    is_anchored = edges.corners.is_projected[k, [(edge + 1) % 3, (edge + 2) % 3]].any()
+    return {
+        "values": tests.values[k],
+        "distances": distance,
+        "inside": inside,
+        "ties": tests.values[k] == 0,
+        "owns_tie": edges.owns_tie[k],
+        "edge": edge,
+        "value": float(tests.values[k, edge]),
+        "distance": float(distance[edge]),
+        "subpixels": float(distance[edge] * SUBPIXELS),
+        "ulps": float(tests.ulps[k, edge]),
+        "is_exact": bool(is_anchored) or edges.numbers.name in ("exact", "int64", "fixed-24.8"),
+        "doubled_area": float(edges.doubled_area[k]),
+    }
+
+
+def raster_links(candidates: PixelCandidates, k: int) -> list[Link]:
+    """Return how candidate ``k`` fared in binning and at the pixel: covered, or where it was left out.
+
+    A wireframe has no bins; its fragments have ``core.pixel_history.outlines.outline_link``.
+    """
+    values = edge_values(candidates.edges, candidates.edge_tests, k)
+    box = tuple(int(getattr(candidates.boxes, name)[k]) for name in Boxes._fields[1:])
+    values["box"] = box
+    if candidates.geometry.outlines is not None:
+        return [missed_outline(candidates, k, values)]
+    if values["doubled_area"] == 0:
+        return [Link("bin", "no-area", values)]
+    whole = candidates.boxes.case[k] == MIXED
+    bin_key = "whole-image" if whole else "in-box"
+    block = _block_of(candidates, k)
+    if not whole and not _contains(box, candidates.column, candidates.row):
+        bin_key = "outside-box"
+    if block:
+        values |= block
+        if block["block_verdict"] == OUTSIDE:
+            bin_key = "outside-block"
+        elif block["block_verdict"] == INSIDE:
+            bin_key = "inside-block"
+    binned = Link("bin", bin_key, values)
+    covers = bool((candidates.covering == k).any())
+    if covers:
+        accepted = bool(candidates.pixel_tests.accepted[candidates.pixel_tests.primitive == k].any())
+        tie = bool(values["ties"].any() and values["inside"].all())
+        key = "accepted" if accepted else "covered-on-edge" if tie else "covered"
+        return [binned, Link("raster", key, values | _span_of(candidates, k))]
+    if bin_key == "outside-block" or (bin_key == "outside-box" and not candidates.rounds_corners):
+        return [binned]
+    return [binned, Link("raster", *_missed(candidates, k, values))]
+
+
+def _missed(candidates: PixelCandidates, k: int, values: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Return the key and the numbers of a pixel that the raster looked at and left out."""
+    if candidates.rounds_corners:
+        span = _span_of(candidates, k)
+        return ("outside-span" if span else "row-not-drawn"), values | span
+    failing = values["values"][~values["inside"]]
+    if np.isnan(failing).any():
+        return "undefined", values
+    values = values | _span_of(candidates, k)
+    return ("missed-edge" if (failing < 0).any() else "tie-not-owned"), values
+
+
+def _contains(box: tuple[int, ...], column: int, row: int) -> bool:
+    return box[0] <= column < box[2] and box[1] <= row < box[3]
+
+
+def _block_of(candidates: PixelCandidates, k: int) -> dict[str, Any]:
+    """Return the smallest block around the pixel that was looked at for candidate ``k``; empty: none."""
+    blocks = candidates.runs.blocks
+    if blocks is None:
+        return {}
+    nodes: Integers = np.flatnonzero(blocks.triangle == k)
+    if not len(nodes):
+        return {}
+    node = int(nodes[-1])
+    size = int(blocks.size[node])
+    return {
+        "block": (int(blocks.column[node]) // size, int(blocks.row[node]) // size),
+        "block_size": size,
+        "block_verdict": int(blocks.verdict[node]),
+        "rejected_by": int(blocks.rejected_by[node]),
+        "low": blocks.low[node],
+        "high": blocks.high[node],
+    }
+
+
+def _span_of(candidates: PixelCandidates, k: int) -> dict[str, Any]:
+    """Return the span of candidate ``k`` in the pixel's row (scanline fills); empty: none."""
+    if candidates.runs.crossings is None:
+        return {}
+    runs = candidates.row_runs
+    spans = np.flatnonzero((runs.triangle == k) & (runs.stop > runs.start))
+    if not len(spans):
+        return {}
+    # Of several spans (pieces of a printed fill) the one nearest to the pixel.
+    away = np.maximum(runs.start[spans] - candidates.column, candidates.column - runs.stop[spans] + 1)
+    span = int(spans[np.argmin(away)])
+    return {"start": int(runs.start[span]), "stop": int(runs.stop[span])}

@@ -1,0 +1,162 @@
+"""The events of a pixel in drawing order: initial value, clear, and every candidate triangle."""
+
+import numpy as np
+
+from core.framebuffer.depth import DepthFormat
+from core.geometry.culling import REASONS
+from core.pixel_history.candidates import PixelCandidates
+from core.pixel_history.chain import clip_link, cull_link, raster_links, undrawn_values, vertex_link
+from core.pixel_history.fragments import (
+    Passage,
+    PixelFragments,
+    cleared_state,
+    fold,
+    overwriters,
+    run_fragments,
+)
+from core.pixel_history.outlines import outline_link
+from core.pixel_history.records import Link, PixelEvent
+from core.records.arrays import Integers
+from core.stages.blend_choice import blend_choice
+
+LISTED_LIMIT = 256
+"""Triangles without a fragment that are listed one by one; of more, those whose edges are nearest."""
+
+
+def list_events(
+    candidates: PixelCandidates, depth_format: DepthFormat
+) -> tuple[tuple[PixelEvent, ...], dict[str, int], int]:
+    """Return the events, the triangles that are only counted by reason, and the fragments in depth range."""
+    cleared = cleared_state(candidates, depth_format)
+    fragments = run_fragments(candidates, depth_format)
+    passages = fold(fragments, cleared, candidates)
+    drawn = _fragment_events(candidates, fragments, passages)
+    missed = _missed_events(candidates, fragments.triangle)
+    culled = [_culled_event(candidates, int(triangle)) for triangle in candidates.culled]
+    clipped = [_clipped_event(candidates, int(triangle)) for triangle in candidates.clipped_away]
+    ranked = sorted([*drawn, *missed, *culled, *clipped], key=_Rank(candidates))
+    first = (
+        PixelEvent("initial", (Link("blend", "initial", {}),)),
+        PixelEvent("clear", (Link("blend", "clear", {}),), out=cleared, after=cleared),
+    )
+    events = (*first, *ranked)
+    return events, _counts(candidates, events), int(np.count_nonzero(fragments.keeps))
+
+
+class _Rank:
+    """Sort key: the drawing order, in which a culled triangle stands where it would have been drawn.
+
+    Notes
+    -----
+    Under the painter's algorithm culled triangles are never sorted: they stand before the others.
+    """
+
+    def __init__(self, candidates: PixelCandidates) -> None:
+        self._order = candidates.geometry.kept.triangle
+        self._is_rising = bool((np.diff(self._order) > 0).all())
+
+    def __call__(self, event: PixelEvent) -> tuple[int, int]:
+        if self._is_rising:
+            return event.triangle, event.primitive
+        place = np.flatnonzero(self._order == event.triangle)
+        return (int(place[0]) if len(place) else -1), event.primitive
+
+
+def _fragment_events(
+    candidates: PixelCandidates, fragments: PixelFragments, passages: list[Passage]
+) -> list[PixelEvent]:
+    """Return one event for every covered primitive."""
+    blend, _ = blend_choice(candidates.settings)
+    hidden_by = overwriters(fragments, blend)
+    events = []
+    for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
+        if candidates.geometry.outlines is None:
+            raster = raster_links(candidates, which)
+        else:
+            raster = [outline_link(candidates, k)]
+        chain = [*_upper_chain(candidates, which), *raster]
+        weights = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
+        chain.append(Link("interpolate", "weights", weights))
+        chain.append(Link("shade", "color", {"color": fragments.color[k]}))
+        chain.append(passage.depth_link)
+        if passage.passes:
+            values = {"by": hidden_by[k], "alpha": float(fragments.source[k, 3])}
+            key = "overwritten" if hidden_by[k] >= 0 else "written"
+            if key == "written" and blend != "opaque":
+                key = "blended"
+            chain.append(Link("blend", key, values))
+        event = PixelEvent(
+            "fragment",
+            tuple(chain),
+            int(fragments.triangle[k]),
+            int(fragments.primitive[k]),
+            passage.before,
+            passage.out,
+            passage.after,
+            is_rejected=not passage.passes,
+        )
+        events.append(event)
+    return events
+
+
+def _upper_chain(candidates: PixelCandidates, which: int) -> list[Link]:
+    """Return the links of candidate ``which`` before binning."""
+    triangle = int(candidates.triangle[which])
+    first = int(np.flatnonzero(candidates.geometry.primitives.triangle == triangle)[0])
+    piece = int(candidates.primitive[which]) - first
+    return [
+        vertex_link(candidates, triangle),
+        cull_link(candidates, triangle),
+        clip_link(candidates, triangle, piece),
+    ]
+
+
+def _missed_events(candidates: PixelCandidates, covering: Integers) -> list[PixelEvent]:
+    """Return one event for every drawn triangle without a fragment: of its pieces, the nearest."""
+    clearance = candidates.edge_tests.clearance
+    open_ones = np.flatnonzero(~np.isin(candidates.triangle, covering))
+    # Nearest piece first, then one of each triangle.
+    order = open_ones[np.argsort(-clearance[open_ones], kind="stable")]
+    _, first = np.unique(candidates.triangle[order], return_index=True)
+    chosen = order[np.sort(first)]
+    is_focus = candidates.triangle[chosen] == (-1 if candidates.focus is None else candidates.focus)
+    chosen = np.concatenate([chosen[is_focus], chosen[~is_focus]])[:LISTED_LIMIT]
+    events = []
+    for which in chosen.tolist():
+        chain = (*_upper_chain(candidates, which), *raster_links(candidates, which))
+        primitive = int(candidates.primitive[which])
+        event = PixelEvent("missed", chain, int(candidates.triangle[which]), primitive, is_rejected=True)
+        events.append(event)
+    return events
+
+
+def _culled_event(candidates: PixelCandidates, triangle: int) -> PixelEvent:
+    values = undrawn_values(candidates, triangle)
+    link = cull_link(candidates, triangle, values)
+    return PixelEvent("culled", (vertex_link(candidates, triangle), link), triangle, is_rejected=True)
+
+
+def _clipped_event(candidates: PixelCandidates, triangle: int) -> PixelEvent:
+    link = clip_link(candidates, triangle)
+    link = Link(link.stage, link.key, {**link.values, **undrawn_values(candidates, triangle)})
+    chain = (vertex_link(candidates, triangle), cull_link(candidates, triangle), link)
+    return PixelEvent("clipped", chain, triangle, is_rejected=True)
+
+
+def _counts(candidates: PixelCandidates, events: tuple[PixelEvent, ...]) -> dict[str, int]:
+    """Count the triangles that are not listed: culled, clipped away, elsewhere, or past the limit."""
+    geometry = candidates.geometry
+    listed = np.zeros(len(geometry.assembled), bool)
+    listed[[event.triangle for event in events if event.triangle >= 0]] = True
+    counts = {}
+    by_reason = np.bincount(geometry.culled.verdict[~listed], minlength=len(REASONS))
+    for reason, count in zip(REASONS[1:], by_reason[1:].tolist(), strict=True):
+        counts[reason] = count
+    is_drawn = np.zeros(len(listed), bool)
+    is_drawn[geometry.primitives.triangle] = True
+    in_box = np.zeros(len(listed), bool)
+    in_box[candidates.triangle] = True
+    counts["clipped-away"] = int(np.count_nonzero(geometry.culled.kept & ~is_drawn & ~listed))
+    counts["outside-box"] = int(np.count_nonzero(is_drawn & ~in_box & ~listed))
+    counts["missed"] = int(np.count_nonzero(is_drawn & in_box & ~listed))
+    return {reason: count for reason, count in counts.items() if count}

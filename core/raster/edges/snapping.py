@@ -1,0 +1,151 @@
+"""Window positions of the corners as the coverage decision sees them: snapped to 1/256 pixel, or as they are.
+
+Notes
+-----
+GPUs decide coverage on a lattice of 1/256 pixel, and so do we: every product and sum of an edge function then
+fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is drawn once. Which corners are snapped, and
+in which numbers the edges are computed, is up to the number format (``number_format``).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.methods import table
+from core.records.arrays import Flags, Floats, Integers
+
+SUBPIXELS = 256
+"""Steps of the snapping lattice in one pixel."""
+SNAP_LIMIT = 2.0**16
+"""Corners farther from the window's origin than this, in pixels, are not snapped."""
+
+
+@dataclass(frozen=True, eq=False)
+class CornerPositions:
+    """Corners of P triangles in the homogeneous window ``D clip``."""
+
+    homogeneous: Floats
+    """(P, 3, 3) float64 x, y, w as the vertex stage made them: attributes and depth come from these."""
+    window: Floats
+    """(P, 3, 2) float64 pixels, before snapping; NaN where w <= 0."""
+    decided: Floats
+    """(P, 3, 2) pixels that coverage is decided on (snapped); NaN where a corner cannot be projected."""
+    is_projected: Flags
+    """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
+    clip: Floats
+    """(P, 3, 4) float64, what all of these were made from: exact coverage is decided on it."""
+    size: tuple[int, int]
+    """Width and height of the image in pixels."""
+    coverage: str
+    """The method of the family ``coverage``: in which numbers edges are set up."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels all but ``clip`` is moved, multiples of 1/256."""
+
+    def take(self, at: Integers | slice) -> "CornerPositions":
+        """Return the corners of the triangles ``at`` (C,)."""
+        return replace(
+            self,
+            homogeneous=self.homogeneous[at],
+            window=self.window[at],
+            decided=self.decided[at],
+            is_projected=self.is_projected[at],
+            clip=self.clip[at],
+        )
+
+    def moved(self, x: float, y: float) -> "CornerPositions":
+        """Return the corners ``x`` and ``y`` pixels further; what is snapped moves exactly by multiples of 1/256."""
+        way = np.array([x, y])
+        homogeneous = self.homogeneous.copy()
+        homogeneous[..., :2] += way * self.homogeneous[..., 2:]
+        return replace(
+            self,
+            homogeneous=homogeneous,
+            window=self.window + way,
+            decided=self.decided + way,
+            shift=(self.shift[0] + x, self.shift[1] + y),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class WindowVertices:
+    """M vertices in the window, placed once for all triangles that share them."""
+
+    x: Floats
+    """(M,) float64 pixels that coverage is decided on (snapped); NaN where the vertex cannot be projected."""
+    y: Floats
+    """(M,) float64, likewise."""
+    is_projected: Flags
+    """(M,) bool, where ``x`` and ``y`` hold."""
+
+
+def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
+    """Put corners on the lattice of a coverage method.
+
+    Parameters
+    ----------
+    clip : (P, 3, 4) float64
+    size : (width, height)
+    coverage : str
+        A method of the family ``coverage``.
+    """
+    x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
+    homogeneous = _component_rows(w.shape, 3)
+    homogeneous[..., 0] = (x + w) * (size[0] / 2)
+    homogeneous[..., 1] = (y + w) * (size[1] / 2)
+    homogeneous[..., 2] = w
+    window = window_position(clip, size)
+    decided, is_projected = table.get("coverage", coverage).function().place(window)
+    return CornerPositions(homogeneous, window, decided, is_projected, clip, size, coverage)
+
+
+def place_vertices(clip: Floats, size: tuple[int, int], coverage: str) -> WindowVertices:
+    """Put vertices (M, 4) on the lattice of a coverage method, as ``place_corners`` does with corners."""
+    decided, is_projected = table.get("coverage", coverage).function().place(window_position(clip, size))
+    return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
+
+
+def window_position(clip: Floats, size: tuple[int, int]) -> Floats:
+    """Return where clip positions (..., 4) lie in the window, (..., 2) float64 pixels; NaN where w <= 0."""
+    w = clip[..., 3]
+    position = _component_rows(w.shape, 2)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for axis in range(2):
+            along = position[..., axis]
+            np.divide(clip[..., axis], w, out=along)
+            along += 1
+            along *= size[axis] / 2
+    in_front = w > 0
+    if not in_front.all():
+        position[~in_front] = np.nan
+    return position
+
+
+def _component_rows(shape: tuple[int, ...], count: int) -> Floats:
+    """Return an empty array (*shape, count) where every component of every corner is a contiguous row."""
+    return np.empty((count, *reversed(shape))).T
+
+
+def snap(window: Floats, limit: float = SNAP_LIMIT) -> tuple[Floats, Flags]:
+    """Round to the nearest 1/256 pixel, half to even. (P, 3, 2) pixels to (P, 3, 2) and (P, 3) bool.
+
+    Corners more than ``limit`` pixels away along an axis are not projected.
+    """
+    is_projected = (np.abs(window[..., 0]) <= limit) & (np.abs(window[..., 1]) <= limit)
+    snapped = window.copy(order="K")
+    if not is_projected.all():
+        snapped[~is_projected] = np.nan
+    snapped *= SUBPIXELS
+    np.rint(snapped, out=snapped)
+    snapped /= SUBPIXELS
+    return snapped, is_projected
+
+
+def keep(window: Floats) -> tuple[Floats, Flags]:
+    """Leave every corner where it is: coverage uses the homogeneous positions. (P, 3, 2) to the same."""
+    return np.full(window.shape, np.nan), np.zeros(window.shape[:-1], bool)
+
+
+def snap_one(value: float) -> float:
+    """Listing of one snapped coordinate."""
+    subpixels = np.rint(value * SUBPIXELS)  #: snap
+    return float(subpixels / SUBPIXELS)  #: back

@@ -1,0 +1,1 @@
+"""Lines: the methods of the family ``line``, one file each, and the wireframe of triangles."""

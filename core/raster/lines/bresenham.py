@@ -1,0 +1,252 @@
+"""Bresenham's line in three versions: integers, integers as the lecture prints it, and a float error.
+
+After i steps along the major axis the line has climbed ``i dv / du``; the pixel is the nearest one. The
+decision value D = 2 du (climb at the next step - pixels climbed - 1/2) needs no fraction, and tells by its
+sign whether the minor coordinate must step. A tie is D = 0.
+
+Both integer versions also have a closed form, ``floor((2 dv i + du) / (2 du))`` steps after i. The vectorised
+rules use it, so a line may begin at any i; the listings step, as the lectures do; both give the same numbers.
+
+References
+----------
+J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4(1), 1965.
+LMU, *Computer Graphics 1*, tutorial "Rasterization", Bresenham Algorithm and Task 1 g).
+"""
+
+from math import nan
+
+import numpy as np
+
+from core.methods import method
+from core.raster.lines.records import (
+    STEP_LIMIT,
+    LineRun,
+    Segments,
+    enumerate_steps,
+    limited_steps,
+    major_first,
+    visible_range,
+)
+from core.records.arrays import Flags, Floats, Integers
+
+Listed = list[tuple[int, int, float]]
+"""Column, row and decision of each pixel, from a listing."""
+
+
+def climb(i: Integers, du: Integers, dv: Integers) -> Integers:
+    """Minor steps after i major steps when the minor coordinate steps at D >= 0. (P,) int64 each, du > 0."""
+    return (2 * dv * i + du) // (2 * du)
+
+
+def climb_lecture(i: Integers, du: Integers, dv: Integers) -> Integers:
+    """Minor steps after i major steps when it steps at D > 0 only. (P,) int64 each, du > 0."""
+    return (2 * dv * i + du - 1) // (2 * du)
+
+
+def decision_value(i: Integers, du: Integers, dv: Integers, climbed: Integers) -> Integers:
+    """D that chooses pixel i, after ``climbed`` minor steps up to pixel i - 1. (P,) int64 each."""
+    return 2 * dv * i - du - 2 * du * climbed
+
+
+def _integer_run(
+    pixels: Integers, is_steep: Flags, segments: Segments, last_pixel: bool, steps_at_tie: bool
+) -> LineRun:
+    """Run an integer version between ``pixels``, (L, 2, 2) int64 with the major axis first."""
+    (u, v), (u_end, v_end) = np.moveaxis(pixels[:, 0], 1, 0), np.moveaxis(pixels[:, 1], 1, 0)
+    u_step, v_step = np.where(u_end < u, -1, 1), np.where(v_end < v, -1, 1)
+    length, dv = np.abs(u_end - u), np.abs(v_end - v)
+    du = np.maximum(length, 1)
+    slope = v_step * (dv / du)
+    first, last = visible_range(segments, is_steep, u, u_step, v.astype(float), slope, length + last_pixel)
+    owner, i = enumerate_steps(first, last)
+
+    # Pixel i, pixel i - 1, and the decision between them.
+    du, dv = du[owner], dv[owner]
+    rule = climb if steps_at_tie else climb_lecture
+    climbed, climbed_before = rule(i, du, dv), rule(i - 1, du, dv)
+    decision = decision_value(i, du, dv, climbed_before)
+    is_start = i == 0
+    major, minor = u[owner] + u_step[owner] * i, v[owner] + v_step[owner] * climbed
+    is_steep = is_steep[owner]
+    return LineRun(
+        owner,
+        i,
+        np.where(is_steep, minor, major),
+        np.where(is_steep, major, minor),
+        np.where(is_start, np.nan, decision),
+        (climbed > climbed_before) & ~is_start,
+        (decision == 0) & ~is_start,
+    )
+
+
+@method(
+    "line",
+    "bresenham",
+    "Bresenham, integers",
+    source="J. E. Bresenham, Algorithm for computer control of a digital plotter, 1965",
+    exact_for="ends on pixel centres: always the nearest pixel; a tie steps",
+    breaks_where="other ends are moved to the pixel they lie in; drawn backwards, a tie takes the other one",
+)
+def bresenham(segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw from the first end to the second, stepping where D >= 0; ``decision`` is D."""
+    pixels = segments.pixel_indices
+    length = np.abs(pixels[:, 1] - pixels[:, 0])
+    is_steep = length[:, 1] > length[:, 0]
+    return _integer_run(major_first(pixels, is_steep), is_steep, segments, last_pixel, steps_at_tie=True)
+
+
+@method(
+    "line",
+    "bresenham-lecture",
+    "Bresenham, as the lecture prints it",
+    source="LMU, Computer Graphics 1, Task 1 g) Bresenham (complete version)",
+    exact_for="ends on pixel centres: always a nearest pixel, the same in both directions",
+    breaks_where="not symmetric: ends are swapped to run left to right or bottom to top and a tie stays "
+    "(D > 0), so a mirrored line is not the mirror image; the last pixel is always drawn, so lines that "
+    "share an end draw it twice",
+)
+def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw from left to right (steep: bottom to top), stepping where D > 0; ``decision`` is D.
+
+    The last pixel is drawn whatever ``last_pixel`` says; ``index`` counts in the order of drawing.
+    """
+    pixels = segments.pixel_indices
+    length = np.abs(pixels[:, 1] - pixels[:, 0])
+    is_steep = length[:, 1] >= length[:, 0]
+    pixels = major_first(pixels, is_steep)
+    is_backward = pixels[:, 0, 0] > pixels[:, 1, 0]
+    pixels = np.where(is_backward[:, None, None], pixels[:, ::-1], pixels)
+    return _integer_run(pixels, is_steep, segments, last_pixel=True, steps_at_tie=False)
+
+
+@method(
+    "line",
+    "bresenham-float",
+    "Bresenham, float error",
+    source="LMU, Computer Graphics 1, Bresenham Algorithm: error e and slope m",
+    exact_for="ends on pixel centres: a nearest pixel, up to the rounding of e; a tie stays",
+    breaks_where="e gathers rounding errors, so at ties it may fall either way; other ends are moved to the "
+    f"pixel they lie in; more than {STEP_LIMIT} steps are refused",
+)
+def bresenham_float(segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw from the first end to the second, stepping where e + m > 0.5; ``decision`` is e + m.
+
+    Raises
+    ------
+    ValueError
+        If a segment needs more than `STEP_LIMIT` steps before it leaves the raster.
+
+    Notes
+    -----
+    Each error is rounded from the one before, so the steps of one line run one after the other, for all lines
+    together; those before the raster are run too.
+    """
+    pixels = segments.pixel_indices
+    lengths = np.abs(pixels[:, 1] - pixels[:, 0])
+    is_steep = lengths[:, 1] > lengths[:, 0]
+    pixels = major_first(pixels, is_steep)
+    (u, v), (u_end, v_end) = np.moveaxis(pixels[:, 0], 1, 0), np.moveaxis(pixels[:, 1], 1, 0)
+    u_step, v_step = np.where(u_end < u, -1, 1), np.where(v_end < v, -1, 1)
+    length = np.abs(u_end - u)
+    slope = np.abs(v_end - v) / np.maximum(length, 1)
+    first, last = visible_range(
+        segments, is_steep, u, u_step, v.astype(float), v_step * slope, length + last_pixel
+    )
+    last, longest = limited_steps("bresenham-float", first, last)
+    owner, i = enumerate_steps(first, last)
+    climbed, decision = _float_errors(first, last, slope, longest)
+
+    is_start = i == 0
+    has_stepped = (decision > 0.5) & ~is_start
+    major, minor = u[owner] + u_step[owner] * i, v[owner] + v_step[owner] * climbed
+    is_steep = is_steep[owner]
+    column, row = np.where(is_steep, minor, major), np.where(is_steep, major, minor)
+    return LineRun(owner, i, column, row, decision, has_stepped, decision == 0.5)
+
+
+def _float_errors(first: Integers, last: Integers, slope: Floats, longest: int) -> tuple[Integers, Floats]:
+    """Run L errors side by side: (P,) minor steps and (P,) e + m at the steps first <= i < last."""
+    counts = last - first
+    place = np.cumsum(counts) - counts - first
+    climbed_at, decision_at = np.empty(counts.sum(), np.int64), np.empty(counts.sum())
+
+    # Longest lines first: those that still run are a prefix.
+    order = np.argsort(-np.where(counts > 0, last, 0), kind="stable")
+    first, last, slope, place = first[order], last[order], slope[order], place[order]
+    running = np.searchsorted(-np.where(counts[order] > 0, last, 0), -np.arange(longest), side="left")
+    error, climbed = np.zeros(len(order)), np.zeros(len(order), np.int64)
+    decision = np.full(len(order), nan)
+    for i in range(longest):
+        n = int(running[i])
+        is_seen = first[:n] <= i
+        at = place[:n][is_seen] + i
+        climbed_at[at], decision_at[at] = climbed[:n][is_seen], decision[:n][is_seen]
+        decision[:n] = error[:n] + slope[:n]
+        has_stepped = decision[:n] > 0.5
+        climbed[:n] += has_stepped
+        error[:n] = (error[:n] - has_stepped) + slope[:n]
+    return climbed_at, decision_at
+
+
+def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham`` between two pixels."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
+    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
+    pixels = []
+    for _ in range(dx + last_pixel):
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = D
+        if D >= 0:  #: test
+            y += y_step  #: step
+            D -= 2 * dx  #: correct
+        D += 2 * dy  #: advance
+        x += x_step  #: next
+    return pixels
+
+
+def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham-lecture`` between two pixels; the last one is always drawn."""
+    is_steep = not abs(y1 - y0) < abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    if x0 > x1:  #: order
+        x0, y0, x1, y1 = x1, y1, x0, y0  #: swap-ends
+    dx, dy, y_step = x1 - x0, y1 - y0, 1  #: lengths
+    if dy < 0:
+        y_step, dy = -1, -dy  #: directions
+    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
+    pixels = []
+    while x <= x1:
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = D
+        if D > 0:  #: test
+            y += y_step  #: step
+            D -= 2 * dx  #: correct
+        D += 2 * dy  #: advance
+        x += 1  #: next
+    return pixels
+
+
+def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham-float`` between two pixels."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
+    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    m = dy / max(dx, 1)  #: slope
+    x, y, e, chosen_by = x0, y0, 0.0, nan  #: start
+    pixels = []
+    for _ in range(dx + last_pixel):
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = e + m
+        if e + m > 0.5:  #: test
+            y += y_step  #: step
+            e -= 1  #: correct
+        e += m  #: advance
+        x += x_step  #: next
+    return pixels

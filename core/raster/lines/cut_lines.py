@@ -1,0 +1,47 @@
+"""Lines of which some were cut at their second end: the pixel there belongs to them."""
+
+from dataclasses import fields
+
+import numpy as np
+
+from core.raster.lines.drawing import draw_lines
+from core.raster.lines.records import LinePixels, LineSteps
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Flags, Floats, Integers, read_only
+
+
+def draw_cut_lines(
+    segments: Floats, is_cut: Flags, raster: Raster, line: str, pixel_center: str
+) -> LinePixels:
+    """Find the pixels of segments (L, 2, 2) as ``draw_lines`` does, and the last one of those that ``is_cut`` (L,).
+
+    Notes
+    -----
+    An outline leaves out the last pixel of each edge because the next edge begins there. No edge begins where the
+    border of the raster cut one.
+    """
+    size = raster.width, raster.height
+    if not is_cut.any():
+        return draw_lines(segments, *size, line, pixel_center=pixel_center)
+    of_part = [np.flatnonzero(~is_cut), np.flatnonzero(is_cut)]
+    parts = [
+        draw_lines(segments[index], *size, line, last_pixel, pixel_center)
+        for last_pixel, index in zip((False, True), of_part, strict=True)
+    ]
+    owner = np.concatenate([index.take(part.owner) for index, part in zip(of_part, parts, strict=True)])
+    order = np.argsort(owner, kind="stable")
+    pixels = np.concatenate([part.pixels for part in parts]).take(order, axis=0)
+    intensities = np.concatenate([part.intensities for part in parts]).take(order)
+    return LinePixels(
+        read_only(pixels), read_only(intensities), read_only(owner.take(order)), lambda: _join(parts, order)
+    )
+
+
+def _join(parts: list[LinePixels], order: Integers) -> LineSteps:
+    """Return the numbers of the pixels of all parts, in the order of the segments."""
+    return LineSteps(
+        *(
+            read_only(np.concatenate([getattr(part.steps, field.name) for part in parts]).take(order))
+            for field in fields(LineSteps)
+        )
+    )

@@ -1,0 +1,283 @@
+"""Lines in floats: the line equation evaluated in every column, and the same by adding the slope (DDA).
+
+They take any ends: they draw the columns (steep: rows) whose centre lies between the ends, a centre at the
+first end included, one at the second end only with ``last_pixel``. They differ by rounding only: the DDA adds
+the rounded slope again and again, so its error grows along the line: by some 1e-12 pixels in float64, where only
+ties can tell, and by whole pixels in float32.
+
+References
+----------
+F. Pellacini, *Interactive Graphics*, lecture "Rasterization": midpoint line rasterization, DDA.
+"""
+
+from dataclasses import dataclass
+from math import ceil, floor
+
+import numpy as np
+
+from core.methods import method
+from core.raster.lines.records import (
+    MINOR_MARGIN,
+    STEP_LIMIT,
+    LineRun,
+    Segments,
+    enumerate_steps,
+    limited_steps,
+    major_first,
+    round_half_up,
+    visible_range,
+)
+from core.records.arrays import Flags, Floats, Integers, Singles
+
+BATCH = 2**20
+"""Sums held at one time while the DDA runs along lines that begin far outside the raster."""
+
+Listed = list[tuple[int, int, float]]
+"""Column, row and minor coordinate of each pixel, from a listing."""
+
+
+FLOAT32_ROUNDING = 2.0**-23
+"""Most that one sum in float32 is off by, as a share of it, with room for the sums before it."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Columns:
+    """The columns (steep: rows) of L lines, in coordinates where pixel centres are whole numbers."""
+
+    is_steep: Flags
+    start: Integers
+    """(L,) int64 first column."""
+    step: Integers
+    """(L,) int64, 1 or -1."""
+    count: Integers
+    """(L,) int64 columns of the whole line."""
+    slope: Floats
+    """(L,) float64 m; 0 where the ends coincide."""
+    intercept: Floats
+    """(L,) float64 b of v = m u + b."""
+
+
+def _columns(segments: Segments, last_pixel: bool) -> _Columns:
+    ends = segments.centered_ends
+    length = np.abs(ends[:, 1] - ends[:, 0])
+    is_steep = length[:, 1] > length[:, 0]
+    ends = major_first(ends, is_steep)
+    u, u_end = ends[:, 0, 0], ends[:, 1, 0]
+    is_backward = u_end < u
+    start = np.where(is_backward, np.floor(u), np.ceil(u))
+    if last_pixel:
+        stop = np.where(is_backward, np.ceil(u_end), np.floor(u_end))
+    else:
+        stop = np.where(is_backward, np.floor(u_end) + 1, np.ceil(u_end) - 1)
+    step = np.where(is_backward, -1, 1)
+    count = np.maximum(step * (stop - start).astype(np.int64) + 1, 0)
+    return _Columns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
+
+
+def line_coefficients(ends: Floats) -> tuple[Floats, Floats]:
+    """Return m and b (L,) of v = m u + b through the ends (L, 2, 2) u, v; m is 0 where they coincide."""
+    u, v, u_end, v_end = ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1]
+    du = u_end - u
+    slope = (v_end - v) / np.where(du == 0, 1.0, du)
+    return slope, v - slope * u
+
+
+def _run(columns: _Columns, owner: Integers, k: Integers, v: Floats, v_before: Floats) -> LineRun:
+    """Round the minor coordinates (P,) of steps k and k - 1 to pixels."""
+    minor, minor_before = round_half_up(v), round_half_up(v_before)
+    major = columns.start[owner] + columns.step[owner] * k
+    is_steep = columns.is_steep[owner]
+    column, row = np.where(is_steep, minor, major), np.where(is_steep, major, minor)
+    return LineRun(owner, k, column, row, v, (minor != minor_before) & (k > 0), v - np.floor(v) == 0.5)
+
+
+def line_equation(u: Integers, slope: Floats, intercept: Floats) -> Floats:
+    """Minor coordinate of the line in column u. (P,) each."""
+    return slope * u + intercept
+
+
+@method(
+    "line",
+    "midpoint",
+    "Midpoint, line equation per column",
+    source="Pellacini, Interactive Graphics, Midpoint line rasterization",
+    exact_for="any ends: the pixel nearest to the line in every column, up to the rounding of m x + b",
+    breaks_where="a tie always goes up (steep: right), so a mirrored line is not the mirror image; far from "
+    "the origin m x + b loses digits",
+)
+def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
+    """Evaluate m x + b in every column and round it; ``decision`` is this coordinate (centres whole)."""
+    columns = _columns(segments, last_pixel)
+    v = line_equation(columns.start, columns.slope, columns.intercept)
+    first, last = visible_range(
+        segments,
+        columns.is_steep,
+        columns.start,
+        columns.step,
+        v,
+        columns.step * columns.slope,
+        columns.count,
+    )
+    owner, k = enumerate_steps(first, last)
+    u, step = columns.start[owner] + columns.step[owner] * k, columns.step[owner]
+    slope, intercept = columns.slope[owner], columns.intercept[owner]
+    return _run(
+        columns, owner, k, line_equation(u, slope, intercept), line_equation(u - step, slope, intercept)
+    )
+
+
+@method(
+    "line",
+    "dda",
+    "DDA, slope added per column",
+    source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization",
+    exact_for="any ends whose slope is a short binary fraction: then equal to midpoint",
+    breaks_where="the rounding errors of the sums grow along the line: at ties, and on long lines near them, "
+    "the neighbour is drawn",
+)
+def dda(segments: Segments, last_pixel: bool) -> LineRun:
+    """Add the slope from column to column and round; ``decision`` is the sum so far (centres whole).
+
+    Notes
+    -----
+    The sums are formed one after the other from the first column on, as the listing does, also where the line
+    begins outside the raster.
+    """
+    columns = _columns(segments, last_pixel)
+    v = line_equation(columns.start, columns.slope, columns.intercept)
+    v_step = columns.step * columns.slope
+    first, last = visible_range(
+        segments, columns.is_steep, columns.start, columns.step, v, v_step, columns.count
+    )
+    owner, k = enumerate_steps(first, last)
+    sums, sums_before = _running_sums(first, last, v, v_step)
+    return _run(columns, owner, k, sums, sums_before)
+
+
+@method(
+    "line",
+    "dda-float32",
+    "DDA, slope added in float32",
+    source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization, in 32 bits",
+    exact_for="short lines near the origin, but for ties",
+    breaks_where="long lines: all sums of one binade are rounded alike, so the line drifts by whole pixels over "
+    f"thousands of columns, and the more the farther it is from the origin; more than {STEP_LIMIT} steps are refused",
+)
+def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
+    """Add the slope in float32 and round; ``decision`` is the sum so far (centres whole).
+
+    Raises
+    ------
+    ValueError
+        If a segment needs more than `STEP_LIMIT` steps before it leaves the raster.
+
+    Notes
+    -----
+    The first sum and the slope are those of ``dda``, rounded once to float32.
+    """
+    columns = _columns(segments, last_pixel)
+    v = line_equation(columns.start, columns.slope, columns.intercept).astype(np.float32)
+    v_step = (columns.step * columns.slope).astype(np.float32)
+    # How far the sums can be off where the line leaves the raster, at the latest.
+    size = np.where(columns.is_steep, segments.height, segments.width)
+    leaves = np.where(columns.step > 0, size - columns.start, columns.start + 1)
+    steps = np.clip(leaves, 0, columns.count)
+    reach = np.abs(v) + steps * np.abs(v_step) + 1.0
+    margin = MINOR_MARGIN + (np.minimum(steps, STEP_LIMIT) + 1) * reach * FLOAT32_ROUNDING
+    first, last = visible_range(
+        segments,
+        columns.is_steep,
+        columns.start,
+        columns.step,
+        v.astype(float),
+        v_step.astype(float),
+        columns.count,
+        margin,
+    )
+    last, _ = limited_steps("dda-float32", first, last)
+    owner, k = enumerate_steps(first, last)
+    sums, sums_before = _running_sums(first, last, v, v_step)
+    return _run(columns, owner, k, sums, sums_before)
+
+
+def _running_sums(
+    first: Integers, last: Integers, v: Floats | Singles, v_step: Floats | Singles
+) -> tuple[Floats, Floats]:
+    """Add ``v_step`` to ``v`` k times: (P,) sums at the steps first <= k < last, and one step before each.
+
+    They are added in the type of ``v`` and returned as float64.
+    """
+    counts = last - first
+    place = np.cumsum(counts) - counts
+    sums, sums_before = np.empty(counts.sum()), np.empty(counts.sum())
+    order = np.argsort(last, kind="stable")
+    order = order[counts[order] > 0]
+    while len(order):
+        # Lines of about equal length side by side, the longest of those left first.
+        length = int(last[order[-1]])
+        batch, order = np.split(order[::-1], [max(BATCH // length, 1)])
+        order = order[::-1]
+        terms = np.repeat(v_step[batch][:, None], length, axis=1)
+        terms[:, 0] = v[batch]
+        table = np.add.accumulate(terms, axis=1)
+        line, k = enumerate_steps(first[batch], last[batch])
+        at = place[batch][line] + k - first[batch][line]
+        sums[at] = table[line, k]
+        sums_before[at] = table[line, np.maximum(k - 1, 0)]
+    return sums, sums_before
+
+
+def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``midpoint`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        y = m * x + b  #: evaluate
+        row = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
+        x += x_step  #: next
+    return pixels
+
+
+def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``dda`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    y = m * x + b  #: evaluate
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        row = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
+        y += m * x_step  #: advance
+        x += x_step  #: next
+    return pixels
+
+
+def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``dda-float32`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    y, y_step = np.float32(m * x + b), np.float32(m * x_step)  #: evaluate
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, float(y)) if is_steep else (x, row, float(y)))  #: draw
+        y = np.float32(y + y_step)  #: advance
+        x += x_step  #: next
+    return pixels

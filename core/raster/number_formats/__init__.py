@@ -1,0 +1,1 @@
+"""Edge functions in every number format: floats, integers, fractions, and the inverse matrix."""

@@ -1,0 +1,123 @@
+"""The numbers that edge functions are computed in: what one number can be, and what every operation does to it.
+
+A number format is a method of the family ``coverage``. It puts corners on its lattice or leaves them where they are,
+sets the edge functions up, and turns pixel centres into its own numbers. From there on the rules are the same for all
+of them (``edge_functions``): `a x + (b y + c)`, larger than 0, or 0 and owned. The arrays of coefficients and values
+are of the format's own type (float16, int32, whole numbers of any length ...), so every product and every sum is
+rounded, or wraps around, as it does in a program that uses this type. What is shown of them is converted to float64
+and pixels.
+
+References
+----------
+IEEE 754-2019. F. Giesen, *Triangle rasterization in practice*, 2013 (how many bits an edge function takes).
+D. Goldberg, *What every computer scientist should know about floating-point arithmetic*, 1991.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.methods import table
+from core.raster.edges.cross_product import LAST, NEXT, cross
+from core.raster.edges.snapping import CornerPositions, keep
+from core.records.arrays import Flags, Floats
+
+Held = NDArray[Any]
+"""Numbers of a format, kept in an array of its own type."""
+
+
+class Coefficients(NamedTuple):
+    """Edge functions of P triangles, inside positive, as a format holds them."""
+
+    numbers: "NumberFormat"
+    """The format, fitted to these triangles."""
+    a: Held
+    """(P, 3)."""
+    b: Held
+    c: Held
+    doubled_area: Floats
+    """(P,) float64, twice the signed area or the determinant as the format sees it; 0: nothing is drawn."""
+
+
+@dataclass(frozen=True)
+class NumberFormat:
+    """One kind of numbers, and how corners become edge functions in it."""
+
+    name: str
+    held_as: Any
+    """Type of the arrays, as ``numpy.float16``."""
+    corner_kind: str
+    """What happens to a corner first: ``snapped``, ``homogeneous`` (left alone) or ``rounded`` to the format."""
+    rounding: str
+    """``exact`` (as far as is promised), ``rounded`` (to nearest after each operation) or ``wrapped`` (modulo 2^n)."""
+    value_layout: str
+    """What `bit_pattern` calls the value of an edge function; empty: it has no fixed length."""
+    suits_spans: bool = False
+    """Whether closed-form spans give its pixels: values are monotone along rows and computed in float64."""
+    bounds_outward: bool = False
+    """Whether the box of a triangle is rounded outward to whole pixels, since its corners are not on a lattice."""
+    slope_exponent: int = 0
+    """Power of two that one unit of a and b is worth, in value per pixel."""
+    value_exponent: int = 0
+    """The same of c and of the value."""
+    area_exponent: int = 0
+
+    def place(self, window: Floats) -> tuple[Floats, Flags]:
+        """Return positions (P, 3, 2) on the format's lattice, and where (P, 3) bool there are any."""
+        return keep(window)
+
+    def held_corners(self, corners: CornerPositions) -> tuple[Held, Held, Held]:
+        """Return x, y, w (3, P) of the corners in the format's own units."""
+        x, y, w = corners.homogeneous.transpose(2, 1, 0)
+        return x.astype(self.held_as), y.astype(self.held_as), w.astype(self.held_as)
+
+    def shown_ends(self, corners: CornerPositions) -> Floats:
+        """Return (P, 3, 3) float64 the corners as edges see them: (x, y, 1) on the lattice, else (x, y, w)."""
+        snapped = np.concatenate([corners.decided, np.ones((*corners.decided.shape[:2], 1))], axis=2)
+        return np.where(corners.is_projected[..., None], snapped, corners.homogeneous)
+
+    def set_up(self, corners: CornerPositions) -> Coefficients:
+        """Return the edge functions of P triangles: cross products of the corners (P, 3, 3), turned inward.
+
+        What overflows becomes infinite or NaN in floats, and comparisons with NaN are false: nothing is drawn.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            x, y, w = self.held_corners(corners)
+            a, b, c = cross(x[NEXT], y[NEXT], w[NEXT], x[LAST], y[LAST], w[LAST])
+            area = x[0] * a[0] + y[0] * b[0] + w[0] * c[0]
+            sign = np.sign(area)
+            shown = self.shown(area, self.area_exponent)
+            return Coefficients(self, (sign * a).T, (sign * b).T, (sign * c).T, shown)
+
+    def of_pixels(self, position: Floats) -> Held:
+        """Return x or y of pixel centres, any shape, in the format's own units."""
+        if self.held_as is np.float64:
+            return position
+        return position.astype(self.held_as)
+
+    def shown(self, held: Held, exponent: int) -> Floats:
+        """Return numbers of any shape as float64, in pixels; ``exponent`` is what one unit is worth."""
+        if held.dtype == np.float64:
+            return held
+        return np.ldexp(held.astype(np.float64), exponent)
+
+    def shown_values(self, held: Held) -> Floats:
+        """Return values of edge functions, any shape, as float64."""
+        return self.shown(held, self.value_exponent)
+
+    def spacing(self, size: Floats) -> Floats:
+        """Return the units in the last place of numbers of this size, any shape."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.spacing(size)
+
+    def scaled(self, slope: int, value: int, area: int) -> "NumberFormat":
+        """Return the same format with other units."""
+        return replace(self, slope_exponent=slope, value_exponent=value, area_exponent=area)
+
+
+def number_format(coverage: str) -> NumberFormat:
+    """Return the number format that a method of the family ``coverage`` computes in."""
+    found: NumberFormat = table.get("coverage", coverage).function()
+    return found

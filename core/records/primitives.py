@@ -1,0 +1,165 @@
+"""The records that stages hand on: triangles in clip space with everything that is to be interpolated."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.records.arrays import Floats, Integers
+from core.records.cached import cached_property
+
+
+@dataclass(frozen=True, eq=False)
+class Primitives:
+    """P triangles, or pieces of triangles made by clipping, in drawing order."""
+
+    clip: Floats
+    """(P, 3, 4) float64, clip space."""
+    varyings: Floats
+    """(P, 3, K) float64, values at the corners."""
+    triangle: Integers
+    """(P,) int64, number of the triangle in drawing order; pieces keep it."""
+    mesh: Integers
+    """(P,) int64, the mesh it belongs to (0 for triangles given in clip space)."""
+    layout: dict[str, slice]
+    """Which of the K values are ``color``, ``uv``, ``normal``, ``position``, ``diffuse_light``, ``specular_light``."""
+
+    def __len__(self) -> int:
+        return len(self.clip)
+
+    def take(self, index: Integers) -> "Primitives":
+        """Return the primitives of ``index`` (Q,), in that order."""
+        return replace(
+            self,
+            clip=self.clip.take(index, axis=0),
+            varyings=self.varyings.take(index, axis=0),
+            triangle=self.triangle[index],
+            mesh=self.mesh[index],
+        )
+
+    def select(self, keep: np.ndarray) -> "Primitives":
+        """Return the primitives where ``keep`` (P,) bool holds."""
+        return self if keep.all() else self.take(np.flatnonzero(keep))
+
+
+@dataclass(frozen=True, eq=False)
+class CornerValues:
+    """What is interpolated over P triangles; corners that have the same values share one row."""
+
+    rows: Floats
+    """(M, K) float64."""
+    layout: dict[str, slice]
+    """Which of the K values are what, see ``Primitives``."""
+    index: Integers
+    """(3, P) int64, the row of every corner."""
+
+    @property
+    def at_corners(self) -> Floats:
+        """(P, 3, K) float64."""
+        return self.rows.take(self.index.T, axis=0)
+
+    def trimmed(self) -> "CornerValues":
+        """Return the same values without the rows of other triangles, where these are few among many."""
+        if self.index.size > len(self.rows) // 8:
+            return self
+        used, index = np.unique(self.index, return_inverse=True)
+        return CornerValues(self.rows.take(used, axis=0), self.layout, index.reshape(self.index.shape))
+
+
+@dataclass(frozen=True, eq=False)
+class IndexedPrimitives:
+    """P primitives whose corners are vertices; what ``Primitives`` holds is gathered when it is first asked for."""
+
+    vertex_clip: Floats
+    """(4, M) float64, clip-space x, y, z, w of the vertices."""
+    corner: Integers
+    """(3, P) int64, the vertices of every primitive."""
+    triangle: Integers
+    """(P,) int64, see ``Primitives``."""
+    mesh: Integers
+    """(P,) int64, see ``Primitives``."""
+    values_of: Callable[[Integers], CornerValues]
+    """The values at the corners of ``source``, or of any part of it."""
+    source: Integers
+    """(P,) int64, the number by which ``values_of`` knows each primitive."""
+
+    def __len__(self) -> int:
+        return len(self.triangle)
+
+    def take(self, index: Integers) -> "IndexedPrimitives":
+        """Return the primitives of ``index`` (Q,), in that order; values that are known go with them."""
+        taken = replace(
+            self,
+            corner=self.corner.take(index, axis=1),
+            triangle=self.triangle.take(index),
+            mesh=self.mesh.take(index),
+            source=self.source.take(index),
+        )
+        known: CornerValues | None = vars(self).get("values")
+        if known is not None:
+            vars(taken)["values"] = replace(known, index=known.index.take(index, axis=1))
+        return taken
+
+    def clip_of(self, index: Integers) -> Floats:
+        """Return the clip positions (Q, 3, 4) of primitives (Q,)."""
+        return self.vertex_clip.take(self.corner.take(index, axis=1), axis=1).T
+
+    @cached_property
+    def clip(self) -> Floats:
+        """(P, 3, 4) float64, clip space."""
+        return self.vertex_clip.take(self.corner, axis=1).T
+
+    @cached_property
+    def values(self) -> CornerValues:
+        """What is interpolated, with one row for corners that share it."""
+        return self.values_of(self.source)
+
+    @cached_property
+    def varyings(self) -> Floats:
+        """(P, 3, K) float64, values at the corners."""
+        return self.values.at_corners
+
+    @property
+    def layout(self) -> dict[str, slice]:
+        """Which of the K values are what, see ``Primitives``."""
+        return self.values.layout
+
+    def gathered(self) -> Primitives:
+        """Return the same primitives, each with its own corners."""
+        return Primitives(self.clip, self.varyings, self.triangle, self.mesh, self.layout)
+
+
+def index_corners(primitives: Primitives) -> IndexedPrimitives:
+    """Return the same primitives, every corner a vertex of its own."""
+    count = len(primitives)
+    rows = primitives.varyings.reshape(3 * count, primitives.varyings.shape[2])
+
+    def values_of(source: Integers) -> CornerValues:
+        return CornerValues(rows, primitives.layout, own_corners(source))
+
+    number = np.arange(count)
+    vertex_clip = np.ascontiguousarray(primitives.clip.reshape(-1, 4).T)
+    return IndexedPrimitives(
+        vertex_clip, own_corners(number), primitives.triangle, primitives.mesh, values_of, number
+    )
+
+
+def own_corners(number: Integers) -> Integers:
+    """Return (3, P): the corners of triangles (P,) where triangle t has the vertices 3 t, 3 t + 1 and 3 t + 2."""
+    return 3 * number + np.arange(3)[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawingOrder:
+    """In which order primitives are drawn, and whether the depth test decides."""
+
+    order: Integers
+    """(P,) int64, the primitives from the first drawn to the last."""
+    uses_depth_test: bool
+    casts_rays: bool = False
+    """Whether fragments are compared exactly, not by what the depth buffer holds."""
+
+    @property
+    def is_as_given(self) -> bool:
+        """Whether the primitives are drawn in the order of their numbers."""
+        return bool((self.order[1:] > self.order[:-1]).all())

@@ -1,0 +1,123 @@
+"""Stepping: rows in drawing order with nested ends. A step is an index; back is as cheap as forward."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from core.records.arrays import Integers
+from core.records.cached import cached_property
+
+
+class Level(IntEnum):
+    """How large a step is."""
+
+    STAGE = 0
+    TRIANGLE = 1
+    GROUP = 2
+    """A clip plane, a row or a block of pixels, a vertex, an edge."""
+    PIXEL = 3
+    """One row of the trace."""
+    OPERATION = 4
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One thing that a row does."""
+
+    name: str
+    """Key of its sentence and formula, within the kind of its row."""
+    label: str
+    """Label of its line in the listing."""
+    sets: tuple[str, ...] = ()
+    """Variables that it gives a value."""
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """R rows, each of a kind that does a few operations; rows end pixels, groups and triangles.
+
+    Positions count operations done: 0 is the initial state, ``count`` the final one.
+    """
+
+    kinds: tuple[str, ...]
+    kind: Integers
+    """(R,) int64, index of ``kinds``."""
+    operations: Mapping[str, tuple[Operation, ...]]
+    """What a row of each kind does, in order."""
+    triangle_ends: Integers
+    """Numbers of rows after which a triangle is done, rising, the last one R."""
+    group_ends: Integers
+    """The same for groups; every triangle end is a group end."""
+
+    @property
+    def row_count(self) -> int:
+        """R."""
+        return len(self.kind)
+
+    @cached_property
+    def starts(self) -> Integers:
+        """(R + 1,) int64, position at which every row starts, and the end."""
+        per_kind = np.array([len(self.operations[kind]) for kind in self.kinds], np.int64)
+        return np.concatenate([[0], np.cumsum(per_kind[self.kind])]).astype(np.int64)
+
+    @property
+    def count(self) -> int:
+        """Operations of all rows together."""
+        return int(self.starts[-1])
+
+    def boundaries(self, level: Level) -> Integers:
+        """Return the positions, rising, between which a step of ``level`` goes; 0 and ``count`` are among them."""
+        if level == Level.OPERATION:
+            return np.arange(self.count + 1)
+        if level == Level.STAGE:
+            return np.unique([0, self.count])
+        if level == Level.PIXEL:
+            return self.starts
+        # Rows have operations, so that starts rise as ends do: nothing is sorted, however many rows there are.
+        ends = self.triangle_ends if level == Level.TRIANGLE else self.group_ends
+        after = ends[ends > 0]
+        found: Integers = np.concatenate([[0], self.starts[after]])
+        return found
+
+    def forward(self, position: int, level: Level) -> int:
+        """Return the next boundary after ``position``, or the end."""
+        if level == Level.OPERATION:
+            return min(position + 1, self.count)
+        boundaries = self.boundaries(level)
+        after = int(np.searchsorted(boundaries, position, "right"))
+        return int(boundaries[min(after, len(boundaries) - 1)])
+
+    def back(self, position: int, level: Level) -> int:
+        """Return the last boundary before ``position``, or 0."""
+        if level == Level.OPERATION:
+            return max(position - 1, 0)
+        boundaries = self.boundaries(level)
+        return int(boundaries[max(int(np.searchsorted(boundaries, position, "left")) - 1, 0)])
+
+    def row_at(self, position: int) -> tuple[int, int]:
+        """Return row and operation that were done last; (-1, -1) at the initial state."""
+        if position <= 0 or not self.row_count:
+            return -1, -1
+        row = int(np.searchsorted(self.starts, min(position, self.count) - 1, "right")) - 1
+        return row, min(position, self.count) - 1 - int(self.starts[row])
+
+    def rows_done(self, position: int) -> int:
+        """Return how many rows are done as a whole."""
+        return int(np.searchsorted(self.starts, position, "right")) - 1
+
+    def position_after(self, row: int) -> int:
+        """Return the position at which ``row`` has just been done."""
+        return int(self.starts[row + 1])
+
+
+def ends_of(*keys: Integers) -> Integers:
+    """Return after how many rows any of the keys (R,) changes, and R: the ends of runs of equal keys."""
+    count = len(keys[0])
+    if count == 0:
+        return np.zeros(1, np.int64)
+    changes = np.zeros(count - 1, bool)
+    for key in keys:
+        changes |= key[1:] != key[:-1]
+    return np.append(np.flatnonzero(changes) + 1, count)

@@ -1,0 +1,21 @@
+"""Which blend method runs: the one that the settings choose, or the one that lines with intensities need.
+
+The pixels of a line with intensities are mixed with what is there (`core.raster.lines.intensities`). ``opaque`` mixes
+nothing, so "over" is inserted in its place, and the pipeline says so.
+"""
+
+from core.methods import table
+from core.raster.lines.records import BLENDING
+from core.settings import Settings
+
+INSERTED = "over"
+"""Blend method of lines with intensities where the settings choose none that mixes."""
+
+
+def blend_choice(settings: Settings) -> tuple[str, str]:
+    """Return the blend method that runs, and the line method that asked for it where the settings did not."""
+    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
+    needs_mixing = is_outlined and BLENDING in table.get("line", settings.line).needs
+    if needs_mixing and settings.blend == "opaque":
+        return INSERTED, settings.line
+    return settings.blend, ""

@@ -1,0 +1,56 @@
+"""Outlines and line clipping joined: the edges of a wireframe are cut to the raster before a line method draws them.
+
+What is interpolated along an edge still goes by its whole length: only the choice of pixels starts at the new ends.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.geometry.line_clipping.clipping import clip_lines
+from core.geometry.line_clipping.records import ClippedLines
+from core.raster.lines.wireframe import Outlines
+from core.records.arrays import Integers
+from core.records.cached import cached_property
+
+
+@dataclass(frozen=True, eq=False)
+class OutlineClip:
+    """L edges of a wireframe and what is left of them on the raster."""
+
+    whole: Outlines
+    """(L) edges as they were."""
+    lines: ClippedLines
+    """What line clipping did to them."""
+
+    @cached_property
+    def kept(self) -> Integers:
+        """(K,) int64, the edges of which something is left."""
+        return np.flatnonzero(self.lines.is_kept)
+
+    @cached_property
+    def outlines(self) -> Outlines:
+        """(K) edges to be drawn; ``window`` is still the whole edge."""
+        kept = Outlines(*(values.take(self.kept, axis=0) for values in vars(self.whole).values()))
+        return replace(
+            kept,
+            drawn=self.lines.segments.take(self.kept, axis=0),
+            is_cut=self.lines.cut_by[:, 1].take(self.kept) >= 0,
+        )
+
+
+def clip_outlines(whole: Outlines, method: str, size: tuple[int, int], center: float) -> OutlineClip:
+    """Clip outlines to the pixels of a raster.
+
+    Parameters
+    ----------
+    whole : Outlines
+    method : str
+        A method of the family ``line_clipping``.
+    size : (width, height)
+    center : float
+        Coordinate of the centre of pixel 0: the raster begins half a pixel before it.
+    """
+    first = center - 0.5
+    border = (first, first, size[0] + first, size[1] + first)
+    return OutlineClip(whole, clip_lines(whole.window, border, method))

@@ -1,0 +1,105 @@
+"""Where textures meet shading: the colour of a fragment."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.records.arrays import Floats, Integers
+from core.scene import AnyScene, ClipScene, Scene, Texture
+from core.settings import Settings
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """F shaded fragments."""
+
+    albedo: Floats
+    """(F, 4) float64, the texture's colour where there is one, times the vertex colour."""
+    diffuse_light: Floats | None
+    """(F, 3) float64, ambient and diffuse light that falls on it; ``None``: unlit."""
+    specular_light: Floats | None
+    """(F, 3) float64, light that it mirrors."""
+    color: Floats
+    """(F, 4) float64, albedo * diffuse_light + specular_light; alpha is the albedo's."""
+
+
+def shade_fragments(
+    scene: AnyScene,
+    settings: Settings,
+    layout: dict[str, slice],
+    mesh: Integers,
+    values: Floats,
+    slopes: Floats | None = None,
+) -> Surface:
+    """Return the colours of fragments.
+
+    Parameters
+    ----------
+    layout : dict
+        Which of the K values are what, see ``Primitives``.
+    mesh : (F,) int64
+    values : (F, K) float64, interpolated
+    slopes : (4, F) float64, see ``core.stages.texture_slopes``; ``None``: the texture filter needs none
+    """
+    albedo = _albedo(scene, settings, layout, mesh, values, slopes)
+    if "normal" in layout:
+        from core.stages.vertex_light import (
+            light,
+        )  # Here and below: only what is lit, or textured, waits for this import.
+
+        assert isinstance(scene, Scene)
+        diffuse, specular = light(scene, mesh, values[:, layout["position"]], values[:, layout["normal"]])
+    elif "diffuse_light" in layout:
+        diffuse, specular = values[:, layout["diffuse_light"]], values[:, layout["specular_light"]]
+    else:
+        return Surface(albedo, None, None, albedo)
+    from core.fragments.shading import shade
+
+    return Surface(albedo, diffuse, specular, shade(albedo, diffuse, specular))
+
+
+def _albedo(
+    scene: AnyScene,
+    settings: Settings,
+    layout: dict[str, slice],
+    mesh: Integers,
+    values: Floats,
+    slopes: Floats | None,
+) -> Floats:
+    """Return the colours (F, 4) of fragments before they are lit; see `shade_fragments`."""
+    if isinstance(scene, ClipScene) and scene.texture is not None:
+        return _texture_color(scene.texture, settings, values[:, layout["uv"]], slopes)
+    albedo = _vertex_color(layout, values)
+    if isinstance(scene, ClipScene) or not any(of_scene.texture for of_scene in scene.meshes):
+        return albedo
+    rows = albedo.T.copy()
+    for index, of_scene in enumerate(scene.meshes):
+        if of_scene.texture is not None:
+            chosen = slice(None) if len(scene.meshes) == 1 else np.flatnonzero(mesh == index)
+            uv = values[:, layout["uv"]][chosen]
+            of_mesh = None if slopes is None else slopes[:, chosen]
+            rows[:, chosen] *= _texture_color(of_scene.texture, settings, uv, of_mesh).T
+    return rows.T
+
+
+def _texture_color(texture: Texture, settings: Settings, uv: Floats, slopes: Floats | None) -> Floats:
+    """Return the colours (F, 4) of a texture at ``uv`` (F, 2)."""
+    from core.fragments.textures import texture_colors, uses_mipmaps
+
+    if not uses_mipmaps(settings.texture_filter):
+        return texture_colors(texture, uv, settings.texture_filter, settings.wrap)
+    from core.fragments.mipmap_samples import mipmap_colors
+
+    assert slopes is not None
+    return mipmap_colors(texture, uv, slopes, settings.texture_filter, settings.wrap)
+
+
+def _vertex_color(layout: dict[str, slice], values: Floats) -> Floats:
+    """Return the interpolated colours (F, 4): what is missing is 0, alpha 1."""
+    color = values[:, layout.get("color", slice(0))]
+    if color.shape[1] == 4:
+        return color
+    rows = np.zeros((4, len(values)))
+    rows[3] = 1
+    rows[: color.shape[1]] = color.T
+    return rows.T

@@ -1,0 +1,116 @@
+"""The depth of fragments: window depth, whether it is in range, and what a depth method stores in its place.
+
+It joins geometry, outlines and the formats of the depth buffer; picture, trace and history of a pixel ask it alike.
+"""
+
+import numpy as np
+
+from core.fragments.interpolation import plane_value
+from core.framebuffer.depth import DepthFormat, Stored, clamp_depth
+from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, logarithmic_depth
+from core.geometry.reversed_depth import reversed_clip_depth
+from core.raster.coverage import Fragments
+from core.raster.lines.drawing import interpolate_line
+from core.raster.lines.wireframe import LineFragments, Outlines, inverse_w_parts, line_depth, line_parameter
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Flags, Floats, Integers
+from core.stages.geometry import Geometry
+
+
+def fragment_depth(
+    geometry: Geometry, fragments: Fragments, raster: Raster, depth_format: DepthFormat
+) -> tuple[Floats, Flags, Stored]:
+    """Return the window depth of fragments, whether it is in range, and what would be stored.
+
+    Returns
+    -------
+    depth : (F,) float64, clamped where the triangle is in range as a whole
+    keeps : (F,) bool, False too where 1/w or its logarithm is stored and 1/w shows a point behind the eye
+    stored : (F,) of the format's ``stored_type``
+    """
+    if not isinstance(fragments, LineFragments):
+        x, y = raster.centers(fragments.column, fragments.row)
+        depth, keeps, stored = depth_at(geometry, fragments.primitive, x, y, depth_format)
+        if depth_format.is_planar:
+            fixed = geometry.fixed_planes
+            on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
+            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
+        return depth, keeps, stored
+    outlines = outlines_of(geometry)
+    depth = line_depth(outlines, fragments, raster.center)
+    depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
+    value = fragment_quantity(geometry, fragments, raster, depth_format.quantity)
+    if depth_format.quantity != "reversed-z":
+        keeps &= fragment_inverse_w(geometry, fragments, raster) > 0
+    return depth, keeps, depth_format.store(value)
+
+
+def depth_at(
+    geometry: Geometry, primitive: Integers, x: Floats, y: Floats, depth_format: DepthFormat
+) -> tuple[Floats, Flags, Stored]:
+    """Return depth, whether it is in range, and what would be stored, (F,) each, of primitives at window positions."""
+    depth = plane_value(geometry.depth_plane, primitive, x, y)
+    depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
+    if depth_format.quantity == "z":
+        return depth, keeps, depth_format.store(depth)
+    value = quantity_at(geometry, primitive, x, y, depth_format.quantity)
+    if depth_format.quantity != "reversed-z":
+        keeps &= plane_value(geometry.inverse_w_plane, primitive, x, y) > 0
+    return depth, keeps, depth_format.store(value)
+
+
+def quantity_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats, quantity: str) -> Floats:
+    """Return what a depth method stores in the place of z, (F,) float64, of primitives at window positions (F,)."""
+    if quantity == "reversed-z":
+        return plane_value(geometry.reversed_plane, primitive, x, y)
+    inverse_w = plane_value(geometry.inverse_w_plane, primitive, x, y)
+    return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
+
+
+def fragment_quantity(geometry: Geometry, fragments: Fragments, raster: Raster, quantity: str) -> Floats:
+    """Return what a depth method stores in the place of z, before it is limited and rounded: (F,) float64.
+
+    ``quantity`` is that of `DepthFormat`, ``inverse-w``, ``logarithm`` or ``reversed-z``.
+    """
+    if not isinstance(fragments, LineFragments):
+        x, y = raster.centers(fragments.column, fragments.row)
+        return quantity_at(geometry, fragments.primitive, x, y, quantity)
+    if quantity == "reversed-z":
+        return _reversed_along(geometry, fragments, raster)
+    inverse_w = fragment_inverse_w(geometry, fragments, raster)
+    return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
+
+
+def logarithm_range(geometry: Geometry) -> tuple[float, float]:
+    """Return near and far of the logarithm of w: the camera's, or those for triangles given in clip space."""
+    return geometry.vertices.view_range or (NEAREST_W, FARTHEST_W)
+
+
+def _reversed_along(geometry: Geometry, fragments: LineFragments, raster: Raster) -> Floats:
+    """Return the reversed depth (F,) of fragments of outlines: it goes linearly from end to end."""
+    outlines = outlines_of(geometry)
+    t = line_parameter(outlines, fragments, raster.center)
+    return interpolate_line(fragments.segment, t, reversed_ends(geometry, outlines)[..., None])[:, 0]
+
+
+def reversed_ends(geometry: Geometry, outlines: Outlines) -> Floats:
+    """Return the reversed depth of both ends of outlines, (L, 2)."""
+    z = (2 * outlines.depth - 1) * outlines.w
+    return reversed_clip_depth(z, outlines.w, geometry.vertices.view_range) / outlines.w
+
+
+def fragment_inverse_w(geometry: Geometry, fragments: Fragments, raster: Raster) -> Floats:
+    """Return 1/w at fragments, (F,) float64."""
+    if isinstance(fragments, LineFragments):
+        start, end = inverse_w_parts(outlines_of(geometry), fragments, raster.center)
+        return start + end
+    x, y = raster.centers(fragments.column, fragments.row)
+    return plane_value(geometry.inverse_w_plane, fragments.primitive, x, y)
+
+
+def outlines_of(geometry: Geometry) -> Outlines:
+    """Return the outlines of a geometry that is drawn as a wireframe."""
+    assert geometry.outlines is not None
+    return geometry.outlines

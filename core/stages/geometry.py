@@ -1,0 +1,232 @@
+"""The record of the stages before the raster; what only some pictures need is computed when it is first asked for.
+
+Outlines and exact comparisons of rays come with many files, which are imported no earlier.
+"""
+
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from core.fragments.interpolation import Planes, set_up_planes, value_plane
+from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
+from core.geometry.culling import CullVerdicts, plane_distances
+from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
+from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
+from core.geometry.reversed_depth import reversed_clip_depth
+from core.geometry.vertex_stage import VertexStage
+from core.methods import table
+from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
+from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners
+from core.records.arrays import Flags, Floats, Integers
+from core.records.cached import cached_property
+from core.records.frame import StageCount
+from core.records.primitives import IndexedPrimitives, Primitives
+from core.records.timing import timed
+from core.settings import Settings
+
+if TYPE_CHECKING:
+    from core.raster.lines.wireframe import Outlines
+    from core.stages.clipped_outlines import OutlineClip
+    from core.visibility.ray_planes import RayPlanes
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """Everything that is known of the triangles before the first pixel is looked at.
+
+    The corners of P primitives stand in rows: the first, second and third of all of them.
+    """
+
+    vertices: VertexStage
+    assembled: IndexedPrimitives
+    """All triangles of the scene."""
+    culled: CullVerdicts
+    kept: IndexedPrimitives
+    """Those that were not culled, in drawing order."""
+    clipped: Clipped | None
+    """``None``: nothing was clipped against."""
+    clipping_inserted: str
+    """Why clipping runs although the settings have none: the method that needs it, else empty."""
+    primitives: IndexedPrimitives
+    """What is drawn, in drawing order: kept triangles and pieces."""
+    window: WindowVertices
+    """The (M,) vertices of ``primitives`` in the window."""
+    outcode: Outcodes
+    """(M,) uint8, of the same vertices."""
+    doubled_area: Floats
+    """(P,) float64: twice the signed snapped area where all corners are projected, else the 3x3 determinant."""
+    uses_depth_test: bool
+    casts_rays: bool
+    """Whether fragments are compared exactly (``ray_planes``), not by the depth buffer."""
+    settings: Settings
+    count: StageCount
+    """The time of what is computed on demand is added here."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels x and y are moved against the scene: another place of the pixels is then at their centres."""
+
+    def moved(self, x: float, y: float) -> "Geometry":
+        """Return the geometry ``x`` and ``y`` pixels further; exact where they are multiples of 1/256."""
+        window = replace(self.window, x=self.window.x + x, y=self.window.y + y)
+        return replace(self, window=window, shift=(self.shift[0] + x, self.shift[1] + y))
+
+    def counted_in(self, count: StageCount) -> "Geometry":
+        """Return the same geometry, whose time from now on is added to ``count``; what is computed stays so."""
+        same = copy(self)
+        object.__setattr__(same, "count", count)
+        return same
+
+    @cached_property
+    def window_x(self) -> Floats:
+        """(3, P) float64 pixels, x of the corners as coverage sees them (snapped); NaN where not projected."""
+        with timed(self.count):
+            return self.window.x.take(self.primitives.corner)
+
+    @cached_property
+    def window_y(self) -> Floats:
+        """(3, P) float64 pixels, likewise y."""
+        with timed(self.count):
+            return self.window.y.take(self.primitives.corner)
+
+    @cached_property
+    def depth(self) -> Floats:
+        """(3, P) float64, window depth (z/w + 1)/2 of the corners; infinite or NaN where w = 0."""
+        with timed(self.count), np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            _, _, z, w = self.primitives.vertex_clip
+            depth: Floats = (z / w + 1) * 0.5
+            return depth.take(self.primitives.corner)
+
+    @cached_property
+    def is_projected(self) -> Flags:
+        """(P,) bool, all corners are projected, so that coverage is decided on ``window_x`` and ``window_y``."""
+        with timed(self.count):
+            return all_projected(self.window, self.primitives.corner)
+
+    @cached_property
+    def is_in_range(self) -> Flags:
+        """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
+        with timed(self.count):
+            return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
+
+    @cached_property
+    def corners(self) -> CornerPositions:
+        """The corners of the primitives in the homogeneous window and on the lattice."""
+        with timed(self.count):
+            placed = place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
+            return placed.moved(*self.shift) if any(self.shift) else placed
+
+    @cached_property
+    def edges(self) -> EdgeFunctions:
+        """The edge functions of the primitives."""
+        with timed(self.count):
+            return set_up_edges(self.corners, self.settings.fill_rule)
+
+    @cached_property
+    def planes(self) -> Planes:
+        """The linear functions over the window that attributes are interpolated with."""
+        with timed(self.count):
+            return set_up_planes(self.corners.homogeneous)
+
+    @cached_property
+    def depth_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: window depth as a linear function of the pixel."""
+        with timed(self.count):
+            clip = self.primitives.clip
+            return value_plane(self.planes, (clip[..., 2] + clip[..., 3]) / 2)
+
+    @cached_property
+    def inverse_w_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: 1/w as a linear function of the pixel."""
+        with timed(self.count):
+            return value_plane(self.planes, np.ones((len(self.primitives), 3)))
+
+    @cached_property
+    def reversed_plane(self) -> tuple[Floats, Floats, Floats]:
+        """(P,) float64 each: reversed depth as a linear function of the pixel."""
+        with timed(self.count):
+            clip = self.primitives.clip
+            at_corners = reversed_clip_depth(clip[..., 2], clip[..., 3], self.vertices.view_range)
+            return value_plane(self.planes, at_corners)
+
+    @cached_property
+    def fixed_planes(self) -> FixedPlanes:
+        """Depth in whole numbers as integer planes."""
+        with timed(self.count):
+            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+            return set_up_fixed_planes(
+                self.window_x, self.window_y, self.depth, self.doubled_area, self.is_in_range, center
+            )
+
+    @cached_property
+    def ray_planes(self) -> "RayPlanes":
+        """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
+        from core.visibility.ray_planes import set_up_ray_planes
+
+        with timed(self.count):
+            vertices = self.vertices
+            clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
+            return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None, self.shift)
+
+    @cached_property
+    def outlines(self) -> "Outlines | None":
+        """The edges that a wireframe draws; ``None``: triangles are filled."""
+        return self.whole_outlines if self.outline_clip is None else self.outline_clip.outlines
+
+    @cached_property
+    def outline_clip(self) -> "OutlineClip | None":
+        """What line clipping did to the outlines; ``None``: they are drawn as they are."""
+        method, whole = self.settings.line_clipping, self.whole_outlines
+        if whole is None or method == "none":
+            return None
+        from core.stages.clipped_outlines import clip_outlines
+
+        with timed(self.count):
+            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+            return clip_outlines(whole, method, self.vertices.size, center)
+
+    @cached_property
+    def whole_outlines(self) -> "Outlines | None":
+        """The edges before line clipping; ``None``: triangles are filled."""
+        if not table.get("polygon_mode", self.settings.polygon_mode).function():
+            return None
+        from core.raster.lines.drawing import has_intensities
+        from core.raster.lines.intensities import run_rightwards
+        from core.raster.lines.wireframe import set_up_outlines
+
+        with timed(self.count):
+            outlines = set_up_outlines(
+                self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size
+            )
+            return run_rightwards(outlines) if has_intensities(self.settings.line) else outlines
+
+    def _corner_shares(self) -> Floats | None:
+        """Return the shares (P, 3, 3) of a triangle's corners in those of its pieces; ``None``: nothing is cut."""
+        if self.clipped is None or not len(self.clipped.clipped):
+            return None
+        kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
+        whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
+        distances = clipping_distances(kept, self.clipping_inserted)
+        clipping: PolygonClipping = table.get("clipping", self.settings.clipping).function()
+        if self.clipping_inserted:
+            clipping = DEPTH_CLIPPING
+        return clipping.clip(whole, distances).primitives.varyings
+
+
+def all_projected(window: WindowVertices, corner: Integers) -> Flags:
+    """Return (P,) bool: the three corners (3, P) of a primitive are projected."""
+    if window.is_projected.all():
+        return np.ones(corner.shape[1], bool)
+    first, second, third = (window.is_projected.take(index) for index in corner)
+    is_projected: Flags = first & second & third
+    return is_projected
+
+
+def clipping_distances(kept: IndexedPrimitives, inserted: str) -> Floats:
+    """Return the distances (P, 3, 6) from the planes that decide what is clipped."""
+    distances = plane_distances(kept.clip)
+    if inserted:
+        # Only what needs it, whatever is drawn with it.
+        distances[(kept.clip[..., 3] > 0).all(axis=1)] = 0
+    return distances

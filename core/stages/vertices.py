@@ -1,0 +1,303 @@
+"""The stages from the vertices to the edge functions: everything before the first pixel is looked at.
+
+Vertices are transformed, projected and snapped once, however many triangles share them; triangles point to them.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from core.geometry.culling import cull, plane_distances
+from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
+from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
+from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
+from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
+from core.methods import table
+from core.raster.edges.edge_functions import gather_area, orient
+from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Flags, Floats, Integers
+from core.records.frame import StageCount
+from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
+from core.records.timing import timed
+from core.scene import AnyScene, ClipScene, Scene
+from core.settings import Settings, families
+from core.stages.geometry import Geometry, all_projected, clipping_distances
+
+__all__ = [
+    "Geometry",
+    "assemble",
+    "check_needs",
+    "choose_clipping",
+    "clip",
+    "corner_values",
+    "drawing_order",
+    "face",
+    "in_drawing_order",
+    "place",
+    "process_geometry",
+    "timed",
+]
+
+
+def check_needs(scene: AnyScene, settings: Settings) -> None:
+    """Refuse, with a sentence, a method that the scene cannot serve."""
+    if not isinstance(scene, Scene) or scene.camera.projection == "perspective":
+        return
+    for family in families():
+        chosen = table.get(family, getattr(settings, family))
+        if "perspective" in chosen.needs:
+            raise ValueError(
+                f"{family} {chosen.name} needs a perspective camera: 1/w is constant for an orthographic one"
+            )
+
+
+GEOMETRY_STAGES = ("transform", "cull", "clip", "edges")
+
+_last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []
+"""The geometry of the last whole scene, with its counts: scenes never change, so another look at the same one, a pixel
+that is pointed at or the next redraw, starts from there."""
+
+
+def process_geometry(
+    scene: AnyScene,
+    settings: Settings,
+    counts: dict[str, StageCount],
+    chosen: Integers | None = None,
+    raster: Raster | None = None,
+) -> Geometry:
+    """Run the stages from the vertices to the edge functions; those of the last whole scene are kept.
+
+    Parameters
+    ----------
+    chosen : (C,) int64, optional
+        Only these triangles, in drawing order.
+    raster : Raster, optional
+        Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
+    """
+    if chosen is not None or (raster is not None and raster.region is not None):
+        return _process(scene, settings, counts, chosen, raster)
+    for of_scene, of_settings, known, known_counts in _last:
+        if of_scene is scene and of_settings == settings:
+            for stage in GEOMETRY_STAGES:
+                counts[stage] = replace(known_counts[stage], seconds=0.0)
+            return known.counted_in(counts["edges"])
+    geometry = _process(scene, settings, counts, None, None)
+    _last[:] = [(scene, settings, geometry, {stage: replace(counts[stage]) for stage in GEOMETRY_STAGES})]
+    return geometry
+
+
+def _process(
+    scene: AnyScene,
+    settings: Settings,
+    counts: dict[str, StageCount],
+    chosen: Integers | None,
+    raster: Raster | None,
+) -> Geometry:
+    check_needs(scene, settings)
+    with timed(counts["transform"]):
+        vertices = transform_vertices(scene)
+        assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
+        counts["transform"].incoming = counts["transform"].outgoing = len(assembled)
+
+    with timed(counts["cull"]):
+        window, outcode = place(assembled, scene.size, settings)
+        facing = face(assembled, window, scene.size, settings)
+        culled = cull(assembled, outcode, facing, settings.cull)
+        drawing = drawing_order(vertices, settings)
+        wanted = culled.kept if raster is None else culled.kept & ~is_beside(window, assembled.corner, raster)
+        if chosen is None and drawing.is_as_given and wanted.all():
+            kept, doubled_area = assembled, facing
+        else:
+            index = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
+            kept, doubled_area = assembled.take(index), facing.take(index)
+        # Triangles beside the raster are counted as if they went on, or the bands' counts would not be the picture's.
+        beside_count = int(np.count_nonzero(culled.kept)) - len(kept) if raster is not None else 0
+        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept) + beside_count
+
+    with timed(counts["clip"]):
+        counts["clip"].incoming = len(kept) + beside_count
+        primitives, clipped, inserted = clip(kept, outcode, settings)
+        counts["clip"].outgoing = len(primitives) + beside_count
+        counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
+
+    with timed(counts["edges"]):
+        counts["edges"].incoming = counts["edges"].outgoing = len(primitives) + beside_count
+        if primitives is not kept:
+            window, outcode = place(primitives, scene.size, settings)
+            doubled_area = face(primitives, window, scene.size, settings)
+    return Geometry(
+        vertices=vertices,
+        assembled=assembled,
+        culled=culled,
+        kept=kept,
+        clipped=clipped,
+        clipping_inserted=inserted,
+        primitives=primitives,
+        window=window,
+        outcode=outcode,
+        doubled_area=doubled_area,
+        uses_depth_test=drawing.uses_depth_test,
+        casts_rays=drawing.casts_rays,
+        settings=settings,
+        count=counts["edges"],
+    )
+
+
+def assemble(
+    scene: AnyScene,
+    vertices: VertexStage,
+    settings: Settings,
+    count: StageCount,
+    chosen: Integers | None = None,
+) -> IndexedPrimitives:
+    """Point the ``chosen`` (T,) triangles, or all, to their vertices, which are lit when their values are asked for."""
+    values_of = partial(corner_values, scene, vertices, settings, count)
+    if chosen is None:
+        number = np.arange(len(vertices.corners))
+        return IndexedPrimitives(
+            vertices.clip_rows, vertices.corner_rows, number, vertices.mesh, values_of, number
+        )
+    number = np.asarray(chosen, np.int64)
+    vertex_clip, corner = vertices.clip_rows, vertices.corner_rows.take(number, axis=1)
+    if corner.size < vertex_clip.shape[1]:
+        # A few triangles of many: only their own vertices go on.
+        vertex_clip, corner = vertex_clip.take(corner.T.ravel(), axis=1), own_corners(np.arange(len(number)))
+    return IndexedPrimitives(vertex_clip, corner, number, vertices.mesh.take(number), values_of, number)
+
+
+def corner_values(
+    scene: AnyScene, vertices: VertexStage, settings: Settings, count: StageCount, triangle: Integers
+) -> CornerValues:
+    """Return what is interpolated over triangles (P,); the time goes to ``count``."""
+    if isinstance(scene, ClipScene):
+        find_values = partial(_given_values, scene)
+    else:
+        from core.stages.vertex_light import (
+            light_vertices,  # Triangles given in clip space come without light.
+        )
+
+        find_values = partial(light_vertices, scene, vertices, settings)
+    with timed(count):
+        values = find_values(triangle)
+        if settings.interpolation != "flat":
+            return values
+        provoking = table.get("provoking", settings.provoking).function()
+        return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
+
+
+def _given_values(scene: ClipScene, triangle: Integers) -> CornerValues:
+    """Return the attributes at the corners of triangles (P,)."""
+    assert scene.attributes is not None
+    count, _, width = scene.attributes.shape
+    layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
+    return CornerValues(scene.attributes.reshape(3 * count, width), layout, own_corners(triangle))
+
+
+def place(
+    primitives: IndexedPrimitives, size: tuple[int, int], settings: Settings
+) -> tuple[WindowVertices, Outcodes]:
+    """Return where the vertices of primitives lie in the window of ``size`` and against the view volume.
+
+    Returns
+    -------
+    window : WindowVertices
+    outcode : (M,) uint8
+    """
+    clip_position = primitives.vertex_clip.T
+    return place_vertices(clip_position, size, settings.coverage), outcodes(clip_position)
+
+
+def face(
+    primitives: IndexedPrimitives, window: WindowVertices, size: tuple[int, int], settings: Settings
+) -> Floats:
+    """Return (P,) float64 as ``core.raster.edges.edge_functions.orient``, from vertices that are placed already."""
+    facing = gather_area(window.x, window.y, primitives.corner)
+    lost = np.flatnonzero(~all_projected(window, primitives.corner))
+    if len(lost):
+        facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
+    return facing
+
+
+def is_beside(window: WindowVertices, corner: Integers, raster: Raster) -> Flags:
+    """Return (T,) bool: all corners (3, T) lie beyond the same outermost pixel centres, so no pixel is covered.
+
+    A corner that cannot be projected is beyond none.
+    """
+    first_column, first_row, end_column, end_row = raster.bounds
+    left, bottom, right, top = (
+        edge + raster.center for edge in (first_column, first_row, end_column - 1, end_row - 1)
+    )
+    code = np.zeros(len(window.x), np.uint8)
+    for bit, is_beyond in enumerate((window.x < left, window.x > right, window.y < bottom, window.y > top)):
+        code |= is_beyond.view(np.uint8) << np.uint8(bit)
+    beside: Flags = shared_bits(code, corner) != 0
+    return beside
+
+
+def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
+    """Return the triangles (T,) of the scene from the first drawn to the last."""
+    order: DrawingOrder = table.get("visibility", settings.visibility).function(
+        CornerPositionsOnDemand(vertices)
+    )
+    return order
+
+
+def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder) -> Integers:
+    """Return ``index`` (P,) of assembled triangles from the first drawn to the last."""
+    number = assembled.triangle.take(index)
+    if drawing.is_as_given:
+        return index if (number[1:] >= number[:-1]).all() else index[np.argsort(number, kind="stable")]
+    place = np.full(len(drawing.order), -1)
+    place[number] = index
+    ordered = place.take(drawing.order)
+    return ordered[ordered >= 0]
+
+
+def clip(
+    kept: IndexedPrimitives, outcode: Outcodes, settings: Settings
+) -> tuple[IndexedPrimitives, Clipped | None, str]:
+    """Clip what crosses a plane that the settings, or a method that they choose, have to be kept to.
+
+    Parameters
+    ----------
+    kept : IndexedPrimitives
+    outcode : (M,) uint8, of its vertices
+    settings : Settings
+
+    Returns
+    -------
+    primitives : IndexedPrimitives
+        ``kept`` itself where nothing crosses.
+    clipped : Clipped, optional
+    inserted : str
+        See ``Geometry.clipping_inserted``.
+    """
+    joined = joined_bits(outcode, kept.corner)
+    crosses_eye = has_bits(joined, BEHIND_BIT)
+    clipping, inserted = choose_clipping(settings, bool(crosses_eye.any()))
+    if not clipping.is_any:
+        return kept, None, inserted
+    behind = BEHIND_BIT if clipping.divides else 0
+    crossing = has_bits(joined, behind | sum(1 << plane for plane in clipping.planes))
+    if inserted:
+        crossing &= crosses_eye
+    if crossing.any():
+        clipped = clipping.clip(kept.gathered(), clipping_distances(kept, inserted))
+        return index_corners(clipped.primitives), clipped, inserted
+    none = kept.take(np.empty(0, np.int64))
+    clipped = clipping.clip(none.gathered(), plane_distances(none.clip))
+    return kept, replace(clipped, primitives=kept.gathered()), inserted
+
+
+def choose_clipping(settings: Settings, crosses_eye: bool) -> tuple[PolygonClipping, str]:
+    """Return how to clip, and the method that asked for it where the settings did not."""
+    clipping: PolygonClipping = table.get("clipping", settings.clipping).function()
+    if clipping.is_any or not crosses_eye:
+        return clipping, ""
+    for family in ("coverage", "polygon_mode", "fill", "interpolation"):
+        chosen = table.get(family, getattr(settings, family))
+        if {"projected", "positive-w"} & set(chosen.needs):
+            return DEPTH_CLIPPING, chosen.name
+    return clipping, ""

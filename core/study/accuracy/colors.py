@@ -1,0 +1,110 @@
+"""Studies of texture filters and antialiasing: colours against the picture of 256 samples."""
+
+import numpy as np
+
+from core.records.arrays import Floats
+from core.records.cached import cached_property
+from core.records.frame import Frame
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.accuracy.family import Assignment, Errors, StudyFamily
+from core.study.accuracy.frame_task import (
+    LARGEST_COLOR,
+    MEAN_COLOR,
+    FrameTask,
+    color_errors,
+    color_pictures,
+    premultiplied,
+)
+from core.study.accuracy.record import Dial, Pictures, WorkKind
+from core.study.accuracy.sampled import sampled_picture
+from core.study.accuracy.workloads import checkerboard, clip_of_window, flat_scene, textured_quad, window_mesh
+from core.trace import trace
+
+TEXELS = 256
+"""Texels on a side of the texture."""
+DENSITIES = Dial("density", "Texels for a pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 4)
+SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
+
+
+class SampledTask(FrameTask):
+    """A scene whose reference is the mean of 256 samples in every pixel."""
+
+    def __init__(
+        self, scene: AnyScene, unit_count: int, base: Settings, stages: tuple[str, ...], stage: str
+    ) -> None:
+        super().__init__(scene, unit_count, stages)
+        self.stage = stage
+        self._base = base
+
+    @cached_property
+    def reference(self) -> Floats:
+        """(H, W, 4) float64 colours times alpha."""
+        return sampled_picture(self.scene, self._base)
+
+    def errors(self, settings: Settings, made: Frame) -> Errors:
+        """Return the differences of the colours."""
+        return color_errors(premultiplied(made.color, settings), self.reference)
+
+    def pictures(self, settings: Settings, made: Frame) -> Pictures:
+        """Return the colours times alpha."""
+        return color_pictures(premultiplied(made.color, settings), self.reference)
+
+
+class TextureTask(SampledTask):
+    """A textured square."""
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the counts of the frame, and the texels that are read."""
+        columns = trace(self.scene, settings, region=(0, 0, 1, 1)).stage("shade").columns
+        # The texels of a fragment by their columns: of one level, or of the nearer and the farther.
+        each = sum(values.shape[1] for name, values in columns.items() if name.rpartition("_")[2] == "texels")
+        return super().counts(settings, made) | {"texels read": each * made.statistics["shade"].incoming}
+
+
+def make_texture_filter(assignment: Assignment) -> TextureTask:
+    """Make a textured square, facing the camera or leaning back.
+
+    Notes
+    -----
+    Magnified, the texture is taken to be linear between texel centres, as OpenGL's bilinear filter does; with a texel
+    or more for a pixel each texel is a square of one colour, whose mean over a pixel is what mipmaps keep.
+    """
+    side = int(assignment.dials["side"])
+    repeats = side * assignment.dials["density"] / TEXELS
+    ratio = 1.0 if assignment.work == "facing" else 4.0
+    scene = textured_quad(side, ratio, repeats, checkerboard(TEXELS, assignment.seed))
+    base = Settings(texture_filter="bilinear" if assignment.dials["density"] < 1 else "nearest")
+    return TextureTask(scene, side * side, base, ("shade",), "shade")
+
+
+TEXTURE_FILTER = StudyFamily(
+    "texture_filter",
+    "Texture filters",
+    ("texture_filter",),
+    (
+        WorkKind("facing", "A textured square, facing the camera", "pixel", (DENSITIES, SIDES)),
+        WorkKind("leaning", "A textured square, leaning back", "pixel", (DENSITIES, SIDES)),
+    ),
+    (MEAN_COLOR, LARGEST_COLOR),
+    make_texture_filter,
+)
+
+
+def make_antialiasing(assignment: Assignment) -> SampledTask:
+    """Make a mesh of flat colours with edges in all directions."""
+    side = int(assignment.dials["side"])
+    window = window_mesh((side, side), 6, assignment.seed)
+    level = np.ones(window.shape[:2])
+    scene = flat_scene(clip_of_window(window, (side, side), 0.5 * level, level), (side, side))
+    return SampledTask(scene, side * side, Settings(), (), "resolve")
+
+
+ANTIALIASING = StudyFamily(
+    "antialiasing",
+    "Antialiasing",
+    ("antialiasing",),
+    (WorkKind("edges", "A mesh of flat colours, edges in all directions", "pixel", (SIDES,)),),
+    (MEAN_COLOR, LARGEST_COLOR),
+    make_antialiasing,
+)

@@ -1,0 +1,239 @@
+"""Where two settings first part ways on one scene: the stage, the row in drawing order, and the numbers that differ.
+
+Where both traces list the same rows (the same triangles, pixels and kinds in the same order), rows are compared as
+they stand. Where the schedules differ, as two fills look at pixels in different orders, only what comes of each pixel
+of each triangle is compared: covered or not, its values, its colour, its depth. Two methods that do the same in another
+order do not part ways.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.records.arrays import Flags, Integers
+from core.records.frame import STAGES
+from core.scene import AnyScene
+from core.settings import Settings
+from core.trace import StageTrace, Trace, trace
+from core.trace.stage_trace import Value
+
+OUTCOMES: dict[str, tuple[str, ...]] = {
+    "raster": ("covered",),
+    "interpolate": ("values",),
+    "shade": ("color",),
+    "depth": ("stored", "passes"),
+    "blend": ("after",),
+    "resolve": ("bytes",),
+}
+"""What comes of a pixel in the stages that are about pixels, by columns of their traces."""
+SCHEDULE_STAGES = ("bin",)
+"""Stages that only say what is looked at: methods may differ there and still do the same."""
+NAMES = ("primitive", "segment", "node")
+"""Columns that are numbers of records, not values."""
+
+
+@dataclass(frozen=True, eq=False)
+class Divergence:
+    """The first place at which two traces differ."""
+
+    stage: str
+    """A name of ``core.records.frame.STAGES``."""
+    rows: tuple[int | None, int | None]
+    """Row of each trace; ``None``: that trace has no row for it."""
+    triangle: int
+    """Number in the scene; -1: it is about no triangle."""
+    pixel: tuple[int, int] | None
+    """Column and row; ``None``: it is about no pixel."""
+    names: tuple[str, ...]
+    """Columns that differ; empty where one of the traces has no row."""
+    values: tuple[Mapping[str, Value], Mapping[str, Value]]
+    """All variables of each row; empty where there is none."""
+
+    @property
+    def is_missing_in(self) -> int | None:
+        """Which of the two traces, 0 or 1, has no row for it; ``None``: both have."""
+        return self.rows.index(None) if None in self.rows else None
+
+
+def first_divergence(
+    scene: AnyScene,
+    first: Settings,
+    second: Settings,
+    *,
+    triangle: int | None = None,
+    region: tuple[int, int, int, int] | None = None,
+) -> Divergence | None:
+    """Find the first stage and row at which two settings differ on a scene; ``None``: they never do.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    first, second : Settings
+    triangle, region : optional
+        Trace only this triangle, or this part of the picture, see `core.trace.trace`.
+    """
+    return diverge(
+        trace(scene, first, triangle, region, "cleared"), trace(scene, second, triangle, region, "cleared")
+    )
+
+
+def diverge(first: Trace, second: Trace) -> Divergence | None:
+    """Find the first place at which two traces of one scene differ."""
+    for stage in STAGES:
+        found = stage_divergence(first.stage(stage), second.stage(stage))
+        if found is not None:
+            return found
+    return None
+
+
+def stage_divergence(first: StageTrace, second: StageTrace) -> Divergence | None:
+    """Find the first row at which two traces of one stage differ."""
+    if is_same_schedule(first, second):
+        names = tuple(name for name in first.columns if name in second.columns and name not in NAMES)
+        differs = _differing(first, second, names, np.arange(first.steps.row_count), None)
+        rows = np.flatnonzero(differs.any(axis=0))
+        if not len(rows):
+            return None
+        row = int(rows[0])
+        return _at_rows(first, second, row, row, names)
+    if first.stage in SCHEDULE_STAGES:
+        return None
+    if first.stage in OUTCOMES:
+        return _pixel_divergence(first, second, OUTCOMES[first.stage])
+    return _triangle_divergence(first, second)
+
+
+def is_same_schedule(first: StageTrace, second: StageTrace) -> bool:
+    """Tell whether two traces have rows of the same kinds about the same triangles and pixels, in the same order."""
+    if first.steps.row_count != second.steps.row_count:
+        return False
+    kinds = [np.array(each.steps.kinds)[each.steps.kind] for each in (first, second)]
+    return bool(
+        (kinds[0] == kinds[1]).all()
+        and (first.triangle == second.triangle).all()
+        and (first.pixel == second.pixel).all()
+    )
+
+
+def _differing(
+    first: StageTrace,
+    second: StageTrace,
+    names: tuple[str, ...],
+    rows: Integers,
+    others: Integers | None,
+) -> Flags:
+    """Return (N, R) bool: where each of the N columns differs between ``rows`` and ``others`` (R,)."""
+    others = rows if others is None else others
+    found = np.zeros((len(names), len(rows)), bool)
+    for number, name in enumerate(names):
+        ours, theirs = first.columns[name][rows], second.columns[name][others]
+        found[number] = (
+            _differs(ours, theirs).any(axis=tuple(range(1, ours.ndim)))
+            if ours.shape == theirs.shape
+            else True
+        )
+    return found
+
+
+def _differs(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> Flags:
+    """Return where two arrays of one shape differ; two NaN are alike."""
+    differs = np.asarray(ours != theirs)
+    if ours.dtype.kind == "f" and theirs.dtype.kind == "f":
+        differs &= ~(np.isnan(ours.astype(float)) & np.isnan(theirs.astype(float)))
+    return differs
+
+
+def _at_rows(
+    first: StageTrace, second: StageTrace, row: int | None, other: int | None, names: tuple[str, ...]
+) -> Divergence:
+    """Return the divergence at one row of each trace, or of one of them."""
+    holder, place = (first, row) if row is not None else (second, other)
+    assert place is not None
+    column, line = (int(number) for number in holder.pixel[place])
+    differing: tuple[str, ...] = ()
+    if row is not None and other is not None:
+        differs = _differing(first, second, names, np.array([row]), np.array([other]))[:, 0]
+        differing = tuple(name for name, is_other in zip(names, differs, strict=True) if is_other)
+    return Divergence(
+        stage=first.stage,
+        rows=(row, other),
+        triangle=int(holder.triangle[place]),
+        pixel=None if column < 0 else (column, line),
+        names=differing,
+        values=(
+            {} if row is None else first.variables(row),
+            {} if other is None else second.variables(other),
+        ),
+    )
+
+
+def _pixel_divergence(first: StageTrace, second: StageTrace, names: tuple[str, ...]) -> Divergence | None:
+    """Compare what came of every pixel of every triangle, whatever the order and whatever else was looked at."""
+    ours, our_rows = _outcome_rows(first)
+    theirs, their_rows = _outcome_rows(second)
+    candidates: list[tuple[int, int | None, int | None]] = []
+    _, at_ours, at_theirs = np.intersect1d(ours, theirs, return_indices=True)
+    both = our_rows[at_ours], their_rows[at_theirs]
+    differs = _differing(first, second, names, *both).any(axis=0)
+    if differs.any():
+        place = int(np.flatnonzero(differs)[np.argmin(both[0][differs])])
+        candidates.append((int(both[0][place]), int(both[0][place]), int(both[1][place])))
+    only_ours, only_theirs = our_rows[~np.isin(ours, theirs)], their_rows[~np.isin(theirs, ours)]
+    if len(only_ours):
+        candidates.append((int(only_ours.min()), int(only_ours.min()), None))
+    if len(only_theirs):
+        candidates.append((int(only_theirs.min()), None, int(only_theirs.min())))
+    if not candidates:
+        return None
+    _, row, other = min(candidates, key=lambda candidate: candidate[0])
+    if row is None or other is None:
+        row, other = _with_uncovered(first, second, row, other)
+    return _at_rows(first, second, row, other, names)
+
+
+def _outcome_rows(stage: StageTrace) -> tuple[Integers, Integers]:
+    """Return keys (R,) of triangle and pixel, rising, and the last row (R,) of each that came to something."""
+    counts = stage.pixel[:, 0] >= 0
+    if "covered" in stage.columns:
+        counts = counts & stage.columns["covered"].astype(bool)
+    rows = np.flatnonzero(counts)[::-1]
+    keys, last = np.unique(_keys(stage)[rows], return_index=True)
+    return keys, rows[last]
+
+
+def _keys(stage: StageTrace) -> Integers:
+    """Return one number (R,) for triangle, row and column of every row."""
+    side = 1 << 16
+    return (stage.triangle.astype(np.int64) * side + stage.pixel[:, 1]) * side + stage.pixel[:, 0]
+
+
+def _with_uncovered(
+    first: StageTrace, second: StageTrace, row: int | None, other: int | None
+) -> tuple[int | None, int | None]:
+    """Find the row at which the other trace looked at the pixel and decided against it, if it looked."""
+    if row is not None:
+        found = np.flatnonzero(_keys(second) == _keys(first)[row])
+        return row, int(found[0]) if len(found) else None
+    assert other is not None
+    found = np.flatnonzero(_keys(first) == _keys(second)[other])
+    return (int(found[0]) if len(found) else None), other
+
+
+def _triangle_divergence(first: StageTrace, second: StageTrace) -> Divergence | None:
+    """Compare the rows of every triangle, in turn, of stages that are about no pixels."""
+    seen = list(dict.fromkeys([*first.triangle.tolist(), *second.triangle.tolist()]))
+    names = tuple(name for name in first.columns if name in second.columns and name not in NAMES)
+    for number in seen:
+        ours, theirs = (np.flatnonzero(each.triangle == number) for each in (first, second))
+        common = min(len(ours), len(theirs))
+        differs = _differing(first, second, names, ours[:common], theirs[:common]).any(axis=0)
+        if differs.any():
+            place = int(np.argmax(differs))
+            return _at_rows(first, second, int(ours[place]), int(theirs[place]), names)
+        if len(ours) != len(theirs):
+            row = int(ours[common]) if len(ours) > common else None
+            other = int(theirs[common]) if len(theirs) > common else None
+            return _at_rows(first, second, row, other, names)
+    return None

@@ -1,0 +1,54 @@
+"""The list of studies: those with work and references of their own, and one for every other family of settings.
+
+A method that is added to the table is a point of its family's study. A family that is added to the settings has a study
+by itself; a better one is added here.
+"""
+
+from core.methods import table
+from core.settings import families
+from core.study.accuracy.colors import ANTIALIASING, TEXTURE_FILTER
+from core.study.accuracy.culling import CULL
+from core.study.accuracy.depth_walls import DEPTH
+from core.study.accuracy.family import StudyFamily
+from core.study.accuracy.fill import COVERAGE, FILL
+from core.study.accuracy.interpolated import INTERPOLATION
+from core.study.accuracy.line_clippers import LINE_CLIPPING
+from core.study.accuracy.lines import LINE
+from core.study.accuracy.sphere_shading import SHADING
+from core.study.accuracy.visible import CLIPPING, VISIBILITY
+from core.study.accuracy.whole_picture import PIPELINE, standing_in
+
+OWN = (
+    LINE,
+    FILL,
+    COVERAGE,
+    LINE_CLIPPING,
+    CLIPPING,
+    INTERPOLATION,
+    TEXTURE_FILTER,
+    DEPTH,
+    ANTIALIASING,
+    SHADING,
+    VISIBILITY,
+    CULL,
+)
+"""Studies with work and references of their own; those whose family is not in the table yet are not shown."""
+
+
+def study_families() -> tuple[StudyFamily, ...]:
+    """Return all studies: the whole pipeline last, before it the families that have no study of their own."""
+    own = tuple(family for family in OWN if family.varies[0] in table.families)
+    covered = {name for family in OWN for name in family.varies}
+    others = tuple(
+        standing_in(name) for name in families() if name not in covered and len(table.names(name)) > 1
+    )
+    return (*own, *others, PIPELINE)
+
+
+def study_family(name: str) -> StudyFamily:
+    """Return one study, or raise ValueError with the names that there are."""
+    for family in study_families():
+        if family.name == name:
+            return family
+    known = ", ".join(family.name for family in study_families())
+    raise ValueError(f"family must be one of {known}, got {name}")

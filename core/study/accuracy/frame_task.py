@@ -1,0 +1,154 @@
+"""Work that is a scene: methods draw it with `render`, and what they drew is compared with a reference."""
+
+from collections.abc import Callable
+from copy import copy
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.methods import table
+from core.pipeline import render
+from core.records.arrays import Flags, Floats, Singles, read_only
+from core.records.frame import Frame
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.accuracy.family import Task
+from core.study.accuracy.record import ErrorMeasure, Opening, Pictures
+from core.trace import scene_triangle_count
+
+MILLION = 1_000_000
+MOST_TESTS = 200_000_000
+"""Pixel tests of a brute-force drawing that is measured; it takes some seconds."""
+
+WRONG_VISIBLE = ErrorMeasure("wrong-visible", "Pixels that show the wrong triangle", "per million")
+MEAN_COLOR = ErrorMeasure("mean-color", "Mean colour error", "1/255")
+LARGEST_COLOR = ErrorMeasure("largest-color", "Largest colour error", "1/255")
+
+
+class FrameTask(Task):
+    """A scene that every method draws.
+
+    Parameters
+    ----------
+    scene : Scene or ClipScene
+    unit_count : int
+    stages : tuple of str
+        Only the time of these stages counts; none: the whole drawing.
+    """
+
+    stage = "raster"
+    """Where the stepper opens."""
+
+    def __init__(self, scene: AnyScene, unit_count: int, stages: tuple[str, ...] = ()) -> None:
+        self.scene = scene
+        self.unit_count = unit_count
+        self._stages = stages
+
+    def start(self, settings: Settings) -> Callable[[], Frame]:
+        """Prepare the drawing of a scene that is new to the pipeline, so that nothing is known from the run before."""
+        check_pixel_tests(self.scene, settings)
+        return partial(render, copy(self.scene), settings)
+
+    def seconds(self, made: Frame, elapsed: float) -> float:
+        """Return the time of the stages that the methods differ in."""
+        if not self._stages:
+            return elapsed
+        return sum(made.statistics[stage].seconds for stage in self._stages)
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return triangles, pixels and bytes."""
+        return frame_counts(made)
+
+    def opening(self, settings: Settings, made: Frame) -> Opening | None:
+        """Return the scene with these settings, at the first pixel that is wrong."""
+        return Opening(self.scene, settings, self.stage, self.first_wrong(settings, made))
+
+    def first_wrong(self, settings: Settings, made: Frame) -> tuple[int, int] | None:
+        """Return column and row of the first pixel that differs from the reference, from the bottom left."""
+        return first_pixel(self.pictures(settings, made).difference != 0)
+
+
+def check_pixel_tests(scene: AnyScene, settings: Settings) -> None:
+    """Refuse, with a sentence, a drawing that tests every pixel for every triangle where that would take minutes."""
+    tests = scene_triangle_count(scene) * scene.size[0] * scene.size[1]
+    if settings.fill == "brute-force" and tests > MOST_TESTS:
+        raise ValueError(
+            f"brute force would test {tests:,} pixels, and at most {MOST_TESTS:,} are measured: choose fewer triangles "
+            "or a smaller picture"
+        )
+
+
+def frame_counts(frame: Frame) -> dict[str, int]:
+    """Return the counts of a frame that do not depend on the machine."""
+    stages = frame.statistics
+    buffers = (frame.color, frame.depth, frame.primitive, frame.attributes, frame.cover_count)
+    return {
+        "triangles drawn": stages["edges"].outgoing,
+        "pixels tested": stages["raster"].incoming,
+        "pixels covered": stages["raster"].outgoing,
+        "depth tests": stages["depth"].incoming,
+        "pixels shaded": stages["shade"].incoming,
+        "bytes": int(sum(buffer.nbytes for buffer in buffers)),
+    }
+
+
+def first_pixel(flags: NDArray[np.bool_]) -> tuple[int, int] | None:
+    """Return column and row of the first pixel of ``flags`` (H, W) that holds, row by row from the bottom."""
+    places = np.flatnonzero(flags)
+    if not len(places):
+        return None
+    row, column = divmod(int(places[0]), flags.shape[1])
+    return column, row
+
+
+def scalar_pictures(result: NDArray[Any], reference: NDArray[Any]) -> Pictures:
+    """Return two (H, W) pictures of numbers with their signed difference."""
+    shown, right = result.astype(np.float32), reference.astype(np.float32)
+    return Pictures(read_only(shown), read_only(right), read_only(shown - right))
+
+
+def color_pictures(result: NDArray[Any], reference: NDArray[Any]) -> Pictures:
+    """Return two (H, W, 4) pictures of colours with the difference of the largest channel."""
+    shown, right = result.astype(np.float32), reference.astype(np.float32)
+    return Pictures(read_only(shown), read_only(right), read_only(np.abs(shown - right).max(axis=2)))
+
+
+def premultiplied(color: Singles | Floats, settings: Settings) -> Floats:
+    """Return colours (..., 4) float64 times their alpha, whatever the blend method keeps.
+
+    Notes
+    -----
+    The mean of samples with alpha 1 and of a background that is transparent black is times its mean alpha already:
+    times alpha once more, outlines would be too dark. Opaque pictures of translucent fragments with samples stay as
+    they are, for the same reason: what their samples were is not known any more.
+    """
+    values = color.astype(np.float64)
+    if settings.blend == "opaque" and settings.antialiasing == "none":
+        values[..., :3] *= values[..., 3:]
+    return values
+
+
+def color_errors(result: Floats, reference: Floats, where: Flags | None = None) -> dict[str, float | str]:
+    """Return mean and largest difference of colours (H, W, 4), in 1/255 of linear light, over the pixels ``where``."""
+    difference = np.abs(result - reference)[..., :3].max(axis=-1)
+    if where is not None:
+        difference = difference[where]
+    if not difference.size:
+        reason = "No pixel is drawn both by the method and in the reference."
+        return {MEAN_COLOR.name: reason, LARGEST_COLOR.name: reason}
+    return {
+        MEAN_COLOR.name: 255 * float(difference.mean()),
+        LARGEST_COLOR.name: 255 * float(difference.max()),
+    }
+
+
+def per_million(wrong: int, count: int) -> float:
+    """Return how many of a million are wrong."""
+    return MILLION * wrong / max(count, 1)
+
+
+def depth_bits(settings: Settings) -> int:
+    """Return the bits that a depth is kept in."""
+    return int(table.get("depth", settings.depth).function().nearness_bits)

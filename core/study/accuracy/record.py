@@ -1,0 +1,166 @@
+"""What a study says: the methods of one family on the same work, their time, their work counts and their errors."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.records.arrays import Floats
+from core.records.cached import cached_property
+from core.scene import AnyScene
+from core.settings import Settings
+
+
+@dataclass(frozen=True)
+class ErrorMeasure:
+    """One way to say how wrong a result is; 0 is exact."""
+
+    name: str
+    """Key in `Point.errors`, as ``misclassified``."""
+    title: str
+    """What a person reads at an axis, without the unit: ``Misclassified pixels``."""
+    unit: str
+    """``per million``, ``pixels``, ``ulp``, ``1/255``; empty: a plain number."""
+
+
+@dataclass(frozen=True)
+class Dial:
+    """One quantity of the work that is chosen: triangle size, line length, sliver angle, triangle count."""
+
+    name: str
+    title: str
+    unit: str
+    values: tuple[float, ...]
+    """Those that can be chosen, rising."""
+    default: float
+    is_cost: bool = False
+    """Whether the second chart shows how cost grows with it; one dial of a work at most."""
+
+
+@dataclass(frozen=True)
+class WorkKind:
+    """A kind of work that all methods of a family can be put to."""
+
+    name: str
+    title: str
+    """As ``Random triangles``."""
+    unit: str
+    """What time is divided by: ``pixel``, ``line``, ``triangle``, ``frame``."""
+    dials: tuple[Dial, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """One method, measured; or why it could not be."""
+
+    method: str
+    """``family=name`` of the table, as ``line=dda``; several joined by a blank where a point is a choice of several."""
+    title: str
+    seconds: Floats = field(default_factory=lambda: np.empty(0))
+    """(R,) float64 seconds of one run each, in the R interleaved rounds; empty: not measured."""
+    unit_count: int = 0
+    """Units of work (`WorkKind.unit`) in one run."""
+    counts: Mapping[str, int] = field(default_factory=dict)
+    """Work that does not depend on the machine: ``pixels tested``, ``operations``, ``bytes``."""
+    errors: Mapping[str, float] = field(default_factory=dict)
+    """By `ErrorMeasure.name`; NaN: this error is not defined for the method."""
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    """By `ErrorMeasure.name`, a sentence for every NaN: why the error is not defined."""
+    refused: str = ""
+    """A sentence: why there are no numbers. Empty: there are."""
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether there are numbers."""
+        return not self.refused and len(self.seconds) > 0
+
+    @property
+    def seconds_per_unit(self) -> Floats:
+        """(R,) float64."""
+        return self.seconds / max(self.unit_count, 1)
+
+    @cached_property
+    def median(self) -> float:
+        """Median of the seconds per unit."""
+        return float(np.median(self.seconds_per_unit))
+
+    @cached_property
+    def spread(self) -> tuple[float, float]:
+        """Lower and upper quartile of the seconds per unit."""
+        low, high = np.quantile(self.seconds_per_unit, [0.25, 0.75])
+        return float(low), float(high)
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """What one method made, what would have been right, and where they differ; row 0 is the bottom row."""
+
+    result: NDArray[np.float32]
+    """(H, W) float32 scalars or (H, W, 4) float32 linear colours."""
+    reference: NDArray[np.float32]
+    """The same shape."""
+    difference: NDArray[np.float32]
+    """(H, W) float32, signed where the values are scalars (result minus reference), else the largest channel's."""
+
+
+@dataclass(frozen=True, eq=False)
+class Opening:
+    """What opens in the stepper to look at one method's run."""
+
+    scene: AnyScene
+    settings: Settings
+    stage: str
+    """Where to look first, a name of ``core.records.frame.STAGES``."""
+    pixel: tuple[int, int] | None = None
+    """Column and row to pin: where it goes wrong first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """One family's methods on one work."""
+
+    family: str
+    title: str
+    work: WorkKind
+    dials: Mapping[str, float]
+    """The chosen value of every dial of the work."""
+    seed: int
+    measures: tuple[ErrorMeasure, ...]
+    """The first is the one that the chart opens with."""
+    points: tuple[Point, ...]
+    growth: Mapping[float, tuple[Point, ...]] = field(default_factory=dict)
+    """Value of the cost dial to the points there."""
+    machine: Mapping[str, str] = field(default_factory=dict)
+    """Processor, system, versions of Python, NumPy and Rasterscope, date."""
+    settings: Settings = field(default_factory=Settings)
+    """What all points share; a point's method changes one or a few of them."""
+    scene: str = ""
+    """What the scene that was measured on is called; empty: the work itself makes it."""
+
+
+def pareto_front(points: tuple[Point, ...], measure: str, count: str = "") -> tuple[Point, ...]:
+    """Return the measured points that no other beats in both cost and the error ``measure``, cheapest first.
+
+    Parameters
+    ----------
+    points : tuple of Point
+    measure : str
+        Key of `Point.errors`.
+    count : str, optional
+        What the methods are charged with: a key of `Point.counts`; their median time by default.
+    """
+    ranked = sorted(
+        (
+            (float(point.counts[count]) if count else point.median, point.errors[measure], place)
+            for place, point in enumerate(points)
+            if point.is_measured
+            and np.isfinite(point.errors.get(measure, np.nan))
+            and (not count or count in point.counts)
+        ),
+    )
+    front: list[Point] = []
+    for _, error, place in ranked:
+        if not front or error < front[-1].errors[measure]:
+            front.append(points[place])
+    return tuple(front)

@@ -1,0 +1,65 @@
+"""How fine a tessellation is enough: how far facets lie from the smooth surface that the normals speak of.
+
+An edge of length l whose ends' normals are an angle t apart is the chord of an arc of radius l / (2 sin(t/2)); the arc
+rises (l/2) tan(t/4) above it, its sagitta. A sphere of radius r with n edges around has the sagitta r (1 - cos(pi/n)).
+It falls with the square of the edge, so with the number of triangles.
+"""
+
+from math import acos, ceil, pi
+
+import numpy as np
+
+from core.geometry.vertex_stage import transform_vertices
+from core.records.arrays import Floats
+from core.scene import AnyScene, Scene
+from core.study.planner.bounds.light_ranges import angle
+from core.study.planner.records import Tessellation
+
+WANTED = 0.25
+"""Pixels that a facet may lie away."""
+
+
+def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
+    """Return advice for every mesh of a scene; it is not applied."""
+    if not isinstance(scene, Scene):
+        return ()
+    vertices = transform_vertices(scene)
+    assert vertices.normals is not None
+    found = []
+    for number, mesh in enumerate(scene.meshes):
+        corners = vertices.corners[vertices.mesh == number]
+        window, w = vertices.window[:, :2][corners], vertices.clip[:, 3][corners]
+        in_front = (w > 0).all(axis=1)
+        largest = 0.0
+        for start in range(3):
+            end = (start + 1) % 3
+            turned = angle(vertices.normals[corners[:, start]], vertices.normals[corners[:, end]])
+            length = np.linalg.norm(window[:, end] - window[:, start], axis=1)
+            largest = max(largest, float(sagitta(length, turned)[in_front].max(initial=0.0)))
+        found.append(_advice(mesh.name, len(corners), largest))
+    return tuple(found)
+
+
+def sagitta(length: Floats, turned: Floats) -> Floats:
+    """Return how far an arc over chords of ``length`` (E,), whose ends are ``turned`` (E,) radians, rises."""
+    return np.asarray(length / 2 * np.tan(np.minimum(turned, pi / 2) / 4))
+
+
+def sphere_edges(radius: float, deviation: float) -> int:
+    """Return how many edges around a sphere of ``radius`` lie no more than ``deviation`` from it; the same unit."""
+    if deviation >= radius:
+        return 3
+    return max(ceil(pi / acos(1 - deviation / radius)), 3)
+
+
+def _advice(name: str, count: int, deviation: float) -> Tessellation:
+    wanted = max(ceil(count * deviation / WANTED), 1)
+    if deviation == 0:
+        text = f"{name}: the normals speak of flat faces, {count:,} triangles are what it takes."
+        return Tessellation(name, count, 0.0, count, text)
+    way = "fewer would do" if wanted < count else "more would look rounder"
+    text = (
+        f"{name}: facets lie up to {deviation:.3g} pixels from the smooth surface; {way}, about {wanted:,} triangles "
+        f"for {WANTED:g} pixels instead of {count:,}."
+    )
+    return Tessellation(name, count, deviation, wanted, text)

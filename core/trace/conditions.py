@@ -1,0 +1,209 @@
+"""Conditions of breakpoints: ``value_0 < 0.5 and not covered``, read safely, evaluated on all rows at once.
+
+Only names of a trace's variables, numbers, texts in quotes, arithmetic, comparisons, and / or / not are known.
+The text is parsed, never executed as Python.
+"""
+
+import ast
+import operator
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from core.records.arrays import Flags
+from core.trace.stage_trace import StageTrace
+
+TEXT_LIMIT = 300
+"""Longest condition in characters."""
+
+_ARITHMETIC: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Mod: operator.mod,
+}
+_COMPARISONS: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+}
+_WANTED = "a condition compares variables and numbers, as value_0 < 0.5 and not covered"
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A condition that has been read; whether its names exist depends on the trace."""
+
+    text: str
+    tree: ast.expr
+
+    def holds(self, trace: StageTrace) -> Flags:
+        """Return (R,) bool, the rows that meet it.
+
+        Raises
+        ------
+        ValueError
+            For a name that the stage does not have, a list without an index, or a result that is no flag.
+        """
+        with np.errstate(all="ignore"):
+            found = np.asarray(_evaluate(self.tree, trace))
+        if found.dtype != np.bool_:
+            raise ValueError(f"{_WANTED}; {self.text} is not true or false")
+        return np.broadcast_to(found, (trace.steps.row_count,))
+
+
+def parse_condition(text: str) -> Condition:
+    """Read a condition.
+
+    Parameters
+    ----------
+    text : str
+        For example ``value_0 < 0.5``, ``weights[2] >= 0 and covered``, ``verdict == "outside"``.
+
+    Raises
+    ------
+    ValueError
+        With one sentence that says what is wrong.
+
+    Examples
+    --------
+    >>> from core import ClipScene, trace
+    >>> scene = ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(2, 2))
+    >>> raster = trace(scene).stage("raster")
+    >>> parse_condition("covered and row == 0").holds(raster).tolist()
+    [True, False, False, False]
+    """
+    if not text.strip():
+        raise ValueError(f"{_WANTED}; this one is empty")
+    if len(text) > TEXT_LIMIT:
+        raise ValueError(f"a condition must be at most {TEXT_LIMIT} characters, got {len(text)}")
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            tree = ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ValueError(f"{_WANTED}; {text.strip()} cannot be read") from None
+    _check(tree)
+    return Condition(text.strip(), tree)
+
+
+def _check(node: ast.expr) -> None:
+    """Refuse everything but names, numbers, texts, arithmetic, comparisons and logic."""
+    match node:
+        case ast.Name():
+            return
+        case ast.Constant(value=bool() | int() | float() | str()):
+            return
+        case ast.Subscript(value=ast.Name(), slice=ast.Constant(value=int(index))) if index is not True:
+            return
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() | ast.Not(), operand=operand):
+            return _check(operand)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
+            parts = [left, right]
+        case ast.BoolOp(values=parts):
+            pass
+        case ast.Compare(left=left, ops=ops, comparators=others) if all(
+            type(op) in _COMPARISONS for op in ops
+        ):
+            parts = [left, *others]
+        case _:
+            raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
+    for part in parts:
+        _check(part)
+
+
+def _evaluate(node: ast.expr, trace: StageTrace) -> Any:
+    """Return the value of a checked node on all rows."""
+    match node:
+        case ast.Name(id=name):
+            return _single(name, _column(name, trace))
+        case ast.Constant(value=value):
+            return _constant(value)
+        case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=int(index))):
+            return _element(name, _column(name, trace), index)
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return ~_flags(operand, trace)
+        case ast.UnaryOp(op=op, operand=operand):
+            value = _numbers(operand, trace)
+            return -value if isinstance(op, ast.USub) else value
+        case ast.BinOp(left=left, op=op, right=right):
+            return _ARITHMETIC[type(op)](_numbers(left, trace), _numbers(right, trace))
+        case ast.BoolOp(op=op, values=parts):
+            found = [_flags(part, trace) for part in parts]
+            return np.logical_and.reduce(found) if isinstance(op, ast.And) else np.logical_or.reduce(found)
+        case ast.Compare(left=left, ops=ops, comparators=others):
+            values = [_evaluate(part, trace) for part in (left, *others)]
+            pairs = zip(values, ops, values[1:], strict=False)
+            return np.logical_and.reduce([_compare(first, op, second) for first, op, second in pairs])
+    raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
+
+
+def _compare(first: Any, op: ast.cmpop, second: Any) -> Any:
+    """Compare numbers with numbers, or texts for being equal."""
+    is_text = [np.asarray(value).dtype.kind == "U" for value in (first, second)]
+    if any(is_text) and not (all(is_text) and isinstance(op, ast.Eq | ast.NotEq)):
+        raise ValueError("a text can only be equal (==) or not equal (!=) to another text")
+    return _COMPARISONS[type(op)](first, second)
+
+
+def _constant(value: object) -> Any:
+    """Return a constant as arrays take it; a number as float64, so that no integer grows without end."""
+    return np.asarray(value) if isinstance(value, bool | str) else np.asarray(value, np.float64)
+
+
+def _numbers(node: ast.expr, trace: StageTrace) -> Any:
+    """Return numbers to calculate with; yes counts as 1."""
+    value = np.asarray(_evaluate(node, trace))
+    if value.dtype.kind not in "fiub":
+        raise ValueError(f"{ast.unparse(node)} is a text, one cannot calculate with it")
+    return value.astype(np.float64)
+
+
+def _flags(node: ast.expr, trace: StageTrace) -> Any:
+    """Return yes or no, to be joined by and, or, not."""
+    value = np.broadcast_to(_evaluate(node, trace), (trace.steps.row_count,))
+    if value.dtype != np.bool_:
+        raise ValueError(f"{ast.unparse(node)} is not true or false; compare it with something")
+    return value
+
+
+def variable_names(trace: StageTrace) -> tuple[str, ...]:
+    """Return the names that a condition on this stage may use."""
+    return tuple(sorted({*trace.columns, *trace.constants, "kind", "triangle"}))
+
+
+def _column(name: str, trace: StageTrace) -> Any:
+    """Return a variable of all rows: a column, a constant, ``kind`` or ``triangle``."""
+    if name in trace.columns:
+        return trace.columns[name]
+    if name in trace.constants:
+        return np.asarray(trace.constants[name])
+    if name == "kind":
+        return np.array(trace.steps.kinds)[trace.steps.kind]
+    if name == "triangle":
+        return trace.triangle
+    raise ValueError(
+        f"the stage {trace.stage} has no variable {name}; it has {', '.join(variable_names(trace))}"
+    )
+
+
+def _single(name: str, values: Any) -> Any:
+    if values.ndim > 1:
+        shown = "x".join(map(str, values.shape[1:]))
+        raise ValueError(f"{name} has {shown} numbers in a row: choose one, as {name}[0]")
+    return values
+
+
+def _element(name: str, values: Any, index: int) -> Any:
+    """Return one number of a list of numbers."""
+    if values.ndim != 2:
+        raise ValueError(f"{name} is not a list of numbers, {name}[{index}] has no meaning")
+    if not 0 <= index < values.shape[1]:
+        raise ValueError(f"{name} has the numbers 0 to {values.shape[1] - 1}, got {name}[{index}]")
+    return values[:, index]

@@ -1,0 +1,1 @@
+"""Stability maps and the case behind a cell."""

@@ -1,0 +1,187 @@
+"""One cell of an atlas: what came of its run, its picture, its pixel in every number format, and where it leads."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtWidgets import (
+    QLabel,
+    QScrollArea,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.atlas.format_probe import DialRow, DialView
+from widgets.basics.flow_layout import FlowLayout
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.linked_grids import LinkedGrids
+from widgets.grid.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
+
+WORDS = ("Picture", "Times covered")
+
+
+@dataclass(frozen=True, eq=False)
+class CaseRecord:
+    """What is known of one run."""
+
+    heading: str
+    """The method and the place."""
+    verdict: str
+    """What came of it, with the numbers."""
+    buffers: tuple[GridBuffer, GridBuffer] | None = None
+    """Its picture, and how often each pixel is covered; ``None``: it draws none."""
+    pixel: Pixel | None = None
+    """Where it is wrong first."""
+    has_formats: bool = False
+    """Whether its pixels can be looked at in every number format."""
+    can_step: bool = False
+    can_shrink: bool = False
+    can_save: bool = False
+    """Whether it has been made small: that is worth a file."""
+
+
+class CaseView(QWidget):
+    """Two linked grids under a heading and a verdict; tells what the user wants to do with the case."""
+
+    step_requested = Signal()
+    shrink_requested = Signal()
+    save_requested = Signal()
+    closing_requested = Signal()
+    pixel_pinned = Signal(int, int)
+    """The user has pinned another pixel."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._record: CaseRecord | None = None
+        self._pin: Pixel | None = None
+        self._hover: Pixel | None = None
+        self.heading = QLabel(self)
+        self.heading.setWordWrap(True)
+        self.heading.setAccessibleName("Chosen cell")
+        self.verdict = QLabel(self)
+        self.verdict.setWordWrap(True)
+        self.verdict.setAccessibleName("What came of it")
+        self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.linked = LinkedGrids(WORDS, self)
+        self.values = QLabel(self)
+        self.values.setProperty("role", "muted")
+        self.values.setWordWrap(True)
+        self.formats = DialView(self)
+        self.tabs = QTabWidget(self)
+        self.step_button = button_with_tip(
+            "Open in the stepper",
+            "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)",
+            self,
+        )
+        self.shrink_button = button_with_tip(
+            "Shrink", "Make the scene as small as it can be and still fail in the same way (S)", self
+        )
+        self.save_button = button_with_tip(
+            "Save case…", "Save the small case as a scene, or as a Python test", self
+        )
+        self.close_button = closing_button("the case", self)
+        self.step_button.clicked.connect(self.step_requested)
+        self.shrink_button.clicked.connect(self.shrink_requested)
+        self.save_button.clicked.connect(self.save_requested)
+        self.close_button.clicked.connect(self.closing_requested)
+        self.linked.pixel_hovered.connect(self._hover_pixel)
+        self.linked.pixel_left.connect(self._leave)
+        self.linked.pixel_clicked.connect(self._pin_pixel)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self.tabs.setDocumentMode(True)
+        self.tabs.tabBar().setDrawBase(False)
+        self.tabs.addTab(self.linked, "Pictures")
+        self.tabs.addTab(self.formats, "Number formats")
+        self.tabs.setCornerWidget(self.close_button)
+        buttons = QWidget(self)
+        flow = FlowLayout(buttons, 8)
+        for button in (self.step_button, self.shrink_button, self.save_button):
+            flow.addWidget(button)
+        words = QWidget(self)
+        column = QVBoxLayout(words)
+        column.setContentsMargins(0, 4, 0, 0)
+        column.setSpacing(8)
+        for widget in (self.heading, buttons, self.verdict, self.values):
+            column.addWidget(widget)
+        column.addStretch(1)
+        scroll = QScrollArea(self)
+        scroll.setWidget(words)
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setMinimumWidth(200)
+        self.parts = QSplitter(Qt.Orientation.Horizontal, self)
+        self.parts.addWidget(scroll)
+        self.parts.addWidget(self.tabs)
+        self.parts.setStretchFactor(1, 1)
+        self.parts.setSizes([330, 660])
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 4, 0, 0)
+        layout.addWidget(self.parts, 1)
+
+    @property
+    def pin(self) -> Pixel | None:
+        """The pixel that is pinned: where the run is wrong first, or another one that the user has clicked."""
+        return self._pin
+
+    def show_case(self, record: CaseRecord) -> None:
+        """Show a case."""
+        self._record, self._pin, self._hover = record, record.pixel, None
+        self.heading.setText(record.heading)
+        self.verdict.setText(record.verdict)
+        self.tabs.setTabEnabled(0, record.buffers is not None)
+        self.tabs.setTabEnabled(1, record.has_formats)
+        if record.buffers is None:
+            self.linked.show_nothing()
+        else:
+            self.linked.show_buffers(record.buffers, WORDS)
+        self.step_button.setEnabled(record.can_step)
+        self.shrink_button.setVisible(not record.can_save)
+        self.shrink_button.setEnabled(record.can_shrink)
+        self.save_button.setVisible(record.can_save)
+        self.save_button.setEnabled(record.can_save)
+        self._show_pointing()
+
+    def show_formats(self, sentence: str, rows: Sequence[DialRow]) -> None:
+        """Show what every number format makes of the pinned pixel, and say which pixel that is."""
+        self.formats.show_pixel(sentence, rows)
+
+    def show_tab(self, name: str) -> None:
+        """Show ``pictures`` or ``formats``."""
+        self.tabs.setCurrentIndex(("pictures", "formats").index(name))
+
+    def show_waiting(self, heading: str, text: str) -> None:
+        """Say what is awaited, or why there is nothing; the grids stay to be seen, so that nothing jumps."""
+        self.heading.setText(heading)
+        self.verdict.setText(text)
+        for button in (self.step_button, self.shrink_button, self.save_button):
+            button.setEnabled(False)
+
+    def _show_pointing(self) -> None:
+        self.linked.show_pointing(self._pin, self._hover)
+        buffers = None if self._record is None else self._record.buffers
+        pixel = self._hover or self._pin
+        if buffers is None or pixel is None:
+            self.values.setText("" if buffers is None else "Point at a pixel to read its values.")
+            return
+        self.values.setText(reading_at(pixel, buffers))
+
+    @Slot(int, int)
+    def _hover_pixel(self, column: int, row: int) -> None:
+        self._hover = (column, row)
+        self._show_pointing()
+
+    @Slot()
+    def _leave(self) -> None:
+        self._hover = None
+        self._show_pointing()
+
+    @Slot(int, int)
+    def _pin_pixel(self, column: int, row: int) -> None:
+        self._pin = (column, row)
+        self._show_pointing()
+        self.pixel_pinned.emit(column, row)

@@ -1,0 +1,1 @@
+"""Widgets and drawing that every view uses: theme, marks, icons, controls, messages, key help."""

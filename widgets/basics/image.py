@@ -1,0 +1,261 @@
+"""The one function that turns an array into a QImage; row 0, the bottom row, is flipped here."""
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtGui import QImage
+
+from widgets.basics.colormaps import colormap_table, id_table
+from widgets.basics.theme import VERTEX_COLORS, Theme
+from widgets.grid.buffer import GridBuffer
+
+_SRGB_STEPS = 65535
+_TRANSPARENT = 0
+_OPAQUE = 0xFF000000
+
+
+def buffer_image(buffer: GridBuffer, theme: Theme) -> QImage:
+    """Return the picture of a buffer, one image pixel per pixel.
+
+    Parameters
+    ----------
+    buffer : GridBuffer
+        (H, W) or (H, W, C) values, row 0 at the bottom.
+    theme : Theme
+        Colours of empty, covered, NaN and infinite pixels.
+
+    Returns
+    -------
+    QImage
+        W x H pixels, ARGB32, row 0 at the top. No primitive (a negative id) and alpha 0 are transparent.
+
+    Notes
+    -----
+    NaN alternates between two greys from pixel to pixel (a checker), infinite values have a colour of their
+    own. Linear colour is encoded as sRGB by a table of 65536 entries, at most one level from the exact value.
+    Transparency is straight alpha. Values outside the range take the colour of the nearest end.
+    """
+    values = buffer.values
+    if values.ndim == 3 and buffer.channels == 1:
+        values = values[:, :, 0]
+    if buffer.kind == "bool":
+        pixels = _pack(np.array([theme.empty, theme.covered]))[(values != 0).astype(np.intp)]
+    elif buffer.kind == "ids":
+        pixels = _id_pixels(values)
+    elif buffer.kind == "color":
+        pixels = _color_pixels(values, theme)
+    elif buffer.kind == "weights":
+        pixels = _weight_pixels(values, theme)
+    elif values.ndim == 3:
+        pixels = _channel_pixels(values, value_range(buffer), theme)
+    else:
+        name = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
+        pixels = _scalar_pixels(values, value_range(buffer), name, theme)
+    if buffer.known is not None:
+        pixels = np.where(buffer.known, pixels, _pack(np.array([theme.empty]))[0])
+    return _to_image(pixels)
+
+
+def display_image(pixels: NDArray[np.uint8]) -> QImage:
+    """Return a drawn picture as an image, quickly: many times a second.
+
+    Parameters
+    ----------
+    pixels : (H, W, 4) uint8
+        sRGB, row 0 at the bottom.
+
+    Returns
+    -------
+    QImage
+        W x H pixels, RGB32, row 0 at the top. Alpha is left out, as a window leaves it out that shows a
+        frame buffer: what lies behind the pixels is in them already.
+    """
+    flipped = np.ascontiguousarray(pixels[::-1])
+    rows, columns, _ = flipped.shape
+    image = QImage(flipped.data, columns, rows, 4 * columns, QImage.Format.Format_RGBX8888)
+    return image.convertToFormat(QImage.Format.Format_RGB32)
+
+
+def mask_image(mask: NDArray[np.bool_]) -> QImage:
+    """Return an (H, W) bool mask as a W x H image: opaque black where it is true, else transparent."""
+    return _to_image(np.where(mask, np.uint32(_OPAQUE), np.uint32(_TRANSPARENT)))
+
+
+def value_range(buffer: GridBuffer) -> tuple[float, float]:
+    """Return the values at the two ends of a buffer's colormap, low <= high.
+
+    The range of the buffer if it has one, else that of the finite values (for signed ones made symmetric
+    about 0); (0, 1) where no value is finite.
+    """
+    low, high = buffer.range if buffer.range is not None else fitted_range(buffer.values)
+    if buffer.kind == "signed":
+        high = max(abs(low), abs(high))
+        low = -high
+    return low, high
+
+
+def fitted_range(values: NDArray[np.generic]) -> tuple[float, float]:
+    """Return the least and the largest finite value of an array of any shape, or (0, 1)."""
+    if values.dtype.kind == "f":
+        low, high = float(values.min()), float(values.max())
+        if not (np.isfinite(low) and np.isfinite(high)):
+            finite = values[np.isfinite(values)]
+            if finite.size == 0:
+                return 0.0, 1.0
+            low, high = float(finite.min()), float(finite.max())
+        return low, high
+    return float(values.min()), float(values.max())
+
+
+def _scalar_pixels(
+    values: NDArray[np.generic], ends: tuple[float, float], name: str, theme: Theme
+) -> NDArray[np.uint32]:
+    """Return (H, W) packed colours of (H, W) scalars."""
+    table = _packed_table(name)
+    unit, is_finite = _normalized(values, ends)
+    indices = (unit * (len(table) - 1) + 0.5).astype(np.intp)
+    pixels = table[indices]
+    return pixels if is_finite is None else _mark_not_finite(pixels, values, is_finite, theme)
+
+
+def _channel_pixels(
+    values: NDArray[np.generic], ends: tuple[float, float], theme: Theme
+) -> NDArray[np.uint32]:
+    """Return (H, W) packed colours of (H, W, C) values: three channels over the range, not encoded."""
+    unit, is_finite = _normalized(values[:, :, :3], ends)
+    levels = (unit * 255.0 + 0.5).astype(np.uint32)
+    pixels = np.full(levels.shape[:2], _OPAQUE, np.uint32)
+    for channel in range(levels.shape[2]):
+        pixels |= levels[:, :, channel] << np.uint32(16 - 8 * channel)
+    if is_finite is None:
+        return pixels
+    return _mark_not_finite(pixels, values[:, :, :3], is_finite, theme)
+
+
+def _color_pixels(values: NDArray[np.generic], theme: Theme) -> NDArray[np.uint32]:
+    """Return (H, W) packed colours of linear floats or of sRGB bytes, with 1, 3 or 4 channels."""
+    if values.ndim == 2:
+        values = np.repeat(values[:, :, None], 3, axis=2)
+    is_finite = None
+    if values.dtype == np.uint8:
+        levels = values.astype(np.uint32)
+    else:
+        unit, is_finite = _normalized(values, (0.0, 1.0))
+        steps = (unit[:, :, :3] * _SRGB_STEPS + 0.5).astype(np.uint16)
+        levels = srgb_table()[steps].astype(np.uint32)
+        if values.shape[2] == 4:
+            alpha = (unit[:, :, 3:] * 255.0 + 0.5).astype(np.uint32)
+            levels = np.concatenate((levels, alpha), axis=2)
+    pixels = levels[:, :, 0] << np.uint32(16) | levels[:, :, 1] << np.uint32(8) | levels[:, :, 2]
+    pixels |= levels[:, :, 3] << np.uint32(24) if values.shape[2] == 4 else np.uint32(_OPAQUE)
+    return pixels if is_finite is None else _mark_not_finite(pixels, values, is_finite, theme)
+
+
+def _weight_pixels(values: NDArray[np.generic], theme: Theme) -> NDArray[np.uint32]:
+    """Return (H, W) packed colours of (H, W, 3) weights: the vertex colours mixed in linear light."""
+    unit, is_finite = _normalized(values, (0.0, 1.0))
+    mixed = unit @ _vertex_light()
+    steps = (mixed.clip(0.0, 1.0) * _SRGB_STEPS + 0.5).astype(np.uint16)
+    levels = srgb_table()[steps].astype(np.uint32)
+    pixels = levels[:, :, 0] << np.uint32(16) | levels[:, :, 1] << np.uint32(8) | levels[:, :, 2]
+    pixels |= np.uint32(_OPAQUE)
+    return pixels if is_finite is None else _mark_not_finite(pixels, values, is_finite, theme)
+
+
+def _id_pixels(values: NDArray[np.generic]) -> NDArray[np.uint32]:
+    """Return (H, W) packed colours of (H, W) ids; entry 0 of the table is "none"."""
+    table = _packed_ids()
+    ids = values.astype(np.int64)
+    return table[np.where(ids < 0, 0, ids % (len(table) - 1) + 1)]
+
+
+def _normalized(
+    values: NDArray[np.generic], ends: tuple[float, float]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_] | None]:
+    """Return values as 0 to 1 over the range (0.5 if it has no width), and which are finite (None: all)."""
+    low, high = ends
+    is_finite = None
+    floats = values.astype(np.float64)
+    if values.dtype.kind == "f":
+        found = np.isfinite(floats)
+        if not found.all():
+            is_finite = found
+            floats[~found] = low
+    if high > low:
+        # Halved before the difference, which could overflow for values near the largest float.
+        floats *= 0.5
+        floats -= 0.5 * low
+        floats /= 0.5 * high - 0.5 * low
+        np.clip(floats, 0.0, 1.0, out=floats)
+    else:
+        floats = np.where(floats < low, 0.0, np.where(floats > low, 1.0, 0.5))
+    return floats, is_finite
+
+
+def _mark_not_finite(
+    pixels: NDArray[np.uint32], values: NDArray[np.generic], is_finite: NDArray[np.bool_], theme: Theme
+) -> NDArray[np.uint32]:
+    """Give pixels with a NaN the checker's greys and pixels with an infinite value their colour."""
+    is_nan: NDArray[np.bool_] = np.isnan(values)
+    if values.ndim == 3:
+        is_nan, is_finite = np.any(is_nan, axis=2), np.all(is_finite, axis=2)
+    light, dark, infinite = _pack(np.array([theme.nan_light, theme.nan_dark, theme.infinite]))
+    pixels[~is_finite] = infinite
+    rows, columns = np.nonzero(is_nan)
+    pixels[rows, columns] = np.where((rows + columns) % 2 == 0, light, dark)
+    return pixels
+
+
+def _to_image(pixels: NDArray[np.uint32]) -> QImage:
+    """Return packed ARGB pixels, (H, W) uint32 with row 0 at the bottom, as an image that owns its memory."""
+    flipped = np.ascontiguousarray(pixels[::-1])
+    rows, columns = flipped.shape
+    return QImage(flipped.data, columns, rows, 4 * columns, QImage.Format.Format_ARGB32).copy()
+
+
+@cache
+def srgb_table() -> NDArray[np.uint8]:
+    """Return the sRGB byte of each linear value i / 65535, (65536,) uint8, read-only (IEC 61966-2-1)."""
+    linear = np.arange(_SRGB_STEPS + 1) / _SRGB_STEPS
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    table = np.rint(255.0 * encoded).astype(np.uint8)
+    table.setflags(write=False)
+    return table
+
+
+@cache
+def _vertex_light() -> NDArray[np.float64]:
+    """Return the three vertex colours in linear light, (3, 3) float64."""
+    packed = _pack(np.array(VERTEX_COLORS))
+    encoded = (
+        np.stack([(packed >> np.uint32(shift)) & np.uint32(255) for shift in (16, 8, 0)], axis=1) / 255.0
+    )
+    light: NDArray[np.float64] = np.where(
+        encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4
+    )
+    return light
+
+
+@cache
+def _packed_table(name: str) -> NDArray[np.uint32]:
+    """Return a colormap as (N,) packed ARGB."""
+    return _pack_bytes(colormap_table(name))
+
+
+@cache
+def _packed_ids() -> NDArray[np.uint32]:
+    """Return the colours of ids as packed ARGB, after one transparent entry for "none"."""
+    return np.concatenate((np.array([_TRANSPARENT], np.uint32), _pack_bytes(id_table())))
+
+
+def _pack_bytes(table: NDArray[np.uint8]) -> NDArray[np.uint32]:
+    """Return (N, 3) sRGB bytes as (N,) packed opaque ARGB."""
+    wide = table.astype(np.uint32)
+    packed: NDArray[np.uint32] = wide[:, 0] << np.uint32(16) | wide[:, 1] << np.uint32(8) | wide[:, 2]
+    return packed | np.uint32(_OPAQUE)
+
+
+def _pack(colors: NDArray[np.str_]) -> NDArray[np.uint32]:
+    """Return N colours ``#rrggbb`` as (N,) packed opaque ARGB."""
+    return np.array([int(color[1:], 16) | _OPAQUE for color in colors.tolist()], dtype=np.uint32)

@@ -1,0 +1,235 @@
+"""The small shapes that tell outcomes apart: each kind has its own outline as well as its own colour."""
+
+from collections.abc import Callable
+from enum import Enum
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+
+from widgets.basics.theme import Theme, current_theme
+
+
+class Mark(Enum):
+    """What a shape says; the value is the word a legend uses."""
+
+    COVERED = "covered"
+    REJECTED = "rejected"
+    TIE = "tie"
+    NAN = "NaN"
+    DEPTH_FAILED = "depth failed"
+    PINNED = "pinned pixel"
+    BREAKPOINT = "breakpoint"
+    BOOKMARK = "bookmark"
+    RIGHT = "right"
+    WRONG = "wrong"
+    INFORMATION = "information"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+def blended(color: str, ground: str, share: float) -> QColor:
+    """Return `share` of a colour laid over a ground, both ``#rrggbb``; opaque."""
+    top, bottom = QColor(color), QColor(ground)
+    channels = [
+        round(share * a + (1.0 - share) * b)
+        for a, b in zip(top.getRgb()[:3], bottom.getRgb()[:3], strict=True)  # type: ignore[index]
+    ]
+    return QColor(*channels)
+
+
+def draw_mark(painter: QPainter, mark: Mark, box: QRectF, theme: Theme | None = None) -> None:
+    """Draw a mark inside a square box with the painter's present transform.
+
+    Parameters
+    ----------
+    painter : QPainter
+        Active painter; its state is restored.
+    mark : Mark
+        Which shape.
+    box : QRectF
+        Square that the shape fills, in logical pixels.
+    theme : Theme, optional
+        Default: the present one.
+    """
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    _PAINTERS[mark](painter, box, theme or current_theme())
+    painter.restore()
+
+
+def mark_pixmap(mark: Mark, side: int, ratio: float = 1.0) -> QPixmap:
+    """Return a mark as a pixmap of `side` logical pixels at a device pixel ratio."""
+    pixmap = QPixmap(round(side * ratio), round(side * ratio))
+    pixmap.setDevicePixelRatio(ratio)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    draw_mark(painter, mark, QRectF(0.5, 0.5, side - 1, side - 1))
+    painter.end()
+    return pixmap
+
+
+def _pen(color: str, box: QRectF, share: float = 0.16) -> QPen:
+    pen = QPen(QColor(color), max(1.4, box.width() * share))
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+    return pen
+
+
+def _inset(box: QRectF, share: float) -> QRectF:
+    step = box.width() * share
+    return box.adjusted(step, step, -step, -step)
+
+
+def _covered(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    painter.setPen(QPen(QColor(theme.text), max(0.8, box.width() * 0.07)))
+    painter.setBrush(QColor(theme.covered))
+    painter.drawRect(_inset(box, 0.14))
+
+
+def _cross(painter: QPainter, box: QRectF, color: str) -> None:
+    inner = _inset(box, 0.18)
+    painter.setPen(_pen(color, box, 0.2))
+    painter.drawLine(inner.topLeft(), inner.bottomRight())
+    painter.drawLine(inner.bottomLeft(), inner.topRight())
+
+
+def _rejected(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    _cross(painter, box, theme.rejected)
+
+
+def _tie(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    ring = _inset(box, 0.2)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(theme.text), max(2.4, box.width() * 0.34)))
+    painter.drawEllipse(ring)
+    painter.setPen(QPen(QColor(theme.tie), max(1.2, box.width() * 0.2)))
+    painter.drawEllipse(ring)
+
+
+def _nan(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    square = _inset(box, 0.1)
+    half = square.width() / 2
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.fillRect(square, QColor(theme.nan_light))
+    painter.fillRect(QRectF(square.left(), square.top(), half, half), QColor(theme.nan_dark))
+    painter.fillRect(QRectF(square.left() + half, square.top() + half, half, half), QColor(theme.nan_dark))
+    painter.setPen(QPen(QColor(theme.nan_dark), 1.0))
+    painter.drawRect(square)
+
+
+def _depth_failed(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = _inset(box, 0.12)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.muted_text))
+    corners = [inner.topLeft(), inner.topRight(), QPointF(inner.center().x(), inner.bottom())]
+    painter.drawPolygon(QPolygonF(corners))
+
+
+def _pinned(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = _inset(box, 0.06)
+    middle = inner.center()
+    painter.setPen(_pen(theme.text, box, 0.12))
+    painter.setBrush(QColor(theme.panel))
+    corners = [
+        QPointF(middle.x(), inner.top()),
+        QPointF(inner.right(), middle.y()),
+        QPointF(middle.x(), inner.bottom()),
+        QPointF(inner.left(), middle.y()),
+    ]
+    painter.drawPolygon(QPolygonF(corners))
+
+
+def _breakpoint(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.bad))
+    painter.drawEllipse(_inset(box, 0.08))
+
+
+def _bookmark(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = box.adjusted(box.width() * 0.2, 0.0, -box.width() * 0.2, 0.0)
+    path = QPainterPath(inner.topLeft())
+    path.lineTo(inner.topRight())
+    path.lineTo(inner.bottomRight())
+    path.lineTo(inner.center().x(), inner.bottom() - inner.height() * 0.3)
+    path.lineTo(inner.bottomLeft())
+    path.closeSubpath()
+    painter.fillPath(path, QColor(theme.text))
+
+
+def _right(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = _inset(box, 0.14)
+    painter.setPen(_pen(theme.good, box, 0.2))
+    middle = QPointF(inner.left() + inner.width() * 0.36, inner.bottom() - inner.height() * 0.08)
+    painter.drawLine(QPointF(inner.left(), inner.center().y() + inner.height() * 0.08), middle)
+    painter.drawLine(middle, QPointF(inner.right(), inner.top() + inner.height() * 0.1))
+
+
+def _wrong(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    _cross(painter, box, theme.bad)
+
+
+def _letter(painter: QPainter, box: QRectF, color: str, *, is_information: bool) -> None:
+    """Draw the dot and stroke of an i or of an exclamation mark."""
+    middle = box.center().x()
+    stroke, dot = box.height() * 0.28, box.height() * 0.07
+    painter.setPen(_pen(color, box, 0.12))
+    first, last = box.center().y() - stroke * 0.75, box.center().y() + stroke * 0.75
+    if is_information:
+        painter.drawLine(QPointF(middle, box.center().y() - dot), QPointF(middle, last))
+        painter.drawPoint(QPointF(middle, first))
+    else:
+        painter.drawLine(QPointF(middle, first), QPointF(middle, box.center().y() + dot))
+        painter.drawPoint(QPointF(middle, last))
+
+
+def _information(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.muted_text))
+    painter.drawEllipse(_inset(box, 0.04))
+    _letter(painter, box, theme.panel, is_information=True)
+
+
+def _warning(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = _inset(box, 0.04)
+    painter.setPen(_pen(theme.text, box, 0.09))
+    painter.setBrush(QColor(theme.tie))
+    painter.drawPolygon(
+        QPolygonF([QPointF(inner.center().x(), inner.top()), inner.bottomRight(), inner.bottomLeft()])
+    )
+    _letter(painter, box.translated(0.0, box.height() * 0.14), "#000000", is_information=False)
+
+
+def _error(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    inner = _inset(box, 0.04)
+    cut = inner.width() * 0.29
+    corners = [
+        QPointF(inner.left() + cut, inner.top()),
+        QPointF(inner.right() - cut, inner.top()),
+        QPointF(inner.right(), inner.top() + cut),
+        QPointF(inner.right(), inner.bottom() - cut),
+        QPointF(inner.right() - cut, inner.bottom()),
+        QPointF(inner.left() + cut, inner.bottom()),
+        QPointF(inner.left(), inner.bottom() - cut),
+        QPointF(inner.left(), inner.top() + cut),
+    ]
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.bad))
+    painter.drawPolygon(QPolygonF(corners))
+    _letter(painter, box, theme.panel, is_information=False)
+
+
+_PAINTERS: dict[Mark, Callable[[QPainter, QRectF, Theme], None]] = {
+    Mark.COVERED: _covered,
+    Mark.REJECTED: _rejected,
+    Mark.TIE: _tie,
+    Mark.NAN: _nan,
+    Mark.DEPTH_FAILED: _depth_failed,
+    Mark.PINNED: _pinned,
+    Mark.BREAKPOINT: _breakpoint,
+    Mark.BOOKMARK: _bookmark,
+    Mark.RIGHT: _right,
+    Mark.WRONG: _wrong,
+    Mark.INFORMATION: _information,
+    Mark.WARNING: _warning,
+    Mark.ERROR: _error,
+}

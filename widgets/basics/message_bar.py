@@ -1,0 +1,195 @@
+"""Messages and progress where the thing is: never modal, always dismissable."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.theme import current_theme, theme_notifier
+
+
+class MessageKind(Enum):
+    """How bad it is; each kind has its own shape."""
+
+    INFORMATION = Mark.INFORMATION
+    WARNING = Mark.WARNING
+    ERROR = Mark.ERROR
+
+
+@dataclass(frozen=True)
+class Message:
+    """One message: a plain sentence, and more for who wants it."""
+
+    kind: MessageKind
+    text: str
+    details: str = ""
+    """Shown on demand, selectable."""
+    action: str = ""
+    """Text of a button that offers the next thing to do; empty: none."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far long work has come."""
+
+    text: str
+    done: int
+    total: int
+    """0 where it is not known."""
+
+
+class MessageBar(QWidget):
+    """Shows one message or one piece of long work; takes no room when it has nothing to say."""
+
+    message_dismissed = Signal()
+    """The user has closed the message."""
+    action_requested = Signal()
+    """The user wants what the message offers."""
+    cancel_requested = Signal()
+    """The user wants the long work to stop."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setProperty("role", "panel")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self._message: Message | None = None
+        self._icon = QLabel(self)
+        self.text = QLabel(self)
+        self.text.setWordWrap(True)
+        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.progress = QProgressBar(self)
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(8)
+        self.progress.setMinimumWidth(160)
+        self.details_button = self._button("Details", "Show or hide the details")
+        self.details_button.setCheckable(True)
+        self.details_button.toggled.connect(self._show_details)
+        self.action_button = self._button("", "Do what the message offers")
+        self.action_button.clicked.connect(self.action_requested)
+        self.cancel_button = self._button("Cancel", "Stop this work; what is open stays as it was")
+        self.cancel_button.clicked.connect(self._cancel)
+        self.dismiss_button = QToolButton(self)
+        self.dismiss_button.setText("✕")
+        self.dismiss_button.setProperty("flat", True)
+        self.dismiss_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.dismiss_button.setAccessibleName("Dismiss the message")
+        self.dismiss_button.setToolTip("Dismiss (Escape)")
+        self.dismiss_button.clicked.connect(self._dismiss)
+        self.details = QLabel(self)
+        self.details.setWordWrap(True)
+        self.details.setProperty("role", "muted")
+        self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self._icon)
+        row.addWidget(self.text, 1)
+        row.addWidget(self.progress)
+        for button in (self.details_button, self.action_button, self.cancel_button, self.dismiss_button):
+            row.addWidget(button)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(12, 4, 4, 4)
+        layout.setSpacing(4)
+        layout.addLayout(row)
+        layout.addWidget(self.details)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self.clear()
+
+    @Slot(object)
+    def show_message(self, message: Message | None) -> None:
+        """Show a message in the place of what was there; None clears."""
+        if message is None:
+            self.clear()
+            return
+        self._message = message
+        self.text.setText(message.text)
+        self.details.setText(message.details)
+        self.details_button.setChecked(False)
+        self.details.hide()
+        self.action_button.setText(message.action)
+        self._show_only(self._icon, self.dismiss_button)
+        self.details_button.setVisible(bool(message.details))
+        self.action_button.setVisible(bool(message.action))
+        self.setAccessibleName(f"{message.kind.value.value}: {message.text}")
+        self._follow_theme()
+        self.show()
+
+    @Slot(object)
+    def show_progress(self, progress: Progress | None) -> None:
+        """Show how far the work has come; None clears."""
+        if progress is None:
+            self.clear()
+            return
+        self._message = None
+        self.text.setText(progress.text)
+        self.progress.setRange(0, progress.total)
+        self.progress.setValue(progress.done)
+        self.progress.setAccessibleName(progress.text)
+        if not self.progress.isVisibleTo(self):
+            self.cancel_button.setEnabled(True)
+            self.cancel_button.setText("Cancel")
+        self._show_only(self.progress, self.cancel_button)
+        self.setAccessibleName(progress.text)
+        self.show()
+
+    @Slot()
+    def clear(self) -> None:
+        """Say nothing and take no room."""
+        self._message = None
+        self._show_only()
+        self.hide()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Escape dismisses a message or cancels the work."""
+        if event.key() != Qt.Key.Key_Escape:
+            super().keyPressEvent(event)
+        elif self._message is not None:
+            self._dismiss()
+        else:
+            self._cancel()
+
+    def _button(self, text: str, tip: str) -> QPushButton:
+        button = QPushButton(text, self)
+        button.setToolTip(tip)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        button.setAutoDefault(False)
+        return button
+
+    def _show_only(self, *parts: QWidget) -> None:
+        everything = (self._icon, self.progress, self.details_button, self.action_button)
+        for part in (*everything, self.cancel_button, self.dismiss_button, self.details):
+            part.setVisible(part in parts)
+
+    @Slot(bool)
+    def _show_details(self, is_shown: bool) -> None:
+        self.details.setVisible(is_shown)
+
+    @Slot()
+    def _dismiss(self) -> None:
+        self.clear()
+        self.message_dismissed.emit()
+
+    @Slot()
+    def _cancel(self) -> None:
+        self.cancel_button.setEnabled(False)
+        self.cancel_button.setText("Cancelling…")
+        self.cancel_requested.emit()
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        if self._message is not None:
+            side = current_theme().text_px + 5
+            self._icon.setPixmap(mark_pixmap(self._message.kind.value, side, self.devicePixelRatioF()))

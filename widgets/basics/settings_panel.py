@@ -1,0 +1,158 @@
+"""One choice per family of methods."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.basics.choice_box import ChoiceBox
+
+
+@dataclass(frozen=True)
+class SettingChoice:
+    """One value a setting can take."""
+
+    value: str
+    label: str
+    tooltip: str = ""
+    refusal: str = ""
+    """Why it cannot be chosen now; empty: it can."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One family with its choices."""
+
+    family: str
+    label: str
+    choices: tuple[SettingChoice, ...]
+    current: str
+    """Value of the present choice."""
+    refusal: str = ""
+    """Why the whole family has no effect now; empty: it has."""
+    group: str = ""
+    """Heading above the first setting of a group; empty: none."""
+
+
+class SettingsPanel(QWidget):
+    """A row per family: label and choice; what cannot be chosen says why."""
+
+    setting_chosen = Signal(str, str)
+    """The user has chosen another value: family and value."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._settings: tuple[Setting, ...] = ()
+        self._combos: dict[str, ChoiceBox] = {}
+        self._labels: dict[str, QLabel] = {}
+        self._body: QWidget | None = None
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._empty = QLabel("The methods of each stage are chosen here.", self)
+        self._empty.setProperty("role", "muted")
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._empty.setWordWrap(True)
+        self._empty.setContentsMargins(8, 8, 8, 8)
+        self._layout.addWidget(self._empty)
+        self._layout.addStretch(1)
+        self.setProperty("role", "panel")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setAccessibleName("Settings")
+
+    @Slot(object)
+    def show_settings(self, settings: Sequence[Setting]) -> None:
+        """Show families and their present choices; rows are kept while the families stay."""
+        settings = tuple(settings)
+        shown = {setting.family: setting for setting in self._settings}
+        if list(shown) != [setting.family for setting in settings] or self._body is None:
+            self._build(settings)
+            shown.clear()
+        self._settings = settings
+        for setting in settings:
+            # A choice that was refused is still what the control shows.
+            if setting != shown.get(setting.family) or self._shown_value(setting.family) != setting.current:
+                self._fill(setting)
+
+    def combo(self, family: str) -> QComboBox:
+        """Return the control of a family."""
+        return self._combos[family]
+
+    def _build(self, settings: tuple[Setting, ...]) -> None:
+        if self._body is not None:
+            self._body.hide()
+            self._body.deleteLater()
+        self._combos.clear()
+        self._labels.clear()
+        self._empty.setVisible(not settings)
+        body = QWidget(self)
+        self._body = body
+        grid = QGridLayout(body)
+        grid.setContentsMargins(8, 8, 8, 8)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(4)
+        grid.setColumnStretch(1, 1)
+        row = 0
+        for setting in settings:
+            if setting.group:
+                heading = QLabel(setting.group, body)
+                heading.setProperty("role", "muted")
+                heading.setContentsMargins(0, 8 if row else 0, 0, 0)
+                grid.addWidget(heading, row, 0, 1, 2)
+                row += 1
+            combo = ChoiceBox(body)
+            combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+            combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+            combo.setMinimumContentsLength(12)
+            combo.setAccessibleName(setting.label)
+            combo.setObjectName(setting.family)
+            combo.activated.connect(self._choose)
+            label = QLabel(setting.label, body)
+            label.setBuddy(combo)
+            grid.addWidget(label, row, 0)
+            grid.addWidget(combo, row, 1)
+            self._combos[setting.family] = combo
+            self._labels[setting.family] = label
+            row += 1
+        self._layout.insertWidget(0, body)
+
+    def _shown_value(self, family: str) -> str:
+        return str(self._combos[family].currentData(Qt.ItemDataRole.UserRole))
+
+    def _fill(self, setting: Setting) -> None:
+        combo = self._combos[setting.family]
+        model = QStandardItemModel(combo)
+        for choice in setting.choices:
+            item = QStandardItem(choice.label)
+            item.setEnabled(not choice.refusal)
+            note = f"Not possible now: {choice.refusal}" if choice.refusal else ""
+            item.setToolTip("\n".join(part for part in (choice.tooltip, note) if part))
+            item.setData(choice.value, Qt.ItemDataRole.UserRole)
+            model.appendRow(item)
+        # The combo box deletes the model it owned before.
+        combo.setModel(model)
+        values = [choice.value for choice in setting.choices]
+        place = values.index(setting.current) if setting.current in values else -1
+        combo.setCurrentIndex(place)
+        combo.setEnabled(not setting.refusal)
+        chosen = setting.choices[place] if place >= 0 else None
+        tip = "\n".join(part for part in (chosen.label, chosen.tooltip) if part) if chosen else ""
+        tip = f"Not used now: {setting.refusal}" if setting.refusal else tip
+        combo.setToolTip(tip or setting.label)
+        combo.setAccessibleDescription(tip)
+        label = self._labels[setting.family]
+        label.setToolTip(tip or setting.label)
+        label.setEnabled(not setting.refusal)
+
+    @Slot(int)
+    def _choose(self, place: int) -> None:
+        combo = self.sender()
+        if not isinstance(combo, QComboBox):
+            return
+        family = combo.objectName()
+        value = str(combo.itemData(place, Qt.ItemDataRole.UserRole))
+        current = next(setting.current for setting in self._settings if setting.family == family)
+        if value != current:
+            self.setting_chosen.emit(family, value)

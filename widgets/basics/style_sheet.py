@@ -1,0 +1,153 @@
+"""The one style sheet: panels are set apart by space, controls are flat, focus is a clear ring."""
+
+from pathlib import Path
+from string import Template
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from widgets.basics.theme import Theme
+
+_SHEET = Template("""
+QToolTip { background: $raised; color: $text; border: 1px solid $outline; padding: ${u}px; }
+
+QPushButton, QComboBox, QToolButton {
+    background: $raised; color: $text; border: 1px solid $outline; border-radius: 3px;
+    padding: 3px ${uu}px; min-height: ${control}px;
+}
+QToolButton { padding: 3px ${u}px; }
+QToolButton[flat="true"], QPushButton[flat="true"] { background: transparent; border-color: transparent; }
+QPushButton:hover, QComboBox:hover, QToolButton:hover,
+QToolButton[flat="true"]:hover, QPushButton[flat="true"]:hover { background: $selection; }
+QPushButton:pressed, QToolButton:pressed { background: $outline; }
+QPushButton:checked, QToolButton:checked, QToolButton[flat="true"]:checked {
+    background: $selection; color: $text; border-color: $text;
+}
+QPushButton:focus, QComboBox:focus, QToolButton:focus, QLineEdit:focus, QAbstractSpinBox:focus,
+QToolButton[flat="true"]:focus, QPlainTextEdit:focus {
+    border: 2px solid $focus; padding: 2px ${u}px;
+}
+QPushButton:focus, QComboBox:focus { padding: 2px ${uu_focus}px; }
+QPushButton:disabled, QToolButton:disabled, QComboBox:disabled { color: $outline; border-color: $selection; }
+QComboBox::drop-down { border: none; width: 20px; }
+QComboBox::down-arrow, QAbstractSpinBox::down-arrow {
+    image: url($icons/down-$ink.svg); width: 10px; height: 10px;
+}
+QAbstractSpinBox::up-arrow { image: url($icons/up-$ink.svg); width: 10px; height: 10px; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {
+    border: none; width: 16px; subcontrol-origin: padding;
+}
+QAbstractSpinBox::up-button { subcontrol-position: top right; }
+QAbstractSpinBox::down-button { subcontrol-position: bottom right; }
+QAbstractSpinBox::up-button:hover, QAbstractSpinBox::down-button:hover { background: $selection; }
+/* A list under the box: as a menu over it, Qt cuts the last choice off. */
+QComboBox { combobox-popup: 0; }
+QComboBox QAbstractItemView { background: $panel; border: 1px solid $outline; padding: ${u}px; }
+QComboBox QAbstractItemView::item { min-height: ${control}px; padding: 3px ${u}px; }
+QComboBox QAbstractItemView::item:selected { background: $selection; color: $text; }
+
+QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
+    background: $panel; color: $text; border: 1px solid $outline; border-radius: 3px; padding: 3px ${u}px;
+    selection-background-color: $selection; selection-color: $text;
+}
+QLineEdit:disabled { color: $outline; }
+QTextBrowser, QTextEdit[readOnly="true"], QPlainTextEdit[readOnly="true"] { border: 1px solid transparent; }
+
+QCheckBox, QRadioButton { spacing: ${uu}px; padding: 2px; border: 2px solid transparent; border-radius: 3px; }
+QCheckBox:focus, QRadioButton:focus { border-color: $focus; }
+QCheckBox:disabled, QRadioButton:disabled { color: $outline; }
+QCheckBox::indicator, QRadioButton::indicator, QMenu::indicator, QAbstractItemView::indicator {
+    width: ${indicator}px; height: ${indicator}px; background: $raised;
+    border: 1px solid $outline; border-radius: 2px;
+}
+QRadioButton::indicator { border-radius: ${round}px; }
+QCheckBox::indicator:checked, QMenu::indicator:checked, QAbstractItemView::indicator:checked {
+    image: url($icons/tick-$ink.svg);
+}
+QRadioButton::indicator:checked { image: url($icons/dot-$ink.svg); }
+QCheckBox::indicator:disabled, QRadioButton::indicator:disabled { border-color: $selection; }
+QMenu::indicator { margin-left: ${u}px; }
+
+QAbstractItemView { background: $panel; alternate-background-color: $window; border: none; outline: none; }
+QAbstractItemView:focus { border: 2px solid $focus; }
+QHeaderView::section { background: $panel; color: $muted_text; border: none; padding: ${u}px; }
+QTableView { gridline-color: $window; }
+
+QMenuBar, QMenu { background: $panel; color: $text; }
+QMenuBar::item { padding: ${u}px ${uu}px; background: transparent; }
+QMenuBar::item:selected, QMenu::item:selected { background: $selection; color: $text; }
+QMenu { border: 1px solid $outline; padding: ${u}px; }
+QMenu::item { padding: ${u}px ${uuuuuu}px; border-radius: 3px; }
+QMenu::item:disabled { color: $outline; }
+QMenu::separator { height: 1px; background: $selection; margin: ${u}px; }
+
+QTabWidget::pane { border: none; }
+QTabBar::tab {
+    background: transparent; color: $muted_text; padding: ${u}px ${uuu}px; border: 2px solid transparent;
+}
+QTabBar::tab:selected { color: $text; border-bottom-color: $text; }
+QTabBar::tab:focus { border-color: $focus; }
+
+QSplitter::handle { background: $window; }
+QSplitter::handle:hover { background: $outline; }
+QSplitter::handle:horizontal { width: ${uu}px; }
+QSplitter::handle:vertical { height: ${uu}px; }
+QScrollArea { border: none; background: transparent; }
+QScrollArea:focus { border: 2px solid $focus; }
+QScrollBar { background: transparent; border: none; }
+QScrollBar:vertical { width: 12px; }
+QScrollBar:horizontal { height: 12px; }
+QScrollBar::handle { background: $outline; border-radius: 3px; margin: 3px; }
+QScrollBar::handle:vertical { min-height: 28px; }
+QScrollBar::handle:horizontal { min-width: 28px; }
+QScrollBar::handle:hover { background: $muted_text; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+
+QStatusBar { background: $window; color: $muted_text; }
+QStatusBar::item { border: none; }
+QProgressBar { background: $panel; border: 1px solid $outline; border-radius: 3px; text-align: center; }
+QProgressBar::chunk { background: $outline; }
+QLabel[role="muted"] { color: $muted_text; }
+QLabel[role="title"] { font-size: ${title_px}px; font-weight: 600; }
+QLabel[role="strong"] { font-weight: 600; }
+QLabel[role="bad"] { color: $bad; }
+QLabel[role="good"] { color: $good; }
+QWidget[role="panel"] { background: $panel; border-radius: 4px; }
+QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
+""")
+
+
+def style_sheet(theme: "Theme") -> str:
+    """Return the application's style sheet for ``theme``.
+
+    Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, and buttons
+    ``flat`` to true.
+    """
+    unit = theme.unit
+    names = (
+        "window",
+        "panel",
+        "raised",
+        "outline",
+        "text",
+        "muted_text",
+        "focus",
+        "selection",
+        "good",
+        "bad",
+    )
+    colors = {name: getattr(theme, name) for name in names}
+    return _SHEET.substitute(
+        colors,
+        u=unit,
+        uu=2 * unit,
+        uu_focus=2 * unit - 1,
+        uuu=3 * unit,
+        uuuuuu=6 * unit,
+        control=theme.text_px + 3,
+        indicator=theme.text_px + 1,
+        round=(theme.text_px + 3) // 2,
+        ink="light" if theme.is_dark else "dark",
+        icons=(Path(__file__).parent / "icons").as_posix(),
+        title_px=theme.title_px,
+    )

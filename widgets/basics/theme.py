@@ -1,0 +1,271 @@
+"""The look of the program as one frozen record: named colours, text sizes and the 4-px rhythm.
+
+One colour means one thing. Vertices, edges and weights 0, 1, 2 are blue, orange and green of the Okabe-Ito
+palette in every theme; the accent marks the step just done and nothing else; focus and selection are neutral.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QColor, QFont, QPalette
+from PySide6.QtWidgets import QApplication
+
+from widgets.basics.style_sheet import style_sheet
+
+VERTEX_COLORS = ("#0072B2", "#E69F00", "#009E73")
+"""Colours of vertices, edges and barycentric weights 0, 1, 2 (Okabe and Ito), for lines, fills and marks."""
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Named colours (``#rrggbb``), text sizes (logical pixels) and spacing of one look."""
+
+    name: str
+    is_dark: bool
+    window: str
+    """Background between panels."""
+    panel: str
+    """Background of panels, text fields and lists."""
+    raised: str
+    """Background of buttons and headers."""
+    outline: str
+    """Border of controls: at least 3:1 against the panel, so that a control can be found."""
+    text: str
+    muted_text: str
+    """Secondary text: units, hints, coordinates."""
+    focus: str
+    """Keyboard focus ring (neutral: the accent is taken)."""
+    selection: str
+    """Background of selected rows and text."""
+    accent: str
+    """The step just done, and nothing else."""
+    accent_text: str
+    """A shade of the accent that is readable as text."""
+    canvas: str
+    """Background of a pixel grid around and behind the pixels."""
+    empty: str
+    """A pixel that holds nothing: false, no primitive."""
+    grid_line: str
+    covered: str
+    rejected: str
+    tie: str
+    nan_light: str
+    """Lighter square of the NaN checker."""
+    nan_dark: str
+    """Darker square of the NaN checker."""
+    infinite: str
+    """An infinite value."""
+    hidden: str
+    """A cell whose value is covered until it has been predicted."""
+    good: str
+    """Text and marks for what is right; always with a tick or a word."""
+    bad: str
+    """Text and marks for what is wrong or failed; always with a cross or a word."""
+    vertex_text: tuple[str, str, str]
+    """Shades of the three vertex colours that are readable as text."""
+    vertex: tuple[str, str, str] = VERTEX_COLORS
+    """Vertices, edges and weights 0, 1, 2 as lines, fills and marks."""
+    text_px: int = 13
+    """Text of everything."""
+    small_px: int = 11
+    """Rulers and values in cells."""
+    title_px: int = 15
+    """Names of pages and panels."""
+    unit: int = 4
+    """The rhythm: every margin and gap is a multiple of it."""
+
+    def __hash__(self) -> int:
+        """Return a hash quickly: fonts and layouts are looked up by theme some hundred times a picture."""
+        return hash(self.name)
+
+    def halo(self) -> str:
+        """Colour that sets thin lines off from any pixel behind them."""
+        return "#000000" if self.is_dark else "#ffffff"
+
+
+LIGHT = Theme(
+    name="light",
+    is_dark=False,
+    window="#eceef0",
+    panel="#fafbfb",
+    raised="#ffffff",
+    outline="#868c92",
+    text="#1b1f23",
+    muted_text="#5a6269",
+    focus="#1b1f23",
+    selection="#d3d8dd",
+    accent="#d6006c",
+    accent_text="#b8005c",
+    canvas="#dfe2e5",
+    empty="#f4f5f6",
+    grid_line="#7d848a",
+    covered="#56b4e9",
+    rejected="#d55e00",
+    tie="#f0e442",
+    nan_light="#ffffff",
+    nan_dark="#5c5c5c",
+    infinite="#000000",
+    hidden="#b9bfc5",
+    good="#00694c",
+    bad="#a84300",
+    vertex_text=("#0068a3", "#875c00", "#00734f"),
+)
+"""Dark text on light grey: the look for daylight."""
+
+DARK = Theme(
+    name="dark",
+    is_dark=True,
+    window="#16181a",
+    panel="#202326",
+    raised="#2b2f33",
+    outline="#757c83",
+    text="#e8eaec",
+    muted_text="#a5adb4",
+    focus="#e8eaec",
+    selection="#3d444b",
+    accent="#ff4fa0",
+    accent_text="#ff6fb1",
+    canvas="#121415",
+    empty="#2a2d30",
+    grid_line="#82898f",
+    covered="#56b4e9",
+    rejected="#f07b23",
+    tie="#f0e442",
+    nan_light="#d8d8d8",
+    nan_dark="#4a4a4a",
+    infinite="#ffffff",
+    hidden="#4b525a",
+    good="#3ccb9c",
+    bad="#ff9455",
+    vertex_text=("#4ba9e0", "#f0ac1e", "#2bc495"),
+)
+"""Light text on dark grey: the look for a dim room."""
+
+PRESENTER = replace(
+    LIGHT,
+    name="presenter",
+    window="#ffffff",
+    panel="#ffffff",
+    raised="#ffffff",
+    outline="#4a4f54",
+    text="#000000",
+    muted_text="#2f3439",
+    focus="#000000",
+    selection="#c3c9cf",
+    canvas="#e6e8ea",
+    text_px=20,
+    small_px=16,
+    title_px=26,
+)
+"""Large type and high contrast for a projector."""
+
+PRESENTER_DARK = replace(
+    DARK,
+    name="presenter dark",
+    window="#000000",
+    panel="#0c0d0e",
+    raised="#1c1f21",
+    outline="#a9afb5",
+    text="#ffffff",
+    muted_text="#d3d8dc",
+    focus="#ffffff",
+    canvas="#000000",
+    text_px=20,
+    small_px=16,
+    title_px=26,
+)
+"""Large type and high contrast for a projector in a dark room."""
+
+THEMES = (LIGHT, DARK, PRESENTER, PRESENTER_DARK)
+"""Every theme, in the order of a menu."""
+
+
+class ThemeNotifier(QObject):
+    """Tells widgets that paint themselves when the look changes."""
+
+    theme_changed = Signal(object)
+    """The new :class:`Theme`."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.theme = LIGHT
+
+
+@cache
+def theme_notifier() -> ThemeNotifier:
+    """Return the one notifier; connect its ``theme_changed`` to a bound method."""
+    return ThemeNotifier()
+
+
+def current_theme() -> Theme:
+    """Return the theme that widgets paint with now."""
+    return theme_notifier().theme
+
+
+def apply_theme(app: QApplication, theme: Theme) -> None:
+    """Give the application the palette, the font and the style sheet of ``theme``, and tell every widget.
+
+    Applying the present theme again changes nothing and tells nobody.
+    """
+    notifier = theme_notifier()
+    sheet = style_sheet(theme)
+    if theme == notifier.theme and app.styleSheet() == sheet:
+        return
+    notifier.theme = theme
+    app.setStyle("Fusion")
+    app.setPalette(palette(theme))
+    app.setFont(text_font(theme))
+    app.setStyleSheet(sheet)
+    notifier.theme_changed.emit(theme)
+
+
+def palette(theme: Theme) -> QPalette:
+    """Return the Qt palette of a theme."""
+    role = QPalette.ColorRole
+    colors = {
+        role.Window: theme.window,
+        role.WindowText: theme.text,
+        role.Base: theme.panel,
+        role.AlternateBase: theme.window,
+        role.Text: theme.text,
+        role.Button: theme.raised,
+        role.ButtonText: theme.text,
+        role.BrightText: theme.text,
+        role.ToolTipBase: theme.raised,
+        role.ToolTipText: theme.text,
+        role.PlaceholderText: theme.muted_text,
+        role.Highlight: theme.selection,
+        role.HighlightedText: theme.text,
+        role.Link: theme.vertex_text[0],
+        role.LinkVisited: theme.vertex_text[0],
+    }
+    result = QPalette()
+    for key, value in colors.items():
+        result.setColor(key, QColor(value))
+    for key in (role.WindowText, role.Text, role.ButtonText):
+        result.setColor(QPalette.ColorGroup.Disabled, key, QColor(theme.outline))
+    return result
+
+
+def text_font(theme: Theme, pixels: int | None = None) -> QFont:
+    """Return the interface font with tabular figures, at ``pixels`` (default: the theme's text size)."""
+    font = QFont(QApplication.font())
+    font.setPixelSize(pixels or theme.text_px)
+    font.setBold(False)
+    font.setFeature(QFont.Tag("tnum"), 1)
+    return font
+
+
+def contrast(first: str, second: str) -> float:
+    """Return the contrast ratio of two colours as WCAG 2 defines it: 1 (the same) to 21 (black on white)."""
+    lighter, darker = sorted((relative_luminance(first), relative_luminance(second)), reverse=True)
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def relative_luminance(color: str) -> float:
+    """Return the luminance of an sRGB colour, 0 (black) to 1 (white)."""
+    parsed = QColor(color)
+    channels = (parsed.redF(), parsed.greenF(), parsed.blueF())
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]

@@ -1,0 +1,1 @@
+"""Charts of speed against accuracy, with their legends, tables and controls."""

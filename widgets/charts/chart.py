@@ -1,0 +1,284 @@
+"""A chart under the pointer and the keyboard: points are hovered, chosen, and gone to by the arrows."""
+
+from math import hypot
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
+from PySide6.QtGui import QColor, QFocusEvent, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtWidgets import QWidget
+
+from widgets.basics.caption_paint import paint_empty
+from widgets.basics.ink import faded
+from widgets.basics.key_claim import is_focus_by_keyboard
+from widgets.basics.label_places import LabelPlaces
+from widgets.basics.theme import current_theme, text_font
+from widgets.charts.canvas import ChartCanvas
+from widgets.charts.records import ChartEmpty, ChartMark, ChartPicture
+from widgets.charts.series_marks import series_color
+
+_NEAR = 18.0
+"""Pixels within which a point is pointed at."""
+_CLICK = 5.0
+"""Pixels that the pointer may move between press and release of a click."""
+_FEW = 16
+"""Series, up to which names keep clear of bars too; of more, a name on a bar is better than none."""
+_FURTHER = (1.0, 2.5, 5.0, 8.0, 12.0)
+"""How far from its mark a name may stand, in halves of the mark's width; further off a line leads to it."""
+_ARROWS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Up: (0, -1),
+    Qt.Key.Key_Down: (0, 1),
+}
+_ADDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+
+
+class Chart(ChartCanvas):
+    """Shows series of points and tells which one the user points at and chooses."""
+
+    series_hovered = Signal(str)
+    """Key of the series under the pointer, or gone to by an arrow key."""
+    point_hovered = Signal(str, int)
+    """The same with the number of the point in its series; -1 is the last."""
+    series_left = Signal()
+    """The pointer is on no point any more."""
+    series_chosen = Signal(str, bool)
+    """Key of a series that was clicked or entered, and whether Ctrl or Shift asks for it beside another one."""
+    point_chosen = Signal(str, int)
+    """Key of a series and number of the point in it that was clicked."""
+
+    def __init__(self, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._empty = ChartEmpty("")
+        self._pointed = ""
+        self._index = -1
+        """Which of its points."""
+        self._marks: ChartMark = {}
+        self._pressed_at: QPointF | None = None
+        self._shows_focus = False
+        self.setAccessibleName(name)
+
+    # Showing.
+
+    def show_empty(self, empty: ChartEmpty) -> None:
+        """Say why there is no chart, and what to do."""
+        self._empty = empty
+        self.show_picture(None)
+
+    def show_picture(self, picture: ChartPicture | None) -> None:
+        """Show series; one that is no longer there is not pointed at any more."""
+        super().show_picture(picture)
+        if picture is None or self._pointed not in {series.key for series in picture.series}:
+            self._pointed, self._index = "", -1
+
+    def show_pointed(self, key: str, index: int = -1) -> None:
+        """Mark the series that is pointed at elsewhere, at its last point or another one; empty: none."""
+        if (key, index) != (self._pointed, self._index):
+            self._pointed, self._index = key, index
+            self.viewport().update()
+
+    def show_marks(self, marks: ChartMark) -> None:
+        """Mark the chosen series with letters."""
+        self._marks = dict(marks)
+        self.viewport().update()
+
+    @property
+    def pointed(self) -> str:
+        """Key of the series that is pointed at; empty: none."""
+        return self._pointed
+
+    # Pointer.
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Remember where a click begins; pyqtgraph pans."""
+        self._pressed_at = event.position()
+        super().mousePressEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Choose the point under a click."""
+        pressed_at, self._pressed_at = self._pressed_at, None
+        super().mouseReleaseEvent(event)
+        if pressed_at is None or event.button() != Qt.MouseButton.LeftButton:
+            return
+        moved = event.position() - pressed_at
+        key, index = self._near(event.position())
+        if key and hypot(moved.x(), moved.y()) <= _CLICK:
+            self.series_chosen.emit(key, bool(event.modifiers() & _ADDS))
+            self.point_chosen.emit(key, index)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Show everything, after a double click beside the points."""
+        super().mouseDoubleClickEvent(event)
+        if not self._near(event.position())[0]:
+            self.fit()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Point at the nearest series."""
+        super().mouseMoveEvent(event)
+        self._point_at(*self._near(event.position()))
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Point at nothing."""
+        super().leaveEvent(event)
+        self._point_at("")
+
+    def _near(self, at: QPointF) -> tuple[str, int]:
+        """Return key and number of the nearest point that is near, or no key."""
+        distances = [(hypot(p.x() - at.x(), p.y() - at.y()), key, index) for key, index, p in self.points()]
+        near = [found for found in distances if found[0] <= _NEAR]
+        return min(near)[1:] if near else ("", -1)
+
+    def _point_at(self, key: str, index: int = -1) -> None:
+        if (key, index) == (self._pointed, self._index):
+            return
+        is_another = key != self._pointed
+        self.show_pointed(key, index)
+        if not key:
+            self.series_left.emit()
+            return
+        if is_another:
+            self.series_hovered.emit(key)
+        self.point_hovered.emit(key, index)
+
+    # Keyboard.
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Go to the neighbouring point with an arrow, choose with Enter; other keys belong to the page."""
+        key = Qt.Key(event.key())
+        if key in _ARROWS:
+            self._go(*_ARROWS[key])
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Space) and self._pointed:
+            self.series_chosen.emit(self._pointed, bool(event.modifiers() & _ADDS))
+        else:
+            event.ignore()
+
+    def _go(self, across: int, down: int) -> None:
+        """Point at the next series to one side: by x where ``across``, else by y; of a line its last point counts."""
+        found = [] if self.picture is None else [(s.key, self.place_of(s.key)) for s in self.picture.series]
+        places = [(at.x(), at.y(), key) for key, at in found if at is not None]
+        ranked = sorted(places if across else ((y, x, key) for x, y, key in places))
+        keys = [key for _, _, key in ranked]
+        if self._pointed not in keys:
+            self._point_at(keys[0] if keys else "")
+            return
+        index = keys.index(self._pointed) + across + down
+        self._point_at(keys[min(max(index, 0), len(keys) - 1)])
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show the ring if the focus came by a key."""
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
+        super().focusInEvent(event)
+        self.viewport().update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Take the ring away."""
+        super().focusOutEvent(event)
+        self.viewport().update()
+
+    # Painting what lies over the chart.
+
+    def drawForeground(self, painter: QPainter, rect: QRectF) -> None:
+        """Write the names, mark what is pointed at and chosen."""
+        theme = current_theme()
+        area = self.sceneRect()
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self.picture is None:
+            paint_empty(painter, area.toRect(), self._empty.text, theme)
+        else:
+            self._paint_titles(painter, self.picture)
+            self._paint_pointed_line(painter, self.picture)
+            self._paint_rings(painter, self.picture)
+            self._paint_names(painter, self.picture)
+        if self.hasFocus() and self._shows_focus:
+            painter.setPen(QPen(QColor(theme.focus), 2.0))
+            painter.drawRect(area.adjusted(1, 1, -1, -1))
+        painter.restore()
+
+    def _paint_titles(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Write what is on the axes: over the one that goes up, under the one that goes across."""
+        theme = current_theme()
+        font = text_font(theme)
+        metrics = QFontMetricsF(font)
+        area, whole = self.plot_area(), self.sceneRect()
+        painter.setFont(font)
+        painter.setPen(QColor(theme.text))
+        left, right = whole.left() + 8, whole.right() - 8
+        for record, top, flag in (
+            (picture.y_axis, whole.top() + 4, Qt.AlignmentFlag.AlignLeft),
+            (picture.x_axis, whole.bottom() - metrics.height() - 4, Qt.AlignmentFlag.AlignRight),
+        ):
+            text = metrics.elidedText(record.label, Qt.TextElideMode.ElideRight, right - left)
+            end = area.right() if flag == Qt.AlignmentFlag.AlignRight else right
+            painter.drawText(QRectF(left, top, end - left, metrics.height()), int(flag), text)
+
+    def _paint_pointed_line(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Draw the line that is pointed at once more, bold: it stands out among many."""
+        for series in picture.series:
+            if series.key == self._pointed and len(series.x) > 1:
+                places = [self.place_of(series.key, index) for index in range(len(series.x))]
+                painter.setPen(QPen(QColor(series_color(series.number)), 3.5))
+                painter.save()
+                painter.setClipRect(self.plot_area())
+                painter.drawPolyline([at for at in places if at is not None])
+                painter.restore()
+
+    def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Ring what is pointed at and chosen, and twice what stands out: of a line its last point."""
+        theme = current_theme()
+        reach = 0.9 * self.mark_size()
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for series in picture.series:
+            at = self.place_of(series.key, self._index if series.key == self._pointed else -1)
+            if at is not None and series.key in picture.ringed:
+                painter.setPen(QPen(QColor(theme.text), 2.0))
+                for share in (1.0, 1.4):
+                    painter.drawEllipse(at, share * reach, share * reach)
+            if at is not None and (series.key in self._marks or series.key == self._pointed):
+                painter.setPen(QPen(QColor(theme.text), 2.0 if series.key in self._marks else 1.4))
+                painter.drawEllipse(at, reach, reach)
+
+    def _paint_names(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Write every series' name beside its last point, where there is room.
+
+        What is pointed at comes first, then what was chosen or stands out, then the front.
+        """
+        theme = current_theme()
+        font = text_font(theme, theme.small_px)
+        metrics = QFontMetricsF(font)
+        painter.setFont(font)
+        reach = 0.6 * self.mark_size()
+        area = self.plot_area()
+        places = LabelPlaces(area.adjusted(2, 2, -2, -2))
+        for _, at in self.places():
+            places.take(QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach))
+        if len(picture.series) <= _FEW:
+            for bar in self.bars():
+                places.take(bar)
+            for line in self.front_lines():
+                places.avoid(line)
+        first = ({self._pointed}, self._marks.keys(), set(picture.ringed), set(picture.front))
+        wanted = sorted(picture.series, key=lambda s: [s.key not in keys for keys in first])
+        for series in wanted:
+            end = self.place_of(series.key, self._index if series.key == self._pointed else -1)
+            letter = self._marks.get(series.key, "")
+            if end is None or not (picture.is_named or letter or series.key == self._pointed):
+                continue
+            text = f"{letter}: {series.title}" if letter else series.title
+            size = QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height())
+            found = places.find(end, size, reach, _FURTHER)
+            if found is None:
+                continue
+            is_strong = series.key == self._pointed or bool(letter) or series.key in picture.ringed
+            self._paint_leader(painter, end, found, reach)
+            painter.fillRect(found, faded(theme.panel, 0.75))
+            painter.setPen(QColor(theme.text if is_strong else series_color(series.number)))
+            painter.drawText(found, int(Qt.AlignmentFlag.AlignCenter), text)
+
+    def _paint_leader(self, painter: QPainter, at: QPointF, label: QRectF, reach: float) -> None:
+        """Draw a thin line from a point to a name that found its place further off."""
+        end = QPointF(
+            min(max(at.x(), label.left()), label.right()), min(max(at.y(), label.top()), label.bottom())
+        )
+        if hypot(end.x() - at.x(), end.y() - at.y()) > 2.2 * reach:
+            painter.setPen(QPen(QColor(current_theme().outline), 1.0))
+            painter.drawLine(at, end)

@@ -1,0 +1,140 @@
+"""The pictures behind one or two points of a study, side by side with a linked cursor, and where they lead."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import Signal, Slot
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from widgets.basics.elided_label import ElidedLabel
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.linked_grids import LinkedGrids
+from widgets.grid.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
+
+WORDS = ("Picture", "Reference", "Difference")
+
+
+@dataclass(frozen=True, eq=False)
+class PicturesRecord:
+    """Three pictures of one size."""
+
+    heading: str
+    buffers: tuple[GridBuffer, GridBuffer, GridBuffer]
+    titles: tuple[str, str, str]
+    can_step: bool = False
+    """Whether the run can be opened on the Step page."""
+    can_diverge: bool = False
+    """Whether there are two runs that may part ways."""
+
+
+class StudyPictures(QWidget):
+    """Three linked grids under a heading; tells what the user wants to do with them."""
+
+    step_requested = Signal()
+    divergence_requested = Signal()
+    copy_requested = Signal()
+    closing_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._pin: Pixel | None = None
+        self._hover: Pixel | None = None
+        self._record: PicturesRecord | None = None
+        self.heading = ElidedLabel(self)
+        self.linked = LinkedGrids(WORDS, self)
+        self.values = QLabel(self)
+        self.values.setProperty("role", "muted")
+        self.step_button = button_with_tip(
+            "Open in the stepper",
+            "Step this run, at the pinned pixel or where it is wrong first (Ctrl+Return)",
+            self,
+        )
+        self.divergence_button = button_with_tip(
+            "Step to first divergence",
+            "Step both runs, A | B, where they first part ways (Ctrl+Shift+Return)",
+            self,
+        )
+        self.copy_button = button_with_tip("Copy picture", "Put the three pictures on the clipboard", self)
+        self.close_button = closing_button("the pictures", self)
+        self.step_button.clicked.connect(self.step_requested)
+        self.divergence_button.clicked.connect(self.divergence_requested)
+        self.copy_button.clicked.connect(self.copy_requested)
+        self.close_button.clicked.connect(self.closing_requested)
+        self.linked.pixel_hovered.connect(self._hover_pixel)
+        self.linked.pixel_left.connect(self._leave)
+        self.linked.pixel_clicked.connect(self._pin_pixel)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        top = QHBoxLayout()
+        top.setSpacing(8)
+        top.addWidget(self.heading, 1)
+        for button in (self.step_button, self.divergence_button, self.copy_button, self.close_button):
+            top.addWidget(button)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 4, 0, 0)
+        layout.setSpacing(4)
+        layout.addLayout(top)
+        layout.addWidget(self.linked, 1)
+        layout.addWidget(self.values)
+
+    @property
+    def pin(self) -> Pixel | None:
+        """The pixel that the user has pinned: column and row."""
+        return self._pin
+
+    def show_pictures(self, record: PicturesRecord) -> None:
+        """Show three pictures; a pin stays where it was if there is such a pixel."""
+        self._record = record
+        self.heading.setText(record.heading)
+        self.linked.show_buffers(record.buffers, record.titles)
+        shape = record.buffers[0].columns, record.buffers[0].rows
+        if self._pin is not None and not (self._pin[0] < shape[0] and self._pin[1] < shape[1]):
+            self._pin = None
+        self._hover = None
+        self._show_actions(record)
+        self._show_pointing()
+
+    def show_waiting(self, text: str) -> None:
+        """Show no pictures and say what is awaited, or why there are none."""
+        self._record = None
+        self._hover = None
+        self.heading.setText(text)
+        self.linked.show_nothing()
+        self._show_actions(None)
+        self._show_pointing()
+
+    def show_busy(self, text: str) -> None:
+        """Say what is being looked for, with the pictures left as they are."""
+        self.heading.setText(text)
+        self.divergence_button.setEnabled(False)
+
+    def _show_actions(self, record: PicturesRecord | None) -> None:
+        self.step_button.setEnabled(record is not None and record.can_step)
+        self.divergence_button.setVisible(record is not None and record.can_diverge)
+        self.divergence_button.setEnabled(record is not None and record.can_diverge)
+        self.copy_button.setEnabled(record is not None)
+
+    def _show_pointing(self) -> None:
+        self.linked.show_pointing(self._pin, self._hover)
+        pixel, record = self._hover or self._pin, self._record
+        if record is None:
+            self.values.setText("")
+        elif pixel is None:
+            self.values.setText("Point at a pixel to read its values; click to pin it.")
+        else:
+            self.values.setText(reading_at(pixel, record.buffers))
+
+    @Slot(int, int)
+    def _hover_pixel(self, column: int, row: int) -> None:
+        self._hover = (column, row)
+        self._show_pointing()
+
+    @Slot()
+    def _leave(self) -> None:
+        self._hover = None
+        self._show_pointing()
+
+    @Slot(int, int)
+    def _pin_pixel(self, column: int, row: int) -> None:
+        self._pin = None if self._pin == (column, row) else (column, row)
+        self._show_pointing()

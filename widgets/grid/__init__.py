@@ -1,0 +1,1 @@
+"""The magnified pixel grid: buffers, overlays, triangles, marks, and several grids linked."""

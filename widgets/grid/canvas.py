@@ -1,0 +1,246 @@
+"""What a pixel grid paints, kept as a picture that is repainted only where something changed."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QRect, QRectF
+from PySide6.QtGui import QColor, QImage, QPainter, QPixmap
+
+from widgets.basics.image import buffer_image, value_range
+from widgets.basics.theme import Theme
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.geometry import GridGeometry, outline_lines, paint_outlines
+from widgets.grid.outline_layer import OutlineLayer
+from widgets.grid.overlay import Overlay, bounds, changed_cells, union
+from widgets.grid.overlay_paint import paint_above, paint_below
+from widgets.grid.paint import (
+    beside_rulers,
+    centres_are_free,
+    paint_border,
+    paint_hidden,
+    paint_image,
+    paint_lines,
+    paint_nan,
+    paint_numbers,
+    paint_rulers,
+)
+from widgets.grid.sample_dots import SampleDots, paint_samples
+from widgets.grid.view import GridPlacement
+
+Cells = tuple[int, int, int, int]
+"""A block of cells: column0, row0, column1, row1, upper ends excluded."""
+NO_CELLS: Cells = (0, 0, 0, 0)
+COMPACT_LINE_CELL = 10.0
+"""Side of a cell from which a thumbnail has grid lines."""
+
+
+class GridCanvas:
+    """The still part of a pixel grid: cells, overlays, outlines and rulers, without marks and handles.
+
+    Setting what is shown already changes nothing. Setters return whether a repaint is needed.
+    """
+
+    def __init__(self, is_compact: bool) -> None:
+        self._is_compact = is_compact
+        """A thumbnail: no rulers, no sample centres, and grid lines only where cells are clearly apart."""
+        self._buffer: GridBuffer | None = None
+        self._image: QImage | None = None
+        self._overlays: tuple[Overlay, ...] = ()
+        self._geometry: GridGeometry | None = None
+        self._hidden: NDArray[np.bool_] | None = None
+        self._samples: SampleDots | None = None
+        self.outlines = OutlineLayer()
+        """Grids that show the same triangles may share one."""
+        self._pixmap: QPixmap | None = None
+        self._painted: tuple[GridPlacement, QRect, Theme] | None = None
+        self._dirty: Cells | None = None
+        """Cells to paint again; None: everything."""
+
+    @property
+    def buffer(self) -> GridBuffer | None:
+        """The buffer that is shown."""
+        return self._buffer
+
+    @property
+    def dirty(self) -> Cells | None:
+        """The cells that wait to be painted again; None: everything."""
+        return self._dirty
+
+    @property
+    def overlays(self) -> tuple[Overlay, ...]:
+        """The overlays that are shown."""
+        return self._overlays
+
+    @property
+    def hidden(self) -> NDArray[np.bool_] | None:
+        """The (H, W) mask of covered cells, or None."""
+        return self._hidden
+
+    def set_buffer(self, buffer: GridBuffer | None) -> bool:
+        """Show a buffer."""
+        before, self._buffer = self._buffer, buffer
+        if buffer is None or before is None:
+            return self._forget(before is not buffer)
+        if buffer.is_same_picture(before):
+            return False
+        if before.values.shape != buffer.values.shape:
+            self._hidden = None
+        alike = (before.kind, before.colormap, before.values.dtype, before.known is None) == (
+            buffer.kind,
+            buffer.colormap,
+            buffer.values.dtype,
+            buffer.known is None,
+        )
+        if (
+            not alike
+            or before.values.shape != buffer.values.shape
+            or value_range(before) != value_range(buffer)
+        ):
+            return self._forget(True)
+        with np.errstate(invalid="ignore"):
+            differs = before.values != buffer.values
+        if buffer.values.dtype.kind == "f":
+            differs &= ~(np.isnan(before.values) & np.isnan(buffer.values))
+        changed = differs.any(axis=2) if differs.ndim == 3 else differs
+        if before.known is not None and buffer.known is not None:
+            changed = changed | (before.known != buffer.known)
+        self._image = None
+        return self._add_dirty(bounds(changed))
+
+    def set_overlays(self, overlays: tuple[Overlay, ...]) -> bool:
+        """Lay overlays over the cells, the first lowest."""
+        changed = changed_cells(self._overlays, overlays)
+        self._overlays = overlays
+        return self._forget(True) if changed is None else self._add_dirty(changed)
+
+    def set_geometry(self, geometry: GridGeometry | None) -> bool:
+        """Show triangles; those that are not in focus belong to the still part."""
+        before, self._geometry = self._geometry, geometry
+        counts = [len(shown.triangles) - bool(shown.focus_vertices) for shown in (before, geometry) if shown]
+        return self._forget(any(counts))
+
+    def set_hidden(self, hidden: NDArray[np.bool_] | None) -> bool:
+        """Cover the cells of an (H, W) mask; None covers none."""
+        before, self._hidden = self._hidden, hidden
+        if before is hidden or (before is not None and hidden is not None and np.array_equal(before, hidden)):
+            return False
+        return self._forget(True)
+
+    @property
+    def samples(self) -> SampleDots | None:
+        """The samples that are shown, or None: one in the middle."""
+        return self._samples
+
+    def set_samples(self, samples: SampleDots | None) -> bool:
+        """Show several samples in every pixel; None is the one in the middle."""
+        before, self._samples = self._samples, samples
+        if samples is None or before is None:
+            return self._forget(before is not samples)
+        is_other = not np.array_equal(before.position, samples.position)
+        if is_other or before.shown.shape != samples.shown.shape:
+            return self._forget(True)
+        return self._add_dirty(bounds((before.shown != samples.shown).any(axis=0)))
+
+    def paint(self, painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
+        """Paint from the kept picture, after painting again what changed in it."""
+        ratio = painter.device().devicePixelRatioF()
+        key = (placement, area, theme)
+        if self._pixmap is None or self._painted != key or self._pixmap.devicePixelRatio() != ratio:
+            size = area.size() * ratio
+            if self._pixmap is None or self._pixmap.size() != size:
+                self._pixmap = QPixmap(size)
+            self._pixmap.setDevicePixelRatio(ratio)
+            self._dirty, self._painted = None, key
+        if self._dirty != NO_CELLS:
+            with QPainter(self._pixmap) as inner:
+                self.paint_now(inner, placement, area, theme, self._dirty, self.outlines)
+            self._dirty = NO_CELLS
+        painter.drawPixmap(area.topLeft(), self._pixmap)
+
+    def paint_now(
+        self,
+        painter: QPainter,
+        placement: GridPlacement,
+        area: QRect,
+        theme: Theme,
+        cells: Cells | None = None,
+        outlines: OutlineLayer | None = None,
+    ) -> None:
+        """Paint the whole still part, or only ``cells``, straight to any device (as vectors into an SVG).
+
+        Outlines are lines of their own, unless there is a picture of them in ``outlines``.
+        """
+        visible = placement.visible_cells()
+        painter.save()
+        if cells is None:
+            painter.fillRect(area, QColor(theme.panel))
+            if self._is_compact:
+                painter.setClipRect(placement.seen_raster)
+            else:
+                paint_rulers(painter, placement, area, theme)
+                painter.setClipRegion(beside_rulers(placement, area, theme))
+        else:
+            # One cell more on each side: glyphs, outlines and lines reach over the border of a cell.
+            visible = (
+                max(cells[0] - 1, visible[0]),
+                max(cells[1] - 1, visible[1]),
+                min(cells[2] + 1, visible[2]),
+                min(cells[3] + 1, visible[3]),
+            )
+            block = placement.cells_rect(
+                visible[0], visible[1], visible[2] - visible[0], visible[3] - visible[1]
+            )
+            painter.setClipRect(block.intersected(QRectF(placement.viewport)))
+        painter.fillRect(placement.cells_rect(0, 0, placement.columns, placement.rows), QColor(theme.canvas))
+        if self._buffer is not None and visible[0] < visible[2] and visible[1] < visible[3]:
+            self._paint_cells(painter, placement, self._buffer, theme, visible)
+            if self._geometry is not None and outlines is not None:
+                outlines.paint_others(painter, placement, area, self._geometry, theme)
+            elif self._geometry is not None:
+                paint_outlines(painter, outline_lines(placement, self._geometry), theme)
+            if self._hidden is not None:
+                paint_hidden(painter, placement, self._hidden, theme)
+        painter.restore()
+
+    def _paint_cells(
+        self, painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme, cells: Cells
+    ) -> None:
+        """Paint colours, overlays, lines and numbers, in this order."""
+        image = self.image(theme)
+        paint_image(painter, placement, image)
+        paint_nan(painter, placement, buffer, theme)
+        paint_below(painter, placement, self._overlays, theme)
+        if not self._is_compact or placement.cell >= COMPACT_LINE_CELL:
+            is_free = not self._is_compact and centres_are_free(placement, buffer, theme)
+            paint_lines(painter, placement, theme, self._samples is None and is_free)
+            if self._samples is not None:
+                paint_samples(painter, placement, self._samples, cells)
+        paint_border(painter, placement, theme)
+        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
+        paint_above(painter, placement, self._overlays, theme)
+
+    def image(self, theme: Theme) -> QImage:
+        """Return the picture of the buffer, made once."""
+        if self._image is None or (self._painted is not None and self._painted[2] != theme):
+            if self._buffer is None:
+                raise ValueError("there is no buffer to make a picture of")
+            self._image = buffer_image(self._buffer, theme)
+        return self._image
+
+    def forget(self) -> None:
+        """Paint everything again next time, as after a change of theme."""
+        self._image = None
+        self._dirty = None
+
+    def _forget(self, changed: bool) -> bool:
+        """Paint everything again if something changed."""
+        if changed:
+            self.forget()
+        return changed
+
+    def _add_dirty(self, cells: Cells) -> bool:
+        """Paint some cells again."""
+        if cells == NO_CELLS:
+            return False
+        if self._dirty is not None:
+            self._dirty = union(self._dirty, cells)
+        return True

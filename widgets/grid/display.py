@@ -1,0 +1,289 @@
+"""What a pixel grid shows, without the pointer: a buffer, overlays, triangles and marks."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QRegion
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.canvas import GridCanvas
+from widgets.grid.geometry import GridGeometry, paint_focus
+from widgets.grid.marks import marked_rect, paint_hover, paint_pin, paint_step
+from widgets.grid.outline_layer import OutlineLayer
+from widgets.grid.overlay import Overlay
+from widgets.grid.paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid.sample_dots import SampleDots
+from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
+
+
+class GridDisplay(QWidget):
+    """The showing half of a :class:`~widgets.grid.pixel_grid.PixelGrid`; slots paint only what changed."""
+
+    def __init__(self, parent: QWidget | None = None, compact: bool = False) -> None:
+        """Make an empty grid; a ``compact`` one is a thumbnail without rulers, handles and keyboard focus."""
+        super().__init__(parent)
+        self._compact = compact
+        self._canvas = GridCanvas(is_compact=compact)
+        self._geometry: GridGeometry | None = None
+        self._view = FIT
+        self._corner = 0.0
+        self._hover: tuple[int, int] | None = None
+        self._pin: tuple[int, int] | None = None
+        self._step: NDArray[np.integer] | None = None
+        self._shows_focus = False
+        """Whether the focus came by a key: only then its ring helps."""
+        self._vertex: int | None = None
+        """The vertex under the pointer or being dragged."""
+        self.empty_text = "Nothing to show yet"
+        """What the grid says while it has no buffer."""
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus if compact else Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName("Pixel grid")
+        theme_notifier().theme_changed.connect(self._repaint_all)
+
+    def buffer(self) -> GridBuffer | None:
+        """Return the buffer that is shown."""
+        return self._canvas.buffer
+
+    def view(self) -> GridView:
+        """Return the zoom and pan."""
+        return self._view
+
+    def overlays(self) -> tuple[Overlay, ...]:
+        """Return the overlays over the cells, the first lowest."""
+        return self._canvas.overlays
+
+    def hidden(self) -> NDArray[np.bool_] | None:
+        """Return the (H, W) mask of the cells that are covered up; None: none."""
+        return self._canvas.hidden
+
+    def pin(self) -> tuple[int, int] | None:
+        """Return the pinned pixel."""
+        return self._pin
+
+    def step(self) -> NDArray[np.integer] | None:
+        """Return the (N, 2) pixels of the step just done; None: none."""
+        return self._step
+
+    def placement(self) -> GridPlacement:
+        """Return where the cells stand in the widget now."""
+        buffer = self._canvas.buffer
+        columns, rows = (buffer.columns, buffer.rows) if buffer else (1, 1)
+        origin = buffer.origin if buffer else (0, 0)
+        viewport, ratio = self._viewport(rows + origin[1]), self.devicePixelRatioF()
+        return replace(place(columns, rows, viewport, self._view, ratio, self._corner), origin=origin)
+
+    def show_buffer(self, buffer: GridBuffer | None) -> None:
+        """Show a buffer; only pixels that differ are painted again."""
+        before = self._canvas.buffer
+        changed = self._canvas.set_buffer(buffer)
+        if buffer is not None and (before is None or before.label != buffer.label):
+            self.setAccessibleName(f"Pixel grid: {buffer.label}")
+        if changed:
+            self._update_dirty()
+
+    def show_overlays(self, overlays: tuple[Overlay, ...] | list[Overlay]) -> None:
+        """Lay overlays over the cells, the first lowest."""
+        if self._canvas.set_overlays(tuple(overlays)):
+            self._update_dirty()
+
+    def show_geometry(self, geometry: GridGeometry | None) -> None:
+        """Show triangles in window coordinates."""
+        if geometry is not self._geometry:
+            self._geometry = geometry
+            self._canvas.set_geometry(geometry)
+            self.update()
+
+    def share_outlines(self, outlines: OutlineLayer) -> None:
+        """Take the triangles from pictures that other grids use too."""
+        self._canvas.outlines = outlines
+
+    def show_hover(self, pixel: tuple[int, int] | None) -> None:
+        """Mark (column, row) as the pixel under the pointer."""
+        if pixel != self._hover:
+            before, self._hover = self._hover, pixel
+            self._update_marks(before, pixel)
+
+    def show_pin(self, pixel: tuple[int, int] | None) -> None:
+        """Mark (column, row) as the pinned pixel."""
+        if pixel != self._pin:
+            before, self._pin = self._pin, pixel
+            text = "" if pixel is None else f"Pinned pixel {pixel[0]}, {pixel[1]}: {self.value_text(pixel)}"
+            self.setAccessibleDescription(text)
+            self._update_marks(before, pixel)
+
+    def show_step(self, pixels: NDArray[np.integer] | None) -> None:
+        """Outline the (N, 2) pixels (column, row) of the step just done; None: none."""
+        if pixels is not None and (pixels.ndim != 2 or pixels.shape[1] != 2):
+            raise ValueError(f"pixels must be (N, 2), got {pixels.shape}")
+        before, self._step = self._step, pixels
+        same = before is pixels or (
+            before is not None and pixels is not None and np.array_equal(before, pixels)
+        )
+        if not same:
+            placement = self.placement()
+            for shown in (before, pixels):
+                if shown is not None and len(shown):
+                    (column0, row0), (column1, row1) = shown.min(axis=0).tolist(), shown.max(axis=0).tolist()
+                    self._update_rect(
+                        placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
+                    )
+
+    def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
+        """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
+        buffer = self._canvas.buffer
+        if hidden is not None and (buffer is None or hidden.shape != (buffer.rows, buffer.columns)):
+            raise ValueError(f"hidden must have the shape of the buffer's pixels, got {hidden.shape}")
+        if self._canvas.set_hidden(hidden):
+            self.update()
+
+    def show_samples(self, samples: SampleDots | None) -> None:
+        """Show several samples in every pixel, and who has them; None: the one in the middle."""
+        if self._canvas.set_samples(samples):
+            self._update_dirty()
+
+    def set_pixel_center(self, name: str) -> None:
+        """Say where centres lie: "half" at (i + 0.5, j + 0.5), "integer" at (i, j)."""
+        corners = {"half": 0.0, "integer": -0.5}
+        if name not in corners:
+            raise ValueError(f"pixel center must be half or integer, got {name!r}")
+        if corners[name] != self._corner:
+            self._corner = corners[name]
+            self.update()
+
+    def set_view(self, view: GridView) -> None:
+        """Zoom and pan as a linked grid did; emits nothing."""
+        view = clamped(view)
+        if view != self._view:
+            self._view = view
+            self.update()
+
+    def has_numbers(self) -> bool:
+        """Return whether the values are written into the cells at this zoom."""
+        buffer = self._canvas.buffer
+        samples = self._canvas.samples
+        return buffer is not None and has_numbers(self.placement(), buffer, current_theme(), samples)
+
+    def samples_text(self, pixel: tuple[int, int]) -> str:
+        """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
+        samples, hidden = self._canvas.samples, self._canvas.hidden
+        column, row = pixel
+        if samples is None or (hidden is not None and hidden[row, column]):
+            return ""
+        _, rows, columns = samples.shown.shape
+        return samples.text_at(column, row) if column < columns and row < rows else ""
+
+    def value_text(self, pixel: tuple[int, int], digits: int = 4) -> str:
+        """Return the value of a pixel as text: "?" where it is covered, empty outside of the raster."""
+        buffer, hidden = self._canvas.buffer, self._canvas.hidden
+        column, row = pixel
+        if buffer is None or not (0 <= column < buffer.columns and 0 <= row < buffer.rows):
+            return ""
+        return "?" if hidden is not None and hidden[row, column] else buffer.text_at(column, row, digits)
+
+    def paint_to(self, painter: QPainter) -> None:
+        """Paint the grid as it is seen, but as vectors, for an SVG or PDF of the widget's size."""
+        theme, placement = current_theme(), self.placement()
+        if self._canvas.buffer is not None:
+            self._canvas.paint_now(painter, placement, self.rect(), theme)
+            self._paint_marks(painter, placement)
+
+    def sizeHint(self) -> QSize:
+        """Return the size that suits a grid: a thumbnail or the main view."""
+        return QSize(192, 144) if self._compact else QSize(640, 480)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the kept picture, then marks, handles and the focus ring."""
+        theme = current_theme()
+        with QPainter(self) as painter:
+            if self._canvas.buffer is None:
+                painter.fillRect(self.rect(), QColor(theme.panel))
+                painter.setPen(QColor(theme.muted_text))
+                flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+                painter.drawText(self.rect().adjusted(8, 8, -8, -8), flags, self.empty_text)
+            else:
+                placement = self.placement()
+                self._canvas.paint(painter, placement, self.rect(), theme)
+                self._paint_marks(painter, placement)
+            if self.hasFocus() and self._shows_focus:
+                painter.setClipping(False)
+                painter.setPen(QPen(QColor(theme.focus), 2))
+                painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
+
+    def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
+        """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""
+        theme = current_theme()
+        painter.save()
+        painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
+        if self._geometry is not None:
+            self._paint_geometry(painter, placement, self._geometry)
+        if self._step is not None:
+            paint_step(painter, placement, self._step, theme)
+        if self._pin is not None and self._is_inside(self._pin):
+            paint_pin(painter, placement, self._pin)
+        if self._hover is not None and self._is_inside(self._hover):
+            paint_hover(painter, placement, self._hover)
+        painter.restore()
+        if self._hover is not None and not self._compact and self._is_inside(self._hover):
+            paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
+
+    def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
+        """Paint the triangle in focus, on the screen from a kept picture: smooth lines are slow to draw."""
+        theme, free = current_theme(), self._free(placement)
+        if painter.device() is self:
+            outlines = self._canvas.outlines
+            outlines.paint_focus(painter, placement, self.rect(), geometry, theme, self._vertex, free)
+        else:
+            paint_focus(painter, placement, geometry, theme, self._vertex, free)
+
+    def _free(self, placement: GridPlacement) -> QRegion | None:
+        """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
+        return None if self._compact else beside_rulers(placement, self.rect(), current_theme())
+
+    def _update_dirty(self) -> None:
+        """Have the cells painted that changed."""
+        cells = self._canvas.dirty
+        if cells is None:
+            self.update()
+        else:
+            placement = self.placement()
+            self._update_rect(
+                placement.cells_rect(cells[0], cells[1], cells[2] - cells[0], cells[3] - cells[1])
+            )
+
+    def _update_marks(self, before: tuple[int, int] | None, after: tuple[int, int] | None) -> None:
+        """Have the places painted where a mark was and is, and the numbers of the rulers."""
+        placement = self.placement()
+        for pixel in (before, after):
+            if pixel is not None:
+                self._update_rect(marked_rect(placement, pixel))
+        if not self._compact:
+            for area in ruler_areas(placement, self.rect()):
+                self.update(area)
+
+    def _update_rect(self, rect: QRectF) -> None:
+        """Have a part painted, with the room that marks take around it."""
+        room = 10
+        self.update(rect.adjusted(-room, -room, room, room).toAlignedRect().intersected(self.rect()))
+
+    def _viewport(self, rows: int) -> QRect:
+        """Return the part of the widget that shows pixels."""
+        if self._compact:
+            return self.rect()
+        across, down = ruler_size(rows, current_theme())
+        return self.rect().adjusted(across, 8, -8, -down)
+
+    def _is_inside(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel belongs to the raster."""
+        buffer = self._canvas.buffer
+        return buffer is not None and 0 <= pixel[0] < buffer.columns and 0 <= pixel[1] < buffer.rows
+
+    def _repaint_all(self) -> None:
+        """Paint everything again with the present theme."""
+        self._canvas.forget()
+        self.update()

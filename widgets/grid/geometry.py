@@ -1,0 +1,258 @@
+"""Triangles over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
+
+from widgets.basics.theme import Theme, text_font
+from widgets.grid.line_clip import widget_lines
+from widgets.grid.view import GridPlacement
+
+HANDLE_RADIUS = 5.0
+"""Radius of a vertex handle in logical pixels."""
+_GRAB_RADIUS = 11.0
+"""How near the pointer must come to a vertex to take it."""
+_LEAST_HANDLE = 0.4
+"""Handles on a tiny triangle are that part of their size, so that they hide less of it."""
+HALO_WIDTH = 2.4
+HALO_OPACITY = 0.5
+"""Of what sets thin outlines off from the cells."""
+
+
+@dataclass(frozen=True, eq=False)
+class GridGeometry:
+    """Triangles in window coordinates (y up)."""
+
+    vertices: NDArray[np.float64] = field(repr=False)
+    """(V, 2) float64 window positions; any value, also far away, infinite or NaN (a vertex at w <= 0)."""
+    triangles: NDArray[np.integer] = field(repr=False)
+    """(T, 3) integers into ``vertices``."""
+    focus: int = 0
+    """The triangle whose vertices and edges have the colours 0, 1, 2; -1: none. Edge k faces vertex k."""
+    snapped: NDArray[np.float64] | None = field(default=None, repr=False)
+    """(V, 2) float64 snapped positions, or None."""
+    draggable: bool = True
+    """Whether the vertices of the triangle in focus can be dragged."""
+    labels: tuple[str, ...] = ()
+    """A name per vertex; empty: 0, 1, 2 for those of the triangle in focus."""
+
+    def __post_init__(self) -> None:
+        if self.vertices.ndim != 2 or self.vertices.shape[1] != 2:
+            raise ValueError(f"vertices must be (V, 2), got {self.vertices.shape}")
+        if self.triangles.ndim != 2 or self.triangles.shape[1] != 3:
+            raise ValueError(f"triangles must be (T, 3), got {self.triangles.shape}")
+        if self.triangles.size and not 0 <= self.triangles.min() <= self.triangles.max() < len(self.vertices):
+            raise ValueError(f"triangles must index {len(self.vertices)} vertices")
+        if self.snapped is not None and self.snapped.shape != self.vertices.shape:
+            raise ValueError(f"snapped must be {self.vertices.shape}, got {self.snapped.shape}")
+        if self.labels and len(self.labels) != len(self.vertices):
+            raise ValueError(
+                f"labels must have one entry per vertex ({len(self.vertices)}), got {len(self.labels)}"
+            )
+
+    @property
+    def focus_vertices(self) -> tuple[int, ...]:
+        """Indices of the three vertices of the triangle in focus; empty if there is none."""
+        if not 0 <= self.focus < len(self.triangles):
+            return ()
+        return tuple(int(index) for index in self.triangles[self.focus])
+
+    def label(self, vertex: int) -> str:
+        """Return the name of a vertex."""
+        if self.labels:
+            return self.labels[vertex]
+        return str(self.focus_vertices.index(vertex)) if vertex in self.focus_vertices else ""
+
+
+def vertex_near(geometry: GridGeometry, placement: GridPlacement, position: QPointF) -> int | None:
+    """Return the draggable vertex under a widget position: the nearest within reach, or None."""
+    if not geometry.draggable:
+        return None
+    best, reach = None, _GRAB_RADIUS
+    for index in geometry.focus_vertices:
+        place = vertex_place(geometry, placement, index)
+        if place is not None:
+            distance = QLineF(place, position).length()
+            if distance <= reach:
+                best, reach = index, distance
+    return best
+
+
+def vertex_place(geometry: GridGeometry, placement: GridPlacement, vertex: int) -> QPointF | None:
+    """Return the widget position of a vertex, or None if it is not near the viewport."""
+    return _place(placement, geometry.vertices[vertex])
+
+
+def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLineF]:
+    """Return the visible edges of the triangles that are not in focus as widget lines, shared ones once.
+
+    Triangles share an edge where its ends are at the same places: they need not have vertices in common.
+    """
+    others = (
+        np.delete(geometry.triangles, geometry.focus, axis=0)
+        if geometry.focus_vertices
+        else geometry.triangles
+    )
+    pairs = np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]]))
+    places = np.ascontiguousarray(geometry.vertices, np.float64).view(np.complex128)
+    _, place = np.unique(places.ravel(), return_inverse=True)
+    low, high = np.sort(place[pairs], axis=1).T
+    _, once = np.unique(low * len(place) + high, return_index=True)
+    lines, _ = widget_lines(geometry.vertices[pairs[once]], placement)
+    return lines
+
+
+def paint_outlines(painter: QPainter, lines: list[QLineF], theme: Theme) -> None:
+    """Paint the edges of the triangles that are not in focus: quiet and thin."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    halo = QColor(theme.halo())
+    halo.setAlphaF(HALO_OPACITY)
+    painter.setPen(QPen(halo, HALO_WIDTH))
+    painter.drawLines(lines)
+    painter.setPen(QPen(QColor(theme.text), 1.0))
+    painter.drawLines(lines)
+    painter.restore()
+
+
+def paint_focus(
+    painter: QPainter,
+    placement: GridPlacement,
+    geometry: GridGeometry,
+    theme: Theme,
+    held: int | None,
+    free: QRegion | None,
+) -> None:
+    """Paint the triangle in focus: edges and vertices in their colours, snapped positions as hollow diamonds.
+
+    ``held`` is the vertex under the pointer or being dragged; ``free`` is where lines may go, which cross no number of
+    the rulers, while handles and names may lie on them. ``None``: a thumbnail, without rulers, handles and names.
+    """
+    small = free is None
+    corners = geometry.focus_vertices
+    if not corners:
+        return
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in range(3)])
+    lines, source = widget_lines(geometry.vertices[ends], placement)
+    scale = theme.text_px / 13
+    width = 1.2 if small else 1.8 * scale
+    halo = QColor(theme.halo())
+    halo.setAlphaF(0.75)
+    painter.setPen(QPen(halo, width + 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    if free is not None:
+        painter.setClipRegion(free)
+    else:
+        painter.setClipRect(placement.seen_raster)
+    painter.drawLines(lines)
+    for line, edge in zip(lines, source.tolist(), strict=True):
+        painter.setPen(
+            QPen(QColor(theme.vertex[edge]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
+        )
+        painter.drawLine(line)
+    if not small:
+        painter.setClipRect(placement.viewport)
+        scale *= handle_part(placement, geometry)
+        for place in range(3):
+            position = vertex_place(geometry, placement, corners[place])
+            if position is None:
+                continue
+            radius = HANDLE_RADIUS * scale + (1.5 if corners[place] == held else 0.0)
+            painter.setPen(QPen(QColor("#ffffff"), 1.8))
+            painter.setBrush(QColor(theme.vertex[place]))
+            painter.drawEllipse(position, radius, radius)
+            painter.setPen(QPen(QColor("#000000"), 0.8))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawEllipse(position, radius + 1.2, radius + 1.2)
+        _paint_snapped(painter, placement, geometry, corners, scale)
+        _paint_names(painter, placement, geometry, theme)
+    painter.restore()
+
+
+def handle_part(placement: GridPlacement, geometry: GridGeometry) -> float:
+    """Return the part of their size that the handles of the triangle in focus have: all of it where there is room."""
+    corners = geometry.vertices[list(geometry.focus_vertices)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * placement.cell
+    shortest = np.nan_to_num(sides, nan=np.inf).min()
+    return float(np.clip(shortest / (4 * HANDLE_RADIUS), _LEAST_HANDLE, 1.0))
+
+
+def _paint_snapped(
+    painter: QPainter,
+    placement: GridPlacement,
+    geometry: GridGeometry,
+    corners: tuple[int, ...],
+    scale: float,
+) -> None:
+    """Paint the snapped positions as hollow diamonds around the vertices."""
+    if geometry.snapped is None:
+        return
+    size = (HANDLE_RADIUS + 5.0) * scale
+    for corner in corners:
+        place = _place(placement, geometry.snapped[corner])
+        if place is None:
+            continue
+        tips = (QPointF(0, -size), QPointF(size, 0), QPointF(0, size), QPointF(-size, 0))
+        diamond = QPolygonF([place + tip for tip in tips])
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for color, width in (("#ffffff", 2.6), ("#000000", 1.2)):
+            painter.setPen(QPen(QColor(color), width))
+            painter.drawPolygon(diamond)
+
+
+def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeometry, theme: Theme) -> None:
+    """Write the names of the vertices away from the middle of the triangle."""
+    font = text_font(theme)
+    font.setBold(True)
+    painter.setFont(font)
+    corners = list(geometry.focus_vertices)
+    with np.errstate(over="ignore", invalid="ignore"):
+        middle = geometry.vertices[corners].mean(axis=0)
+    for place, corner in enumerate(corners):
+        position = vertex_place(geometry, placement, corner)
+        text = geometry.label(corner)
+        if position is None or not text:
+            continue
+        with np.errstate(over="ignore", invalid="ignore"):
+            away = geometry.vertices[corner] - middle
+            length = float(np.hypot(away[0], away[1]))
+        if not np.isfinite(length) or length == 0.0:
+            away, length = np.array([0.0, 1.0]), 1.0
+        metrics = painter.fontMetrics()
+        width, height = metrics.horizontalAdvance(text) + 8, metrics.height()
+        reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + width / 2
+        box = QRectF(0, 0, width, height)
+        box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
+        if QRectF(placement.viewport).contains(position):
+            box = moved_inside(box, QRectF(placement.viewport))
+        chip = QColor(theme.panel)
+        chip.setAlphaF(0.88)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(chip)
+        painter.drawRoundedRect(box, 3, 3)
+        painter.setPen(QColor(theme.vertex_text[place]))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def moved_inside(box: QRectF, area: QRectF) -> QRectF:
+    """Return a box moved as little as it takes to lie in an area; its left and top do where it is too large."""
+    left = max(min(box.left(), area.right() - box.width()), area.left())
+    top = max(min(box.top(), area.bottom() - box.height()), area.top())
+    return QRectF(left, top, box.width(), box.height())
+
+
+def _place(placement: GridPlacement, position: NDArray[np.float64]) -> QPointF | None:
+    """Return the widget position of a window position if it is finite and near the viewport."""
+    x, y = float(position[0]), float(position[1])
+    if not (abs(x) < 1e9 and abs(y) < 1e9):
+        return None
+    place = placement.to_widget(x, y)
+    reach = 4 * HANDLE_RADIUS
+    return (
+        place if QRectF(placement.viewport).adjusted(-reach, -reach, reach, reach).contains(place) else None
+    )

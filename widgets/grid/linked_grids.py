@@ -1,0 +1,76 @@
+"""Three pixel grids side by side that move, point and pin as one."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import GridView
+
+
+class LinkedGrids(QWidget):
+    """Grids with a title above each; zooming one zooms all."""
+
+    pixel_hovered = Signal(int, int)
+    pixel_left = Signal()
+    pixel_clicked = Signal(int, int)
+
+    def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._names = tuple(names)
+        self.grids = tuple(PixelGrid(self) for _ in names)
+        self.titles = tuple(QLabel(self) for _ in names)
+        layout = QGridLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(8)
+        for column, (name, title, grid) in enumerate(zip(names, self.titles, self.grids, strict=True)):
+            grid.setAccessibleName(f"Pixel grid {name}")
+            grid.pixel_hovered.connect(self.pixel_hovered)
+            grid.pixel_left.connect(self.pixel_left)
+            grid.pixel_clicked.connect(self.pixel_clicked)
+            grid.view_changed.connect(self._link_views)
+            title.setWordWrap(True)
+            title.setAlignment(Qt.AlignmentFlag.AlignBottom)
+            title.setProperty("role", "muted")
+            layout.addWidget(title, 0, column)
+            layout.addWidget(grid, 1, column)
+            layout.setColumnStretch(column, 1)
+        layout.setRowStretch(1, 1)
+
+    def show_buffers(self, buffers: Sequence[GridBuffer], titles: Sequence[str]) -> None:
+        """Show a picture in every grid."""
+        for grid, buffer in zip(self.grids, buffers, strict=True):
+            grid.show_buffer(buffer)
+        for label, title in zip(self.titles, titles, strict=True):
+            label.setText(title)
+
+    def show_nothing(self) -> None:
+        """Show no pictures."""
+        for label, name, grid in zip(self.titles, self._names, self.grids, strict=True):
+            grid.show_buffer(None)
+            grid.show_overlays(())
+            label.setText(name)
+
+    def show_geometry(self, geometry: GridGeometry | None) -> None:
+        """Show the triangles in all grids."""
+        for grid in self.grids:
+            grid.show_geometry(geometry)
+
+    def set_pixel_center(self, pixel_center: str) -> None:
+        """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
+        for grid in self.grids:
+            grid.set_pixel_center(pixel_center)
+
+    def show_pointing(self, pin: tuple[int, int] | None, hover: tuple[int, int] | None) -> None:
+        """Mark pin and hover in all grids."""
+        for grid in self.grids:
+            grid.show_pin(pin)
+            grid.show_hover(hover)
+
+    @Slot(object)
+    def _link_views(self, view: GridView) -> None:
+        for grid in self.grids:
+            grid.set_view(view)

@@ -1,0 +1,120 @@
+"""Marks on single pixels: the one under the pointer, the pinned one, and those of the step just done."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QLineF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from widgets.basics.theme import Theme
+from widgets.grid.view import GridPlacement
+
+_LEAST_SIDE = 7.0
+"""Marks of smaller cells are drawn around the cell at this size, so that they are found."""
+
+
+def paint_step(
+    painter: QPainter, placement: GridPlacement, pixels: NDArray[np.integer], theme: Theme
+) -> None:
+    """Outline the (N, 2) pixels (column, row) of the step just done in the accent, as one region."""
+    lines = region_outline(pixels, placement)
+    if not lines:
+        return
+    small = placement.cell < 12
+    painter.save()
+    # A wide quiet line of the contrary brightness keeps the accent visible on every colour of a map.
+    painter.setPen(_pen(theme.halo(), 3.0 if small else 5.0))
+    painter.drawLines(lines)
+    painter.setPen(_pen(theme.accent, 1.6 if small else 3.0))
+    painter.drawLines(lines)
+    painter.restore()
+
+
+def paint_hover(painter: QPainter, placement: GridPlacement, pixel: tuple[int, int]) -> None:
+    """Outline the pixel under the pointer with a thin double line."""
+    rect = marked_rect(placement, pixel)
+    painter.save()
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(_pen("#000000", 1.0))
+    painter.drawRect(rect.adjusted(-0.5, -0.5, 0.5, 0.5))
+    painter.setPen(_pen("#ffffff", 1.0))
+    painter.drawRect(rect.adjusted(0.5, 0.5, -0.5, -0.5))
+    painter.restore()
+
+
+def paint_pin(painter: QPainter, placement: GridPlacement, pixel: tuple[int, int]) -> None:
+    """Mark the pinned pixel with four corner brackets around it."""
+    rect = marked_rect(placement, pixel).adjusted(-2, -2, 2, 2)
+    reach = max(min(rect.width() * 0.3, 12.0), 3.0)
+    lines = []
+    for corner, right, down in (
+        (rect.topLeft(), 1, 1),
+        (rect.topRight(), -1, 1),
+        (rect.bottomLeft(), 1, -1),
+        (rect.bottomRight(), -1, -1),
+    ):
+        lines.append(QLineF(corner.x(), corner.y(), corner.x() + right * reach, corner.y()))
+        lines.append(QLineF(corner.x(), corner.y(), corner.x(), corner.y() + down * reach))
+    painter.save()
+    small = placement.cell < 12
+    painter.setPen(_pen("#ffffff", 2.6 if small else 4.5))
+    painter.drawLines(lines)
+    painter.setPen(_pen("#000000", 1.2 if small else 2.2))
+    painter.drawLines(lines)
+    painter.restore()
+
+
+def marked_rect(placement: GridPlacement, pixel: tuple[int, int]) -> QRectF:
+    """Return the rectangle that a mark of a pixel is drawn around: its cell, grown if that is very small."""
+    rect = placement.cells_rect(*pixel)
+    grow = max((_LEAST_SIDE - placement.cell) / 2, 0.0)
+    return rect.adjusted(-grow, -grow, grow, grow)
+
+
+def region_outline(pixels: NDArray[np.integer], placement: GridPlacement) -> list[QLineF]:
+    """Return the border of a set of pixels as widget lines; straight runs are one line.
+
+    Parameters
+    ----------
+    pixels : (N, 2) integer array
+        Columns and rows; those outside of the raster are left out.
+    placement : GridPlacement
+    """
+    columns, rows = pixels[:, 0], pixels[:, 1]
+    inside = (columns >= 0) & (columns < placement.columns) & (rows >= 0) & (rows < placement.rows)
+    if not inside.any():
+        return []
+    columns, rows = columns[inside], rows[inside]
+    column0, row0 = int(columns.min()), int(rows.min())
+    padded = np.zeros((int(rows.max()) - row0 + 3, int(columns.max()) - column0 + 3), np.int8)
+    padded[rows - row0 + 1, columns - column0 + 1] = 1
+
+    # A border runs where neighbours differ; runs of equal sign along it are joined.
+    lines = []
+    across = np.diff(padded, axis=0)[:, 1:-1]
+    for line, start, end in _runs(across):
+        left = placement.cells_rect(column0 + start, row0 + line, end - start, 0)
+        lines.append(QLineF(left.topLeft(), left.topRight()))
+    upward = np.diff(padded, axis=1)[1:-1].T
+    for line, start, end in _runs(np.ascontiguousarray(upward)):
+        side = placement.cells_rect(column0 + line, row0 + start, 0, end - start)
+        lines.append(QLineF(side.bottomLeft(), side.topLeft()))
+    return lines
+
+
+def _runs(values: NDArray[np.int8]) -> list[tuple[int, int, int]]:
+    """Return (row, start, end) of the runs of equal values other than 0 along the rows of (M, N) values."""
+    edges = np.zeros((values.shape[0], values.shape[1] + 1), bool)
+    edges[:, 0] = edges[:, -1] = True
+    edges[:, 1:-1] = values[:, 1:] != values[:, :-1]
+    rows, starts = np.nonzero(edges)
+    same_row = rows[1:] == rows[:-1]
+    rows, ends, starts = rows[:-1][same_row], starts[1:][same_row], starts[:-1][same_row]
+    keep = values[rows, starts] != 0
+    return list(zip(rows[keep].tolist(), starts[keep].tolist(), ends[keep].tolist(), strict=True))
+
+
+def _pen(color: str, width: float) -> QPen:
+    """Return a solid pen with square ends and sharp corners."""
+    return QPen(
+        QColor(color), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.SquareCap, Qt.PenJoinStyle.MiterJoin
+    )

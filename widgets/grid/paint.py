@@ -1,0 +1,320 @@
+"""How the cells of a pixel grid are painted: colour, then lines, centres, numbers as zoom grows."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QRegion
+
+from widgets.basics.mark_patterns import cell_tile
+from widgets.basics.theme import Theme, text_font
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.overlay import Mark
+from widgets.grid.overlay_paint import paint_pattern
+from widgets.grid.sample_dots import SampleDots, between_samples, has_room
+from widgets.grid.view import GridPlacement
+
+LINE_CELL = 6.0
+"""Side of a cell in logical pixels from which grid lines are drawn."""
+CENTRE_CELL = 12.0
+"""Side from which sample centres are drawn."""
+NUMBER_CELL = 40.0
+"""Side from which values are written into the cells, if they fit."""
+_GAP = 5.0
+"""Between the sample centre and the value below it, which else would read as an i."""
+TALLNESS = 0.8
+"""Height of digits as a part of the size of their type, with the room that they need between dots."""
+_LEAST_CHARACTERS = 6
+"""Values are written only where so many digits fit."""
+
+
+def paint_image(painter: QPainter, placement: GridPlacement, image: QImage) -> None:
+    """Paint the visible cells of the buffer's picture, each cell one plain square."""
+    column0, row0, column1, row1 = placement.visible_cells()
+    if column1 <= column0 or row1 <= row0:
+        return
+    target = placement.cells_rect(column0, row0, column1 - column0, row1 - row0)
+    source = QRectF(column0, placement.rows - row1, column1 - column0, row1 - row0)
+    painter.save()
+    # Below one screen pixel a cell, averaging tells more than picking some cells and losing others.
+    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, placement.cell < 1)
+    painter.drawImage(target, image, source)
+    painter.restore()
+
+
+def paint_lines(
+    painter: QPainter,
+    placement: GridPlacement,
+    theme: Theme,
+    has_centres: bool,
+) -> None:
+    """Paint grid lines, and with ``has_centres`` the pixels' centres, where the cells are large enough."""
+    raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
+    shown = raster.intersected(QRectF(placement.viewport))
+    cell = placement.cell
+    if cell >= LINE_CELL:
+        strength = min(0.25 + 0.02 * (cell - LINE_CELL), 0.6)
+        ratio = painter.device().devicePixelRatioF()
+        has_centre = has_centres and cell >= CENTRE_CELL
+        painter.save()
+        painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
+        painter.fillRect(shown, QBrush(cell_tile(cell, round(strength, 2), has_centre, theme, ratio)))
+        painter.restore()
+
+
+def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> None:
+    """Paint a thin line around the raster, so that it ends visibly whatever its colours are."""
+    raster = placement.cells_rect(0, 0, placement.columns, placement.rows)
+    painter.save()
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(theme.grid_line), 1.0))
+    painter.drawRect(raster.adjusted(-0.5, -0.5, 0.5, 0.5))
+    painter.restore()
+
+
+def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> None:
+    """Paint a fine checker over NaN pixels."""
+    if buffer.values.dtype.kind == "f" and placement.cell >= LINE_CELL:
+        is_nan = np.isnan(buffer.values)
+        is_nan = is_nan.any(axis=2) if is_nan.ndim == 3 else is_nan
+        if buffer.known is not None:
+            is_nan = is_nan & buffer.known
+        if is_nan.any():
+            paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
+
+
+def has_numbers(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> bool:
+    """Return whether the values are written into the cells at this zoom."""
+    return buffer.kind != "bool" and _number_size(placement, buffer, theme, samples) is not None
+
+
+def _number_size(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> int | None:
+    """Return the text size of the values in logical pixels, or None where cells are too small, or full of dots."""
+    cell, least = placement.cell, round(0.73 * theme.small_px)
+    room = (cell - 6) / (1.25 * buffer.channels)
+    if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
+        return None
+    size = max(int(min(cell / 5.2, room, theme.text_px)), least)
+    if samples is not None and has_room(placement, samples):
+        _, free = between_samples(placement, samples)
+        size = min(size, int(free / (TALLNESS * buffer.channels)))
+        if size < least:
+            return None
+    return size if _characters(cell, size, theme) >= _LEAST_CHARACTERS else None
+
+
+def _characters(cell: float, size: int, theme: Theme) -> int:
+    """Return how many digits of a text size fit side by side into a cell."""
+    return int((cell - 5) / QFontMetricsF(text_font(theme, size)).horizontalAdvance("0"))
+
+
+def _stands_below(placement: GridPlacement, lines: int, height: float) -> bool:
+    """Return whether so many lines of text fit below the sample centre of a cell."""
+    return placement.cell / 2 - _GAP - 3 >= height * lines
+
+
+def paint_numbers(
+    painter: QPainter,
+    placement: GridPlacement,
+    buffer: GridBuffer,
+    image: QImage,
+    theme: Theme,
+    cells: tuple[int, int, int, int],
+    hidden: NDArray[np.bool_] | None,
+    samples: SampleDots | None = None,
+) -> None:
+    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better.
+
+    They stand clear of the sample in the middle, or of several ``samples`` where there is room between them.
+    """
+    size = _number_size(placement, buffer, theme, samples)
+    if size is None or buffer.kind == "bool":
+        return
+    font = text_font(theme, size)
+    metrics = QFontMetricsF(font)
+    height = metrics.height() * 0.95
+    width = _characters(placement.cell, size, theme)
+    has_dots = samples is not None and has_room(placement, samples)
+    below = not has_dots and _stands_below(placement, buffer.channels, height)
+    shift = between_samples(placement, samples)[0] if has_dots and samples is not None else 0.0
+    dark, light = QColor("#000000"), QColor("#ffffff")
+    backdrop = QColor(theme.canvas)
+    is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
+    painter.save()
+    painter.setFont(font)
+    flags = Qt.AlignmentFlag.AlignCenter
+    for row in range(cells[1], cells[3]):
+        for column in range(cells[0], cells[2]):
+            if (hidden is not None and hidden[row, column]) or not buffer.is_known(column, row):
+                continue
+            color = image.pixelColor(column, placement.rows - 1 - row)
+            painter.setPen(dark if _is_light(color, backdrop) else light)
+            rect = placement.cells_rect(column, row)
+            lines = buffer.lines_at(column, row, 4, width)
+            if is_nan is not None and is_nan[row, column].any():
+                chip = QRectF(0, 0, placement.cell * 0.8, height * len(lines) + 2)
+                chip.moveCenter(rect.center() + QPointF(0, _GAP + height * len(lines) / 2 if below else 0))
+                painter.fillRect(chip, QColor(theme.nan_light))
+                painter.setPen(dark)
+            # Below the sample centre if there is room, or between samples, so that both can be read.
+            top = rect.center().y() + (_GAP if below else shift - height * len(lines) / 2)
+            for index, line in enumerate(lines):
+                box = QRectF(rect.left(), top + index * height, rect.width(), height)
+                painter.drawText(box, flags, line)
+    painter.restore()
+
+
+def _is_light(color: QColor, backdrop: QColor) -> bool:
+    """Return whether black text is seen better than white on a colour that lies on a backdrop."""
+    alpha = color.alphaF()
+    channels = (
+        (color.redF(), backdrop.redF()),
+        (color.greenF(), backdrop.greenF()),
+        (color.blueF(), backdrop.blueF()),
+    )
+    red, green, blue = ((alpha * top + (1 - alpha) * below) ** 2.2 for top, below in channels)
+    return bool(0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18)
+
+
+def paint_hidden(
+    painter: QPainter, placement: GridPlacement, hidden: NDArray[np.bool_], theme: Theme
+) -> None:
+    """Cover the cells of an (H, W) mask; a question mark says that something is to be found out there."""
+    column0, row0, column1, row1 = placement.visible_cells()
+    rows, columns = np.nonzero(hidden[row0:row1, column0:column1])
+    cell = placement.cell
+    painter.save()
+    painter.setFont(text_font(theme, int(min(max(cell * 0.5, 9), 2 * theme.text_px))))
+    inset = 1.0 if cell >= LINE_CELL else 0.0
+    rects = [
+        placement.cells_rect(column + column0, row + row0)
+        for row, column in zip(rows.tolist(), columns.tolist(), strict=True)
+    ]
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(theme.hidden))
+    painter.drawRects([rect.adjusted(inset, 0, 0, -inset) for rect in rects])
+    if cell >= 14:
+        painter.setPen(QColor(theme.text))
+        for rect in rects:
+            painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, "?")
+    painter.restore()
+
+
+def centres_are_free(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
+    """Return whether no number is written over the sample centres."""
+    size = _number_size(placement, buffer, theme)
+    if size is None or buffer.kind == "bool":
+        return True
+    return _stands_below(placement, buffer.channels, QFontMetricsF(text_font(theme, size)).height() * 0.95)
+
+
+def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
+    """Return the width of the ruler of rows and the height of the ruler of columns in logical pixels."""
+    metrics = QFontMetricsF(text_font(theme, theme.small_px))
+    return int(metrics.horizontalAdvance("0" * max(len(str(rows - 1)), 2)) + 12), int(metrics.height() + 6)
+
+
+def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
+    """Write column numbers below and row numbers left of the viewport, as many as have room."""
+    painter.save()
+    painter.setFont(text_font(theme, theme.small_px))
+    painter.setPen(QColor(theme.muted_text))
+    for box, number in ruler_labels(placement, area, theme):
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, number)
+    painter.restore()
+
+
+def beside_rulers(placement: GridPlacement, area: QRect, theme: Theme) -> QRegion:
+    """Return the viewport without the numbers of the rulers, which no line may cross.
+
+    They stand at the raster; where it does not fill the viewport, outlines that leave it come upon them.
+    """
+    region = QRegion(placement.viewport)
+    for box, _ in ruler_labels(placement, area, theme):
+        region -= QRegion(box.toAlignedRect())
+    return region
+
+
+def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tuple[QRectF, str]]:
+    """Return the boxes and texts of the rulers' numbers, in widget pixels."""
+    metrics = QFontMetricsF(text_font(theme, theme.small_px))
+    column0, row0, column1, row1 = placement.visible_cells()
+    viewport = placement.viewport
+    first_column, first_row = placement.origin
+    widest = metrics.horizontalAdvance(str(first_column + placement.columns - 1))
+    every_column = _ruler_step(placement.cell, widest + 8)
+    every_row = _ruler_step(placement.cell, metrics.height() + 2)
+    labels = []
+    for column in _ruler_numbers(column0, column1, first_column, every_column):
+        x = placement.cells_rect(column, 0).center().x()
+        if viewport.left() <= x <= viewport.right():
+            labels.append((_below(placement, area, x, widest + 4), str(column + first_column)))
+    for row in _ruler_numbers(row0, row1, first_row, every_row):
+        y = placement.cells_rect(0, row).center().y()
+        if viewport.top() <= y <= viewport.bottom():
+            labels.append((_beside(placement, area, y, metrics.height()), str(row + first_row)))
+    return labels
+
+
+def _ruler_numbers(first: int, end: int, origin: int, step: int) -> range:
+    """Return the cells from ``first`` to ``end`` whose number, counted from ``origin``, is a multiple of ``step``."""
+    return range(-(-(first + origin) // step) * step - origin, end, step)
+
+
+def paint_ruler_pixel(
+    painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme, pixel: tuple[int, int]
+) -> None:
+    """Write the column and row of one pixel so that they stand out on the rulers."""
+    painter.save()
+    font = text_font(theme, theme.small_px)
+    font.setBold(True)
+    painter.setFont(font)
+    middle = placement.cells_rect(*pixel).center()
+    metrics = QFontMetricsF(font)
+    number_x, number_y = pixel[0] + placement.origin[0], pixel[1] + placement.origin[1]
+    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(str(number_x)) + 8)
+    beside = _beside(placement, area, middle.y(), metrics.height() + 2)
+    viewport = placement.viewport
+    for box, number, is_shown in (
+        (below.adjusted(0, 2, 0, -2), number_x, viewport.left() <= middle.x() <= viewport.right()),
+        (beside.adjusted(2, 0, -2, 0), number_y, viewport.top() <= middle.y() <= viewport.bottom()),
+    ):
+        if is_shown:
+            painter.fillRect(box, QColor(theme.text))
+            painter.setPen(QColor(theme.panel))
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(number))
+    painter.restore()
+
+
+def ruler_areas(placement: GridPlacement, area: QRect) -> tuple[QRect, QRect]:
+    """Return the parts of a widget that the rulers of columns and of rows may write into."""
+    below = _below(placement, area, area.center().x(), area.width())
+    beside = _beside(placement, area, area.center().y(), area.height())
+    return below.toAlignedRect(), beside.toAlignedRect()
+
+
+def _below(placement: GridPlacement, area: QRect, x: float, width: float) -> QRectF:
+    """Return the box of a column number centred at widget ``x``: under the raster or the viewport."""
+    height = area.bottom() - placement.viewport.bottom()
+    top = min(placement.bottom + 1, placement.viewport.bottom() + 1)
+    return QRectF(x - width / 2, top, width, height)
+
+
+def _beside(placement: GridPlacement, area: QRect, y: float, height: float) -> QRectF:
+    """Return the box of a row number centred at widget ``y``: left of the raster or the viewport."""
+    width = placement.viewport.left() - area.left()
+    left = max(placement.left - 1 - width, area.left())
+    return QRectF(left, y - height / 2, width, height)
+
+
+def _ruler_step(cell: float, space: float) -> int:
+    """Return every how many cells a number has room: 1, 2, 5, 10, 20, 50, ..."""
+    step = 1
+    while True:
+        for factor in (1, 2, 5):
+            if step * factor * cell >= space:
+                return step * factor
+        step *= 10

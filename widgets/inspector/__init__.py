@@ -1,0 +1,1 @@
+"""The inspector: formula, listing, variables, prediction, and the history of a pixel."""

@@ -1,0 +1,229 @@
+"""A typeset formula with the present numbers under its symbols."""
+
+import math
+import time
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QGuiApplication,
+    QImage,
+    QKeySequence,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from core.explain.latex import plain_text, without_macros
+from core.explain.records import Formula
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.inspector.formula_layout import MARGIN, FormulaSetter, Line, extent
+from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded
+
+__all__ = ["Formula", "FormulaView"]
+
+_SHARED = Typesetter()
+
+
+class FormulaView(QWidget):
+    """Shows a `Formula`; wraps at relations, shrinks what still does not fit, never holds up a step."""
+
+    formula_copied = Signal(str)
+    """The user has copied the formula; the argument says as what (``latex`` or ``png``)."""
+
+    POINT_SIZE_FACTOR = 1.32
+    """Size of a formula relative to the widget's text."""
+    BUDGET_SECONDS = 0.004
+    """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
+    WIDTH_SHARES = (1.2, 1.5, 2.0)
+    """Widths, as shares of the view's, for which lines are broken too where they would shrink at its own."""
+    HURRY_SECONDS = 0.05
+    """Formulas that follow each other faster than this (scrubbing, playing) are typeset only now and then."""
+
+    def __init__(self, parent: QWidget | None = None, typesetter: Typesetter | None = None) -> None:
+        super().__init__(parent)
+        self._typesetter = typesetter or _SHARED
+        self._formula: Formula | None = None
+        self._hint = "The formula of each step appears here."
+        self._shown_at = -math.inf
+        self._lines: tuple[Line, ...] = ()
+        self._catch_up_timer = QTimer(self)
+        self._catch_up_timer.setSingleShot(True)
+        self._catch_up_timer.timeout.connect(self._catch_up)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName("Formula")
+        self.setProperty("role", "panel")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        self._add_action("Copy as LaTeX", QKeySequence(QKeySequence.StandardKey.Copy)).triggered.connect(
+            self.copy_latex
+        )
+        self._add_action("Copy as picture", QKeySequence("Ctrl+Shift+C")).triggered.connect(self.copy_picture)
+        theme_notifier().theme_changed.connect(self._rebuild)
+        self._rebuild()
+
+    @Slot(object)
+    def show_formula(self, formula: Formula | None) -> None:
+        """Show a formula, or the hint for an empty pane."""
+        if formula == self._formula:
+            return
+        self._formula = formula
+        self._rebuild()
+        self._shown_at = time.perf_counter()
+
+    @Slot(str)
+    def show_hint(self, text: str) -> None:
+        """Say this where there is no formula."""
+        if text != self._hint:
+            self._hint = text
+            self.update()
+
+    def is_complete(self) -> bool:
+        """Whether everything shown is typeset (nothing waits for the event loop)."""
+        return not self._catch_up_timer.isActive()
+
+    def to_image(self, scale: float = 4.0) -> QImage:
+        """Return the formula alone on a clear ground, `scale` device pixels to a logical pixel."""
+        width, height = extent(self._lines)
+        image = QImage(
+            max(1, round(width * scale)),
+            max(1, round(height * scale)),
+            QImage.Format.Format_ARGB32_Premultiplied,
+        )
+        image.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(image)
+        painter.scale(scale, scale)
+        self._setter().paint(painter, self._lines)
+        painter.end()
+        return image
+
+    @Slot()
+    def copy_latex(self) -> None:
+        """Put both lines on the clipboard as standard LaTeX."""
+        if self._formula is not None:
+            lines = [without_macros(self._formula.symbolic), without_macros(self._formula.substituted)]
+            QGuiApplication.clipboard().setText(" \\\\\n".join(line for line in lines if line))
+            self.formula_copied.emit("latex")
+
+    @Slot()
+    def copy_picture(self) -> None:
+        """Put the formula on the clipboard as a picture."""
+        if self._formula is not None:
+            QGuiApplication.clipboard().setImage(self.to_image())
+            self.formula_copied.emit("png")
+
+    def hasHeightForWidth(self) -> bool:
+        """Tell the layout that a narrow view needs more lines."""
+        return True
+
+    def heightForWidth(self, width: int) -> int:
+        """Height that shows every line without shrinking."""
+        _, height = extent(self._setter().layout(self._formula, width))
+        return round(height) + 2 * MARGIN
+
+    def sizeHint(self) -> QSize:
+        """Room for the lines at the present width."""
+        width = self.width() if self.width() > 50 else 320
+        return QSize(width, self.heightForWidth(width))
+
+    def minimumSizeHint(self) -> QSize:
+        """Two lines of text."""
+        return QSize(120, round(self.fontMetrics().height() * 2.5))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Wrap anew."""
+        super().resizeEvent(event)
+        self._lines = self._best_lines()
+
+    def _best_lines(self) -> tuple[Line, ...]:
+        """Return the lines that can be read largest: where there is little height, fewer of them, a little smaller."""
+        setter = self._setter()
+        lines = setter.layout(self._formula, self.width())
+        if self._scale(lines) == 1.0:
+            return lines
+        others = [setter.layout(self._formula, round(share * self.width())) for share in self.WIDTH_SHARES]
+        return max((lines, *others), key=self._scale)
+
+    def _scale(self, lines: tuple[Line, ...]) -> float:
+        """Return by how much lines shrink to fit into the view, 1 at most."""
+        width, height = extent(lines)
+        return min(1.0, (self.width() - 2 * MARGIN) / width, (self.height() - 2 * MARGIN) / height)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the lines, or what the pane is for."""
+        del event
+        painter = QPainter(self)
+        if self._formula is None:
+            painter.setPen(QColor(current_theme().muted_text))
+            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            painter.drawText(self.rect().adjusted(8, 0, -8, 0), flags, self._hint)
+            return
+        scale = self._scale(self._lines)
+        painter.translate(MARGIN, MARGIN)
+        painter.scale(scale, scale)
+        self._setter().paint(painter, self._lines)
+        if self.hasFocus():
+            painter.resetTransform()
+            painter.setPen(QColor(current_theme().focus))
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
+    def _add_action(self, text: str, shortcut: QKeySequence) -> QAction:
+        action = QAction(text, self)
+        action.setShortcut(shortcut)
+        action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+        self.addAction(action)
+        return action
+
+    def _size(self) -> float:
+        return round(self.fontInfo().pixelSize() * self.POINT_SIZE_FACTOR, 1)
+
+    def _setter(self) -> FormulaSetter:
+        return FormulaSetter(self._typesetter, self.font(), self._size())
+
+    @Slot()
+    def _rebuild(self) -> None:
+        self._typeset_within(self.BUDGET_SECONDS)
+        self._refresh()
+
+    @Slot()
+    def _catch_up(self) -> None:
+        self._typeset_within(self.BUDGET_SECONDS, is_catching_up=True)
+        self._refresh()
+
+    def _refresh(self) -> None:
+        self._lines = self._best_lines()
+        self._describe()
+        self.updateGeometry()
+        self.update()
+
+    def _typeset_within(self, seconds: float, *, is_catching_up: bool = False) -> None:
+        # Typeset at least one cell a turn, so that a slow machine gets there too.
+        start = time.perf_counter()
+        is_hurried = start - self._shown_at < self.HURRY_SECONDS and not is_catching_up
+        can_start = is_catching_up or (is_typesetter_loaded() and not is_hurried)
+        setter = self._setter()
+        missing = [cell for cell in setter.cells_needed(self._formula) if not setter.is_ready(cell)]
+        while missing and can_start:
+            setter.typeset(missing.pop(0))
+            if time.perf_counter() - start > seconds:
+                break
+        if missing:
+            if not self._catch_up_timer.isActive():
+                self._catch_up_timer.start(round(1000 * self.HURRY_SECONDS) if is_hurried else 0)
+        else:
+            self._catch_up_timer.stop()
+
+    def _describe(self) -> None:
+        if self._formula is None:
+            self.setToolTip("")
+            self.setAccessibleDescription("")
+            return
+        lines = [plain_text(line) for line in (self._formula.symbolic, self._formula.substituted) if line]
+        notes = [f"Shown as plain text: {problem}" for problem in self._setter().problems(self._formula)]
+        self.setAccessibleDescription("; ".join(lines))
+        self.setToolTip("\n".join(lines + notes))

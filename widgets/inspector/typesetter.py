@@ -1,0 +1,110 @@
+"""Typesetting one cell of a formula as SVG, with a cache: a cell costs some 20 ms."""
+
+import math
+import re
+import warnings
+from collections import OrderedDict
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+from PySide6.QtCore import QByteArray, QRectF
+from PySide6.QtSvg import QSvgRenderer
+
+from core.explain.latex import MATRIX_WITH_SCRIPT
+
+
+@dataclass(frozen=True, eq=False)
+class TypesetCell:
+    """One cell ready to draw."""
+
+    box: QRectF
+    """Extent in logical pixels; y = 0 is the baseline and y grows downwards."""
+    renderer: QSvgRenderer | None
+    """Draws the cell; None where it could not be typeset."""
+    problem: str
+    """Why it could not be typeset; empty when it could."""
+
+
+class Typesetter:
+    """Typesets cells and keeps the last ones, as a formula costs some 20 ms and a step may cost 1."""
+
+    def __init__(self, capacity: int = 1024) -> None:
+        self._capacity = capacity
+        self._cells: OrderedDict[tuple[str, str, float], TypesetCell] = OrderedDict()
+
+    def cached(self, latex: str, color: str, size: float) -> TypesetCell | None:
+        """Return the cell if it is at hand; never does any work."""
+        key = (latex, color, size)
+        cell = self._cells.get(key)
+        if cell is not None:
+            self._cells.move_to_end(key)
+        return cell
+
+    def typeset(self, latex: str, color: str, size: float) -> TypesetCell:
+        """Typeset one cell.
+
+        Parameters
+        ----------
+        latex : str
+            What to set, with its colours.
+        color : str
+            ``#rrggbb`` of everything that has no colour of its own.
+        size : float
+            Font size in logical pixels.
+        """
+        cell = self.cached(latex, color, size)
+        if cell is None:
+            cell = _typeset(latex, color, size)
+            self._cells[latex, color, size] = cell
+            if len(self._cells) > self._capacity:
+                self._cells.popitem(last=False)
+        return cell
+
+
+@cache
+def _typesetting() -> ModuleType:
+    """Load the typesetter when the first formula needs it, so that the window opens sooner."""
+    with warnings.catch_warnings():
+        # It opens its font by a call that Python 3.11 and 3.12 call deprecated, and 3.13 does not.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        module = import_module("ziamath.zmath")
+    # Qt draws plain paths only; the newer form defines each glyph once and refers to it.
+    module.config.svg2 = False
+    return module
+
+
+def is_typesetter_loaded() -> bool:
+    """Tell whether typesetting can begin at once; loading takes a fifth of a second, once."""
+    return _typesetting.cache_info().currsize > 0
+
+
+def typesetter_font() -> Path:
+    """Return the file of the typesetter's font without loading the typesetter."""
+    spec = find_spec("ziamath")
+    if spec is None or not spec.submodule_search_locations:
+        raise ModuleNotFoundError("the package ziamath is not installed")
+    return Path(spec.submodule_search_locations[0]) / "fonts" / "STIXTwoMath-Regular.ttf"
+
+
+def _typeset(latex: str, color: str, size: float) -> TypesetCell:
+    guarded = MATRIX_WITH_SCRIPT.sub(r"{\1}", latex)
+    try:
+        drawing = str(_typesetting().Latex(guarded, size=size, color=color, margin=0.5).svg())
+    # The typesetter and its LaTeX reader raise anything, even AssertionError and KeyError, on odd text.
+    except Exception as problem:
+        return TypesetCell(QRectF(), None, _reason(problem))
+    renderer = QSvgRenderer(QByteArray(drawing.encode()))
+    box = renderer.viewBoxF()
+    if not renderer.isValid() or not math.isfinite(box.width()) or box.isEmpty():
+        return TypesetCell(QRectF(), None, "the typeset formula is empty")
+    return TypesetCell(box, renderer, "")
+
+
+def _reason(problem: Exception) -> str:
+    name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(problem).__name__.removesuffix("Error")).lower()
+    detail = str(problem).strip()
+    return f"{name}: {detail}" if detail else f"{name} error"

@@ -1,0 +1,1 @@
+"""The views of a plan: controls, choices, summary."""

@@ -1,0 +1,142 @@
+"""What a plan comes to: the verdict in one line, the numbers under it, and what was seen in the scene."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+
+from widgets.basics.elided_label import ElidedLabel
+from widgets.basics.fold import Fold
+from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.roles import set_role
+from widgets.basics.theme import current_theme, theme_notifier
+
+
+@dataclass(frozen=True)
+class SummaryRecord:
+    """A plan in short."""
+
+    headline: str
+    details: str
+    is_within: bool | None
+    """Whether the tolerance holds; ``None``: it has not been measured yet."""
+    about: str
+    """Which scene, how large, which tolerance."""
+    stale: str
+    """Why this is not of what is open; empty: it is."""
+    findings: str
+    """Rich text."""
+    findings_note: str
+    advice: str
+    """Rich text: how fine the meshes are."""
+    can_draw: bool
+    """Whether there is a difference to be looked at."""
+
+
+class PlanSummary(QWidget):
+    """Shows a `SummaryRecord`; takes no room without one."""
+
+    picture_requested = Signal()
+    """The user wants to see where the whole choice differs from everything on."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setProperty("role", "panel")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setAccessibleName("What the plan comes to")
+        self._record: SummaryRecord | None = None
+        self.mark, self.headline, self.details = QLabel(self), QLabel(self), QLabel(self)
+        self.about, self.stale = ElidedLabel(self), QLabel(self)
+        self.headline.setProperty("role", "title")
+        self.about.setProperty("role", "muted")
+        self.stale.setProperty("role", "bad")
+        for label in (self.headline, self.details, self.stale):
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.picture_button = QPushButton("Difference", self)
+        self.picture_button.setToolTip(
+            "Draw the whole choice beside everything on, and where they differ (D)"
+        )
+        self.picture_button.clicked.connect(self.picture_requested)
+        top = QHBoxLayout()
+        top.setSpacing(8)
+        top.addWidget(self.mark, 0, Qt.AlignmentFlag.AlignTop)
+        top.addWidget(self.headline, 1)
+        top.addWidget(self.picture_button, 0, Qt.AlignmentFlag.AlignTop)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(12, 8, 8, 8)
+        layout.setSpacing(4)
+        layout.addWidget(self.stale)
+        layout.addLayout(top)
+        layout.addWidget(self.details)
+        layout.addWidget(self.about)
+        theme_notifier().theme_changed.connect(self._show_mark)
+        self.show_record(None)
+
+    def show_record(self, record: SummaryRecord | None) -> None:
+        """Show a plan in short, or nothing."""
+        self._record = record
+        self.setVisible(record is not None)
+        if record is None:
+            return
+        for label, text in (
+            (self.headline, record.headline),
+            (self.details, record.details),
+            (self.about, record.about),
+            (self.stale, record.stale),
+        ):
+            label.setText(text)
+        self.stale.setVisible(bool(record.stale))
+        self.details.setVisible(bool(record.details))
+        set_role(self.details, "muted" if record.stale else "")
+        self.picture_button.setEnabled(record.can_draw)
+        self._show_mark()
+
+    def _show_mark(self) -> None:
+        is_within = None if self._record is None else self._record.is_within
+        self.mark.setVisible(is_within is not None)
+        if is_within is not None:
+            side = current_theme().title_px + 2
+            shape = Mark.RIGHT if is_within else Mark.WRONG
+            self.mark.setPixmap(mark_pixmap(shape, side, self.devicePixelRatioF()))
+
+
+class PlanFindings(QScrollArea):
+    """What was seen in the scene and how fine its meshes are, each folded away until it is wanted."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        body = QWidget()
+        self.findings, self.advice = Fold("What was seen", body), Fold("How fine the meshes are", body)
+        self.hint = QLabel(body)
+        self.hint.setWordWrap(True)
+        self.hint.setProperty("role", "muted")
+        self.hint.setContentsMargins(8, 8, 8, 8)
+        layout = QVBoxLayout(body)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        for widget in (self.hint, self.findings, self.advice):
+            layout.addWidget(widget)
+        layout.addStretch(1)
+        self.setWidget(body)
+        self.setWidgetResizable(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName("What was seen in the scene")
+        self.advice.set_open(True)
+        self.show_record(None)
+
+    def show_record(self, record: SummaryRecord | None) -> None:
+        """Show what a plan is made of, or what will stand here."""
+        self.hint.setVisible(record is None)
+        self.hint.setText(
+            "What is seen in the scene stands here: signs of w, layers, depth range, texels, highlights."
+        )
+        for fold in (self.findings, self.advice):
+            fold.setVisible(record is not None)
+        if record is not None:
+            self.findings.show_text(record.findings, record.findings_note)
+            self.advice.show_text(record.advice)
+
+    def toggle_findings(self) -> None:
+        """Open or close what was seen."""
+        self.findings.set_open(not self.findings.is_open)

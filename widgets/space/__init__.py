@@ -1,0 +1,1 @@
+"""Drawings in space and texture space: orbit, pick, drag."""

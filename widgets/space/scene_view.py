@@ -1,0 +1,352 @@
+"""A picture of a scene under the pointer: turn, move, magnify, pick a pixel, drag the vertices in focus."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, QSizeF, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QImage,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.image import display_image
+from widgets.basics.ink import faded, ink_color
+from widgets.basics.label_places import LabelPlaces
+from widgets.basics.theme import Theme, current_theme
+from widgets.space.diagram import Spot
+from widgets.space.frame_corner import FrameCorner, SizeChoice
+from widgets.space.orbit import Orbit
+from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
+from widgets.space.paint import paint_label, paint_spot
+from widgets.space.picture_area import picture_area
+from widgets.space.view_depth import Sight
+
+
+@dataclass(frozen=True, eq=False)
+class SceneHandle:
+    """A vertex of the triangle in focus."""
+
+    index: int
+    """0, 1 or 2: its colour, its name, and what it is told by."""
+    x: float
+    """Fraction of the picture's width, from the left."""
+    y: float
+    """Fraction of the picture's height, from the bottom."""
+
+
+@dataclass(frozen=True, eq=False)
+class SceneMark:
+    """A thin line over the picture, with a mark and a name at its last point."""
+
+    points: NDArray[np.float64] = field(repr=False)
+    """(N, 2) fractions of width and height; NaN interrupts the line."""
+    ink: str = "text"
+    label: str = ""
+    shape: str = "ring"
+    """Mark at the last point: ``ring``, ``disc``, ``cross`` or ``none``."""
+
+    def __post_init__(self) -> None:
+        if self.points.ndim != 2 or self.points.shape[1] != 2:
+            raise ValueError(f"points must be (N, 2), got {self.points.shape}")
+
+
+@dataclass(frozen=True, eq=False)
+class ScenePicture:
+    """A drawn scene."""
+
+    pixels: NDArray[np.uint8] = field(repr=False)
+    """(H, W, 4) sRGB bytes, row 0 at the bottom; alpha is not shown."""
+    handles: tuple[SceneHandle, ...] = ()
+    marks: tuple[SceneMark, ...] = ()
+    labels: tuple[tuple[float, float, str, str], ...] = ()
+    """Fraction across, fraction up, text, ink."""
+    caption: str = ""
+    sight: Sight | None = None
+    """Where the wheel goes; None: to the target of the orbit."""
+
+    def __post_init__(self) -> None:
+        if self.pixels.ndim != 3 or self.pixels.shape[2] != 4 or 0 in self.pixels.shape:
+            raise ValueError(f"pixels must be (H, W, 4) with at least one pixel, got {self.pixels.shape}")
+
+
+class SceneView(OrbitArea):
+    """Shows a :class:`ScenePicture`, and asks for another one when the user turns, moves or magnifies it."""
+
+    picked = Signal(int, int)
+    """Column and row of the picture that was clicked, row 0 at the bottom."""
+    vertex_drag_started = Signal(int)
+    """Vertex 0, 1 or 2 of the triangle in focus."""
+    vertex_dragged = Signal(int, float, float)
+    """Vertex and its new place: fractions of the picture's width and height, y up."""
+    vertex_drag_finished = Signal(int)
+    """Vertex."""
+    vertex_drag_taken_back = Signal(int)
+    """Vertex; the drag ended and is to be as if it had not been."""
+    size_changed = Signal()
+    """The picture should have another size: see :meth:`picture_size`."""
+    size_chosen = Signal(str)
+    """Name of a size that the user has chosen in the corner's menu."""
+    picture_painted = Signal(float)
+    """New pixels are on the screen; when, by ``time.perf_counter``, in seconds."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._picture: ScenePicture | None = None
+        self._image = QImage()
+        self._reduced = QImage()
+        """The picture at the size that it was last painted at, where that is smaller."""
+        self._caption = ""
+        self._origin = (0.0, 0.0)
+        self._fixed_size: tuple[int, int] | None = None
+        self._has_new_pixels = False
+        self._corner = FrameCorner(self)
+        self._corner.size_chosen.connect(self.size_chosen)
+        self.empty_text = "Nothing to show yet"
+        self.setAccessibleName("3D scene")
+
+    def picture(self) -> ScenePicture | None:
+        """Return what is shown."""
+        return self._picture
+
+    def show_picture(self, picture: ScenePicture | None) -> None:
+        """Show a picture; None: the empty text."""
+        before, self._picture = self._picture, picture
+        if picture is None:
+            self._image, self._reduced = QImage(), QImage()
+        elif before is None or before.pixels is not picture.pixels:
+            self._image, self._reduced = display_image(picture.pixels), QImage()
+            self._has_new_pixels = True
+        caption = self.empty_text if picture is None else picture.caption
+        self.setAccessibleDescription(caption)
+        self.update()
+
+    def set_caption(self, caption: str) -> None:
+        """Keep room for a caption that all pictures will have, so that the picture's size does not change."""
+        if caption != self._caption:
+            before = self.picture_size()
+            self._caption = caption
+            self.update()
+            if self.picture_size() != before:
+                self.size_changed.emit()
+
+    def show_figures(self, text: str) -> None:
+        """Show in the corner what the last picture took."""
+        self._corner.show_figures(text)
+
+    def show_sizes(self, choices: Sequence[SizeChoice], chosen: str) -> None:
+        """Offer sizes of the picture in the corner's menu; one of them is chosen."""
+        self._corner.show_sizes(choices, chosen)
+
+    def corner(self) -> FrameCorner:
+        """Return the corner with figures and sizes."""
+        return self._corner
+
+    def fix_picture_size(self, size: tuple[int, int] | None) -> None:
+        """Ask for pictures of this (width, height), whatever the size of the view; None: of the view's own."""
+        if size != self._fixed_size:
+            self._fixed_size = size
+            self.update()
+            self.size_changed.emit()
+
+    def picture_size(self) -> tuple[int, int]:
+        """Return the columns and rows of the picture: the fixed ones, or one pixel for each of the screen."""
+        if self._fixed_size is not None:
+            return self._fixed_size
+        area, ratio = self._room(), self.devicePixelRatioF()
+        return max(round(area.width() * ratio), 1), max(round(area.height() * ratio), 1)
+
+    def pixels_per_point(self) -> float:
+        """Return how many pixels of the picture a logical pixel of the view shows, along one axis."""
+        return self.picture_size()[0] / max(self._space_area().width(), 1.0)
+
+    def paint_to(self, painter: QPainter) -> None:
+        """Paint what is seen, to any device of the widget's size."""
+        theme = current_theme()
+        if self._picture is None:
+            paint_empty(painter, self.rect(), self.empty_text, theme)
+            return
+        area = self._space_area()
+        painter.fillRect(self.rect(), QColor(theme.panel))
+        painter.drawImage(area, self._image_for(area.size() * painter.device().devicePixelRatioF()))
+        painter.save()
+        painter.setClipRect(area)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_over(painter, self._picture, area, theme)
+        painter.restore()
+        paint_caption(painter, self.rect(), self._picture.caption, theme)
+
+    def sizeHint(self) -> QSize:
+        """Return the size that suits the main view."""
+        return QSize(640, 480)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the picture, what is over it, and the focus ring."""
+        painter = QPainter(self)
+        self.paint_to(painter)
+        self._paint_focus_ring(painter)
+        painter.end()
+        if self._has_new_pixels:
+            self._has_new_pixels = False
+            self.picture_painted.emit(perf_counter())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Ask for a picture of the new size."""
+        super().resizeEvent(event)
+        self._place_corner()
+        if self._fixed_size is None:
+            self.size_changed.emit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Offer the sizes of the picture where they are looked for too."""
+        self._corner.open_menu(event.globalPos())
+
+    def _orbit_replaced(self) -> None:
+        """Paint nothing: what is seen changes with the next picture."""
+
+    def _place_corner(self) -> None:
+        margin = current_theme().unit
+        self._corner.move(margin, margin)
+        self._corner.set_most_width(self.width() - 2 * margin)
+
+    def _space_area(self) -> QRectF:
+        """Return where the picture is."""
+        if self._fixed_size is None:
+            return self._room()
+        return picture_area(self._room(), self._fixed_size, self.devicePixelRatioF())
+
+    def _room(self) -> QRectF:
+        """Return the part above the caption."""
+        height = caption_height(self._caption, self.width(), current_theme())
+        return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
+
+    def _image_for(self, room: QSizeF) -> QImage:
+        """Return the picture for so many pixels of the screen: magnified pixels stay squares, others are averaged."""
+        wanted = QSize(round(room.width()), round(room.height()))
+        if wanted.width() >= self._image.width() or wanted.isEmpty():
+            return self._image
+        if self._reduced.size() != wanted:
+            self._reduced = self._image.scaled(
+                wanted, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
+            )
+        return self._reduced
+
+    def _place(self, x: float, y: float) -> QPointF | None:
+        """Return the widget position of fractions of the picture."""
+        area = self._space_area()
+        place = QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
+        return place if abs(place.x()) < 1e7 and abs(place.y()) < 1e7 else None
+
+    def _paint_over(self, painter: QPainter, picture: ScenePicture, area: QRectF, theme: Theme) -> None:
+        """Paint marks, handles and words."""
+        places = LabelPlaces(area.adjusted(2, 2, -2, -2))
+        if self._corner.isVisible():
+            places.take(QRectF(self._corner.geometry()))
+        scale = theme.text_px / 13
+        for handle in picture.handles:
+            place = self._place(handle.x, handle.y)
+            if place is not None:
+                places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
+        radius = self._handle_radius(picture)
+        for mark in picture.marks:
+            self._paint_mark(painter, mark, places, theme)
+        for handle in picture.handles:
+            place = self._place(handle.x, handle.y)
+            if place is not None:
+                ink = f"vertex {handle.index}"
+                spot = Spot(np.zeros(3), ink, radius=radius, handle=handle.index)
+                paint_spot(painter, place, spot, theme, handle.index == self._handle)
+                reach = 8.0 * scale
+                paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
+        for x, y, text, ink in picture.labels:
+            place = self._place(x, y)
+            if place is not None:
+                paint_label(painter, places, place, text, ink, theme, 4.0)
+
+    def _handle_radius(self, picture: ScenePicture) -> float:
+        """Return the radius of handles: smaller where they would cover each other."""
+        places = [self._place(handle.x, handle.y) for handle in picture.handles]
+        known = [place for place in places if place is not None]
+        apart = [QLineF(a, b).length() for k, a in enumerate(known) for b in known[k + 1 :]]
+        return min(max(min(apart, default=15.0) / 3, 2.0), 5.0)
+
+    def _paint_mark(self, painter: QPainter, mark: SceneMark, places: LabelPlaces, theme: Theme) -> None:
+        """Paint a line over the picture, and the mark at its end."""
+        runs: list[list[QPointF]] = [[]]
+        last = None
+        for x, y in mark.points.tolist():
+            last = self._place(x, y)
+            if last is None:
+                runs.append([])
+            else:
+                runs[-1].append(last)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for pen in (
+            QPen(faded(theme.halo(), 0.7), 3.6),
+            QPen(QColor(ink_color(mark.ink, theme)), 1.4 * theme.text_px / 13),
+        ):
+            painter.setPen(pen)
+            for run in runs:
+                if len(run) > 1:
+                    painter.drawPolyline(QPolygonF(run))
+        if last is None:
+            return
+        if mark.shape in ("ring", "disc", "cross"):
+            spot = Spot(np.zeros(3), mark.ink, mark.shape, 4.0)  # type: ignore[arg-type]
+            paint_spot(painter, last, spot, theme, is_held=False)
+            places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
+        if mark.label:
+            paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0)
+
+    def _handle_near(self, position: QPointF) -> int | None:
+        best, reach = None, GRAB_RADIUS
+        if self._picture is None:
+            return None
+        for handle in self._picture.handles:
+            place = self._place(handle.x, handle.y)
+            if place is not None:
+                distance = QLineF(place, position).length()
+                if distance <= reach:
+                    best, reach = handle.index, distance
+        return best
+
+    def _orbit_at(self, position: QPointF) -> Orbit:
+        if self._picture is None or self._picture.sight is None:
+            return self.orbit()
+        area = self._space_area()
+        x, y = (position.x() - area.left()) / area.width(), (area.bottom() - position.y()) / area.height()
+        return self._picture.sight.focused(self.orbit(), x, y)
+
+    def _handle_taken(self, handle: int) -> None:
+        handles = self._picture.handles if self._picture is not None else ()
+        self._origin = next(((h.x, h.y) for h in handles if h.index == handle), (0.5, 0.5))
+        self.vertex_drag_started.emit(handle)
+
+    def _handle_moved(self, handle: int, from_press: QPointF) -> None:
+        area = self._space_area()
+        x = self._origin[0] + from_press.x() / area.width()
+        y = self._origin[1] - from_press.y() / area.height()
+        self.vertex_dragged.emit(handle, x, y)
+
+    def _handle_dropped(self, handle: int, is_taken_back: bool) -> None:
+        (self.vertex_drag_taken_back if is_taken_back else self.vertex_drag_finished).emit(handle)
+
+    def _clicked(self, position: QPointF) -> None:
+        area = self._space_area()
+        if self._picture is None or not area.contains(position):
+            return
+        rows, columns, _ = self._picture.pixels.shape
+        column = int((position.x() - area.left()) * columns / area.width())
+        # A press at y is in the pixel below y, as one at x is in the pixel to the right of x.
+        row = rows - 1 - int((position.y() - area.top()) * rows / area.height())
+        self.picked.emit(min(max(column, 0), columns - 1), min(max(row, 0), rows - 1))

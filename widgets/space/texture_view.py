@@ -1,0 +1,317 @@
+"""A texture under the pointer: pan, magnify, and read texels; footprints of pixels are outlined in it."""
+
+from math import floor
+
+import numpy as np
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QHelpEvent,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
+
+from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.image import buffer_image
+from widgets.basics.key_claim import KeyClaim, is_focus_by_keyboard
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.grid.buffer import GridBuffer
+from widgets.space.texture_paint import TexturePlacement, outside_image, paint_texture
+from widgets.space.texture_picture import TexturePicture
+
+_WHEEL_FACTOR = 1.25
+_KEY_PIXELS = 32.0
+_KEYS = (
+    Qt.Key.Key_Left,
+    Qt.Key.Key_Right,
+    Qt.Key.Key_Up,
+    Qt.Key.Key_Down,
+    Qt.Key.Key_Plus,
+    Qt.Key.Key_Equal,
+    Qt.Key.Key_Minus,
+    Qt.Key.Key_Home,
+)
+LARGEST_TEXEL = 160.0
+"""Largest side of a texel in logical pixels."""
+REDUCED = 1024
+"""A texture with a longer side is drawn from a smaller copy while its texels are smaller than a pixel."""
+FOOTPRINT_ROOM = 3.0
+"""The view of a footprint is so many times as wide as the footprint or its texels."""
+
+
+class TextureView(QWidget):
+    """Shows a :class:`~widgets.space.texture_picture.TexturePicture`.
+
+    Drag: pan. Wheel: magnify about the pointer. Double click: the footprint, and again the whole texture.
+    With the keyboard's focus arrows pan, plus and minus magnify, Home shows the whole texture. A tooltip
+    gives the texel under the pointer in full.
+    """
+
+    view_changed = Signal()
+    """The user has panned or magnified."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._picture: TexturePicture | None = None
+        self._image = QImage()
+        self._reduced = QImage()
+        self._outside = QPixmap()
+        """What is repeated around the texture."""
+        self._middle = (0.0, 0.0)
+        """Texel coordinates in the middle of the view."""
+        self._scale: float | None = None
+        """Logical pixels per texel; None: the whole texture."""
+        self._is_on_footprint = False
+        self._dragged_from: QPointF | None = None
+        self._shows_focus = False
+        self.empty_text = "Nothing to show yet"
+        self._claim = KeyClaim(self, _KEYS)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMouseTracking(True)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(120, 90)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setAccessibleName("Texture space")
+        theme_notifier().theme_changed.connect(self._repaint_all)
+
+    def picture(self) -> TexturePicture | None:
+        """Return what is shown."""
+        return self._picture
+
+    def show_picture(self, picture: TexturePicture | None) -> None:
+        """Show a texture; None: the empty text."""
+        before, self._picture = self._picture, picture
+        is_other = before is None or picture is None or before.pixels is not picture.pixels
+        is_other = is_other or (before is not None and picture is not None and before.wrap != picture.wrap)
+        if is_other:
+            self._make_images()
+            self._scale = None
+            self._is_on_footprint = False
+        elif self._is_on_footprint:
+            self._show_footprint()
+        self.setAccessibleDescription(self.empty_text if picture is None else picture.caption)
+        self.update()
+
+    def fit(self) -> None:
+        """Show the whole texture, as the user's wish."""
+        self._scale, self._is_on_footprint = None, False
+        self._tell()
+
+    def fit_footprint(self) -> None:
+        """Show the first footprint and what it reads, and follow it from pixel to pixel."""
+        self._is_on_footprint = True
+        self._show_footprint()
+        self._tell()
+
+    def placement(self) -> TexturePlacement:
+        """Return where texels stand in the widget now."""
+        area = self._texture_area()
+        width, height = self._picture.size if self._picture is not None else (1, 1)
+        room = min(area.width() / (1.25 * width), area.height() / (1.25 * height))
+        if self._scale is None:
+            scale, (x, y) = room, (width / 2, height / 2)
+        else:
+            scale, (x, y) = min(max(self._scale, room / 16), max(LARGEST_TEXEL, room)), self._middle
+        center = area.center()
+        return TexturePlacement(area, center.x() - x * scale, center.y() + y * scale, scale)
+
+    def texel_at(self, position: QPointF) -> tuple[int, int]:
+        """Return column and row under a widget position, before wrapping."""
+        x, y = self.placement().to_texels(position)
+        return floor(x), floor(y)
+
+    def paint_to(self, painter: QPainter) -> None:
+        """Paint what is seen, to any device of the widget's size."""
+        theme = current_theme()
+        if self._picture is None:
+            paint_empty(painter, self.rect(), self.empty_text, theme)
+            return
+        painter.fillRect(self.rect(), QColor(theme.panel))
+        placement = self.placement()
+        image = self._image if placement.scale >= 1 or self._reduced.isNull() else self._reduced
+        paint_texture(painter, self._picture, image, self._outside, placement, theme)
+        paint_caption(painter, self.rect(), self._picture.caption, theme)
+
+    def sizeHint(self) -> QSize:
+        """Return the size that suits the main view."""
+        return QSize(640, 480)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the texture, the caption and the focus ring."""
+        painter = QPainter(self)
+        self.paint_to(painter)
+        if self.hasFocus() and self._shows_focus:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(current_theme().focus), 2))
+            painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
+        painter.end()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Begin to pan."""
+        if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
+            self._dragged_from = event.position()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Pan."""
+        if self._dragged_from is None:
+            return
+        delta, self._dragged_from = event.position() - self._dragged_from, event.position()
+        self.setCursor(Qt.CursorShape.ClosedHandCursor)
+        self._pan(delta.x(), delta.y())
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """End panning."""
+        self._dragged_from = None
+        self.unsetCursor()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Show the footprint, and again the whole texture."""
+        if self._is_on_footprint or self._picture is None or not self._picture.footprints:
+            self.fit()
+        else:
+            self.fit_footprint()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Magnify about the pointer."""
+        notches = event.angleDelta().y() / 120.0
+        if notches == 0 or self._picture is None:
+            event.ignore()
+            return
+        self._zoom(_WHEEL_FACTOR**notches, event.position())
+        event.accept()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Pan, magnify, or show the whole texture."""
+        steps = {
+            Qt.Key.Key_Left: (_KEY_PIXELS, 0.0),
+            Qt.Key.Key_Right: (-_KEY_PIXELS, 0.0),
+            Qt.Key.Key_Up: (0.0, _KEY_PIXELS),
+            Qt.Key.Key_Down: (0.0, -_KEY_PIXELS),
+        }
+        key = event.key()
+        if key in steps:
+            self._pan(*steps[Qt.Key(key)])
+        elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus):
+            factor = 1 / _WHEEL_FACTOR if key == Qt.Key.Key_Minus else _WHEEL_FACTOR
+            self._zoom(factor, self._texture_area().center())
+        elif key == Qt.Key.Key_Home:
+            self.fit()
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show the focus ring unless the focus came by a click."""
+        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Take the focus ring away."""
+        super().focusOutEvent(event)
+        self.update()
+
+    def event(self, event: QEvent) -> bool:
+        """Show the texel under the pointer as a tooltip."""
+        if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
+            text = self._texel_text(QPointF(event.pos()))
+            if text:
+                QToolTip.showText(event.globalPos(), text)
+            else:
+                QToolTip.hideText()
+            return True
+        return super().event(event)
+
+    def _texel_text(self, position: QPointF) -> str:
+        """Return place and colour of the texel at a widget position; empty outside of the texture."""
+        if self._picture is None:
+            return ""
+        column, row = self.texel_at(position)
+        width, height = self._picture.size
+        if not (0 <= column < width and 0 <= row < height):
+            return ""
+        x, y = self.placement().to_texels(position)
+        buffer = GridBuffer("texture", self._picture.pixels, "color")
+        return (
+            f"Texel ({column}, {row}), u = {x / width:.4g}, v = {y / height:.4g}\n"
+            f"{buffer.text_at(column, row, digits=0)}, linear"
+        )
+
+    def _texture_area(self) -> QRectF:
+        """Return the part above the caption."""
+        caption = self._picture.caption if self._picture is not None else ""
+        height = caption_height(caption, self.width(), current_theme())
+        return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
+
+    def _pan(self, right: float, down: float) -> None:
+        placement = self.placement()
+        center = placement.area.center()
+        x, y = placement.to_texels(center - QPointF(right, down))
+        self._take(x, y, placement.scale)
+
+    def _zoom(self, factor: float, position: QPointF) -> None:
+        placement = self.placement()
+        x, y = placement.to_texels(position)
+        self._take(x, y, placement.scale * factor)
+        # What is under the pointer stays there, at the scale that was possible.
+        scale, center = self.placement().scale, placement.area.center()
+        self._middle = (
+            x - (position.x() - center.x()) / scale,
+            y + (position.y() - center.y()) / scale,
+        )
+
+    def _take(self, x: float, y: float, scale: float) -> None:
+        """Take over a view that the user chose."""
+        self._middle, self._scale, self._is_on_footprint = (x, y), scale, False
+        self._tell()
+
+    def _tell(self) -> None:
+        self.update()
+        self.view_changed.emit()
+
+    def _show_footprint(self) -> None:
+        """Show the first footprint with the texels it reads."""
+        if self._picture is None or not self._picture.footprints:
+            self._scale = None
+            return
+        footprint = self._picture.footprints[0]
+        points = np.concatenate(
+            [footprint.corners, footprint.center[None], footprint.reads, footprint.reads + 1.0]
+        )
+        points = points[np.isfinite(points).all(axis=1)]
+        if not len(points):
+            self._scale = None
+            return
+        low, high = points.min(axis=0), points.max(axis=0)
+        area = self._texture_area()
+        span = np.maximum(high - low, 1.0) * FOOTPRINT_ROOM
+        self._scale = float(min(area.width() / span[0], area.height() / span[1]))
+        x, y = ((low + high) / 2).tolist()
+        self._middle = (x, y)
+
+    def _make_images(self) -> None:
+        self._image, self._reduced = QImage(), QImage()
+        if self._picture is None:
+            return
+        self._image = buffer_image(GridBuffer("texture", self._picture.pixels, "color"), current_theme())
+        if max(self._image.width(), self._image.height()) > REDUCED:
+            self._reduced = self._image.scaled(
+                REDUCED,
+                REDUCED,
+                Qt.AspectRatioMode.KeepAspectRatio,
+                Qt.TransformationMode.SmoothTransformation,
+            )
+        around = self._image if self._reduced.isNull() else self._reduced
+        self._outside = QPixmap.fromImage(outside_image(around, self._picture.wrap))
+
+    def _repaint_all(self) -> None:
+        """Paint everything again with the present theme."""
+        self._make_images()
+        self.update()

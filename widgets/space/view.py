@@ -1,0 +1,139 @@
+"""A drawing in space under the pointer: turn, move, magnify, and drag the points that can be dragged."""
+
+import numpy as np
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.theme import current_theme
+from widgets.space.diagram import Diagram
+from widgets.space.orbit import Orbit, framed
+from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
+from widgets.space.paint import Projection, paint_diagram, projection_of
+
+
+class SpaceView(OrbitArea):
+    """Shows a :class:`~widgets.space.diagram.Diagram` along parallel lines.
+
+    The first diagram, and one that covers another part of the space, is shown as a whole until the user has
+    turned or moved it.
+    """
+
+    point_dragged = Signal(int, object)
+    """Handle and its new position, (3,) float64, in the plane through the old one that faces the viewer."""
+    point_drag_finished = Signal(int)
+    """Handle."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._diagram: Diagram | None = None
+        self._origin = np.zeros(3)
+        self._is_own_view = False
+        """Whether the user has chosen the view."""
+        self.empty_text = "Nothing to show yet"
+        self.setAccessibleName("Drawing in space")
+        self.view_changed.connect(self._keep_view)
+
+    def diagram(self) -> Diagram | None:
+        """Return the drawing that is shown."""
+        return self._diagram
+
+    def show_diagram(self, diagram: Diagram | None) -> None:
+        """Show a drawing; None: the empty text."""
+        self._diagram = diagram
+        self.setAccessibleDescription(self.empty_text if diagram is None else diagram.caption)
+        if diagram is not None:
+            self._refit()
+        self.update()
+
+    def show_home(self) -> None:
+        """Look from where the drawing is first seen, as if the user had never turned it; emits nothing."""
+        self._is_own_view = False
+        self._refit()
+
+    def fit(self) -> None:
+        """Show the whole drawing from the present direction, as the user's wish."""
+        if self._diagram is not None:
+            area = self._space_area()
+            self._change(framed(self._orbit, self._diagram.frame, area.width() / max(area.height(), 1.0)))
+
+    def projection(self) -> Projection:
+        """Return how the space is mapped to the widget."""
+        return projection_of(self._orbit, self._space_area())
+
+    def paint_to(self, painter: QPainter) -> None:
+        """Paint the drawing as it is seen, as vectors, for an SVG of the widget's size."""
+        theme = current_theme()
+        if self._diagram is None:
+            paint_empty(painter, self.rect(), self.empty_text, theme)
+            return
+        painter.fillRect(self.rect(), QColor(theme.panel))
+        paint_diagram(painter, self._diagram, self.projection(), self._space_area(), theme, self._handle)
+        paint_caption(painter, self.rect(), self._diagram.caption, theme)
+
+    def sizeHint(self) -> QSize:
+        """Return the size that suits the main view."""
+        return QSize(640, 480)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the drawing, its caption and the focus ring."""
+        painter = QPainter(self)
+        self.paint_to(painter)
+        self._paint_focus_ring(painter)
+        painter.end()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the whole drawing in view."""
+        super().resizeEvent(event)
+        self._refit()
+
+    def _space_area(self) -> QRectF:
+        """Return the part above the caption."""
+        caption = self._diagram.caption if self._diagram is not None else ""
+        height = caption_height(caption, self.width(), current_theme())
+        return QRectF(self.rect()).adjusted(0, 0, 0, -min(height, 0.6 * self.height()))
+
+    def _refit(self) -> None:
+        if self._diagram is None:
+            return
+        area = self._space_area()
+        first = Orbit(self._diagram.azimuth, self._diagram.elevation)
+        aspect = area.width() / max(area.height(), 1.0)
+        home = framed(first, self._diagram.frame, aspect)
+        self.set_home(home)
+        if not self._is_own_view:
+            self.set_orbit(home)
+
+    def _keep_view(self, orbit: Orbit) -> None:
+        """Leave a view that the user has chosen as it is."""
+        self._is_own_view = orbit != self._home
+
+    def _handle_near(self, position: QPointF) -> int | None:
+        best, reach = None, GRAB_RADIUS
+        if self._diagram is None:
+            return None
+        projection = self.projection()
+        for spot in self._diagram.spots:
+            place = projection.place(spot.point) if spot.handle is not None else None
+            if place is not None:
+                distance = QLineF(place, position).length()
+                if distance <= reach:
+                    best, reach = spot.handle, distance
+        return best
+
+    def _handle_taken(self, handle: int) -> None:
+        spot = self._diagram.spot_of(handle) if self._diagram is not None else None
+        if spot is not None:
+            self._origin = spot.point
+
+    def _handle_moved(self, handle: int, from_press: QPointF) -> None:
+        projection = self.projection()
+        right, up, _ = projection.axes
+        moved = self._origin + (right * from_press.x() - up * from_press.y()) / projection.scale
+        self.point_dragged.emit(handle, moved)
+
+    def _handle_dropped(self, handle: int, is_taken_back: bool) -> None:
+        if is_taken_back:
+            self.point_dragged.emit(handle, self._origin)
+        self.point_drag_finished.emit(handle)

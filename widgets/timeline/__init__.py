@@ -1,0 +1,1 @@
+"""The timeline of steps and the rail of stages."""

@@ -1,0 +1,86 @@
+"""What a stage gets, gives and is for, and which lecture it is from."""
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+
+from core.explain.records import StageCard
+from widgets.basics.roles import set_role
+
+
+class StageCardView(QWidget):
+    """Shows a `StageCard`; the title line folds it away."""
+
+    card_folded = Signal(bool)
+    """The user has folded (True) or opened (False) the card."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setProperty("role", "panel")
+        self._is_folded = False
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.fold_button = QToolButton(self)
+        self.fold_button.setProperty("flat", True)
+        self.fold_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
+        self.fold_button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.fold_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.fold_button.setToolTip("Show or hide what this stage gets, gives and is for")
+        font = self.fold_button.font()
+        font.setBold(True)
+        self.fold_button.setFont(font)
+        self.fold_button.clicked.connect(self._fold)
+        self._body = QWidget(self)
+        grid = QGridLayout(self._body)
+        grid.setContentsMargins(8, 0, 8, 8)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(4)
+        grid.setColumnStretch(1, 1)
+        self._labels: list[QLabel] = []
+        self._texts: list[QLabel] = []
+        for row, name in enumerate(("For", "Gets", "Gives", "Source")):
+            label = QLabel(name, self._body)
+            label.setProperty("role", "muted")
+            text = QLabel(self._body)
+            text.setWordWrap(True)
+            text.setAccessibleName(name)
+            text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(text, row, 1)
+            self._labels.append(label)
+            self._texts.append(text)
+        self._texts[3].setProperty("role", "muted")
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.fold_button)
+        layout.addWidget(self._body)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        self.show_card(None)
+
+    @Slot(object)
+    def show_card(self, card: StageCard | None) -> None:
+        """Show the card of a stage, or the hint for an empty pane."""
+        self.fold_button.setText(card.title if card else "Stage card")
+        hint = "Choose a stage in the rail above: this card says what it gets, gives and is for."
+        texts = (card.purpose, card.gets, card.gives, card.source) if card else (hint, "", "", "")
+        set_role(self._texts[0], "" if card else "muted")
+        for label, view, text in zip(self._labels, self._texts, texts, strict=True):
+            view.setText(text)
+            view.setVisible(bool(text))
+            label.setVisible(bool(text) and card is not None)
+
+    @Slot(bool)
+    def show_folded(self, is_folded: bool) -> None:
+        """Fold the card away or open it."""
+        self._is_folded = is_folded
+        self.fold_button.setArrowType(Qt.ArrowType.RightArrow if is_folded else Qt.ArrowType.DownArrow)
+        self._body.setVisible(not is_folded)
+
+    def is_folded(self) -> bool:
+        """Tell whether only the title line is shown."""
+        return self._is_folded
+
+    @Slot()
+    def _fold(self) -> None:
+        self.show_folded(not self._is_folded)
+        self.card_folded.emit(self._is_folded)
