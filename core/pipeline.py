@@ -15,7 +15,7 @@ from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
 from core.raster.edges.edge_functions import EdgeFunctions
-from core.raster.fills.tested import suited_fill
+from core.raster.fills.tested import effective_fill
 from core.raster.lines.wireframe import (
     LineFragments,
     draw_outlines,
@@ -109,7 +109,7 @@ def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[
     boxes = bound(edges, raster)
     if table.get("polygon_mode", settings.polygon_mode).function():
         return boxes, rows_of(boxes, np.empty(0, np.int64))
-    fill = table.get("fill", suited_fill(settings.fill, settings.coverage)).function
+    fill = table.get("fill", effective_fill(settings.fill, settings.coverage)).function
     return boxes, fill(edges, boxes, raster, settings.block_size)
 
 
@@ -155,7 +155,7 @@ def covered(
     """Yield the covered pixels of the ``chosen`` (C,) primitives, or all, a few million looked-at pixels at a time."""
     count = counts["bin"]
     counts["raster"].note = (
-        "" if suited_fill(settings.fill, settings.coverage) == settings.fill else settings.fill
+        "" if effective_fill(settings.fill, settings.coverage) == settings.fill else settings.fill
     )
     with timed(count):
         edges = geometry.edges if chosen is None else geometry.edges.take(chosen)

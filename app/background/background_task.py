@@ -32,7 +32,7 @@ class ShowsProgress(Protocol):
         """Show how far it is; ``None``: nothing is being done."""
 
 
-class AskedWork(QObject):
+class BackgroundTask(QObject):
     """Follows one job: what came before stays, and comes back unless a result takes its place."""
 
     message_sent = Signal(str)
@@ -124,7 +124,7 @@ class WorkChoice(Protocol):
 Choice = TypeVar("Choice", bound=WorkChoice)
 
 
-class ListedWork(AskedWork, Generic[Choice]):
+class ListedWork(BackgroundTask, Generic[Choice]):
     """Work of several kinds, in a list: the choices and results of all are kept, those of one are shown."""
 
     shown_text_changed = Signal(str)

@@ -122,7 +122,7 @@ class Job(QObject):
         self._retired = [worker for worker in self._retired if worker.isRunning()]
 
 
-class Desk(QObject):
+class JobGroup(QObject):
     """The jobs of a page: each does at most one piece of work at a time, and the newest counts."""
 
     def __init__(self, parent: QObject | None = None) -> None:

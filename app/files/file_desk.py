@@ -24,7 +24,7 @@ from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 
-class FileDesk(QObject):
+class FileActions(QObject):
     """Opens off the GUI thread; saves and exports at once."""
 
     message_sent = Signal(object)

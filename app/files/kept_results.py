@@ -12,7 +12,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QStandardPaths, Signal, Slot
 
-from app.background.workers import Desk, Progress
+from app.background.workers import JobGroup, Progress
 from app.files.file_writing import FileWriteError, make_folder, whole_file
 from app.window.preferences import FOLDER_VARIABLE
 
@@ -42,7 +42,7 @@ def results_folder() -> Path:
     return Path(folder) / "rasterscope" / "results"
 
 
-class KeptResults(Desk):
+class KeptResults(JobGroup):
     """Writes results and reads them again, off the GUI thread; does nothing before it has begun."""
 
     found = Signal(object)

@@ -39,7 +39,7 @@ FIGURES_MS = 200
 """Figures change at most this often: faster, nobody could read them."""
 
 
-class ScenePresenter(QObject):
+class Scene3dPresenter(QObject):
     """Shows the session's scene in a :class:`~widgets.space.scene_view.SceneView`.
 
     Every picture is drawn whole and off the GUI thread. While one is drawn, the user goes on turning; the next one

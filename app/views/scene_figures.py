@@ -9,7 +9,7 @@ from core.records.frame import StageCount
 
 VISIBILITIES: dict[Visibility, str] = {
     "layer": "no depth, since no pixel belongs to two triangles",
-    "words": "depth and triangle number in one word, the least is seen",
+    "packed-depth": "depth and triangle number in one word, the least is seen",
     "stacks": "every fragment in its turn, blended",
     "frame": "through all buffers",
     "supersampled": "a picture of all samples, drawn like any other, then averaged",

@@ -22,7 +22,7 @@ from core.trace import scene_triangle_count
 from widgets.basics.ink import ink_color
 from widgets.basics.theme import Theme
 from widgets.space.orbit import Orbit
-from widgets.space.view_depth import Sight
+from widgets.space.view_depth import ViewDepth
 
 SIGHT_COLUMNS, SIGHT_ROWS = 96, 64
 """Places at which the distance of what is seen is kept."""
@@ -57,7 +57,7 @@ class DrawnScene:
     """(H, W, 4) uint8 sRGB, row 0 at the bottom, with lines."""
     shot: SceneShot
     figures: FrameFigures
-    sight: Sight
+    sight: ViewDepth
 
 
 def view_settings(scene: AnyScene, settings: Settings, are_backs_hidden: bool = False) -> Settings:
@@ -95,7 +95,7 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     of_lines, of_sight = np.split(picture.depth, [len(at_lines)])
     paint_lines(pixels, found, _inverse_w(camera, of_lines), lines, colors)
     distance = np.where(of_sight < SCALE, 1 / _inverse_w(camera, of_sight), np.nan)
-    sight = Sight(shot.orbit, camera.field_of_view, distance.reshape(at_sight.shape))
+    sight = ViewDepth(shot.orbit, camera.field_of_view, distance.reshape(at_sight.shape))
     count, seconds = scene_triangle_count(shot.scene), perf_counter() - begin
     figures = FrameFigures(
         shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden

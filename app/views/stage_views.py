@@ -7,7 +7,7 @@ from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state
 from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
-from app.views.scene3d_presenter import ScenePresenter
+from app.views.scene3d_presenter import Scene3dPresenter
 from app.views.texture_footprint import no_texture_reason, texture_of, texture_pictures
 from core import STAGES
 from widgets.space.scene_view import SceneView
@@ -47,7 +47,7 @@ class StageViews(QObject):
         self._stale = set(self._views)
         self._shown: dict[str, object] = {}
         """What each drawing was made from; the same again is not drawn again."""
-        self._scene_presenter = ScenePresenter(session, self._scene, self)
+        self._scene_presenter = Scene3dPresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
         self._scene_presenter.frame_measured.connect(self.frame_measured)
@@ -64,7 +64,7 @@ class StageViews(QObject):
         return [(name, TITLES[name], widget) for name, widget in self._views.items()]
 
     @property
-    def scene_presenter(self) -> ScenePresenter:
+    def scene_presenter(self) -> Scene3dPresenter:
         """What drives the 3D view."""
         return self._scene_presenter
 

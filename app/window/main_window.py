@@ -10,7 +10,7 @@ from PySide6.QtCore import QByteArray, QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
-from app.files.file_desk import FileDesk
+from app.files.file_desk import FileActions
 from app.files.state_files import EXTENSION, StateFileError, save_state
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
@@ -53,7 +53,7 @@ class MainWindow(QMainWindow):
         self.look = Look(self)
         self.edits = DocumentEdits(self.session, self)
         self.overlays = Overlays(self.page, self.pages, self)
-        self.files = FileDesk(self.page, self.pages, self.messages, self)
+        self.files = FileActions(self.page, self.pages, self.messages, self)
         self.opening = StepOpening(self.session, self.page, self)
         self.setAcceptDrops(True)
         self.setMinimumSize(900, 600)

@@ -16,8 +16,8 @@ cannot be projected, triangles cut by the near or far plane, 1/w or its logarith
 looked at fragment by fragment.
 
 Memory: at most 24 bytes a pixel (40 with four samples), 900 bytes a triangle and 24 MB (26 where some are looked at
-fragment by fragment), of which the words (8 bytes a pixel) and the spans of 16,384 triangles stay in an `Arena` from
-picture to picture (tested).
+fragment by fragment), of which the words (8 bytes a pixel) and the spans of 16,384 triangles stay in `ScratchBuffers`
+from picture to picture (tested).
 """
 
 from core.fast_path.draw import draw_picture

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.fast_path.draw_context import Job, blocks
+from core.fast_path.draw_context import DrawContext, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.record import Split
 from core.framebuffer.blending import blend_stacks
@@ -37,12 +37,12 @@ class Blended(NamedTuple):
     """Pixels that have any of them."""
 
 
-def draw_blended(job: Job, palette: Floats | None) -> Blended:
+def draw_blended(context: DrawContext, palette: Floats | None) -> Blended:
     """Draw every fragment in its turn, one strip of rows after another.
 
     ``palette`` (P, 4) has the colours of triangles of one colour each.
     """
-    geometry, raster = job.geometry, job.raster
+    geometry, raster = context.geometry, context.raster
     first_column, first_row, end_column, end_row = raster.bounds
     columns = end_column - first_column
     rows = strip_height(np.abs(geometry.doubled_area[geometry.is_projected]) / 2, raster.shape)
@@ -50,10 +50,10 @@ def draw_blended(job: Job, palette: Floats | None) -> Blended:
     for row in range(first_row, end_row, rows):
         region = (first_column, row, columns, min(rows, end_row - row))
         at = slice((row - first_row) * columns, (row - first_row + region[3]) * columns)
-        strip = replace(job, raster=replace(raster, region=region), pixels=job.pixels[at])
+        strip = replace(context, raster=replace(raster, region=region), pixels=context.pixels[at])
         color, found = _draw_strip(strip, palette)
-        with job.timed("resolve"):
-            strip.pixels[:] = job.encode(color)
+        with context.timed("resolve"):
+            strip.pixels[:] = context.encode(color)
         fragments, passed, visible = fragments + found[0], passed + found[1], visible + found[2]
     walked = int(np.count_nonzero(geometry.is_projected))
     return Blended(Split(walked, 0, len(geometry.primitives) - walked, fragments), passed, visible)
@@ -69,26 +69,26 @@ def strip_height(areas: Floats, shape: tuple[int, int]) -> int:
     return max(int(rows * STRIP_FRAGMENTS / max(expected, 1)), 1)
 
 
-def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
+def _draw_strip(context: DrawContext, palette: Floats | None) -> tuple[Singles, tuple[int, int, int]]:
     """Return the blended colours of a strip, (h*W, 4) float32, its fragments, those blended, and their pixels."""
-    geometry = job.geometry
-    pixel, primitive = _fragments(job)
+    geometry = context.geometry
+    pixel, primitive = _fragments(context)
     count, passes = len(pixel), None
-    with job.timed("depth"):
-        is_tested = geometry.uses_depth_test or job.depth_format.quantity != "z"
+    with context.timed("depth"):
+        is_tested = geometry.uses_depth_test or context.depth_format.quantity != "z"
         if is_tested or not geometry.is_in_range.all():
-            pixel, primitive, passes = _test_depth(job, pixel, primitive)
+            pixel, primitive, passes = _test_depth(context, pixel, primitive)
         stacks = stacks_of(pixel, np.arange(len(pixel)))
     if palette is not None:
         source, number = np.ascontiguousarray(palette.T).T, primitive
     elif passes is None:
-        source, number = _colors(job, pixel, primitive), np.arange(len(pixel))
+        source, number = _colors(context, pixel, primitive), np.arange(len(pixel))
     else:
-        source, number = _colors(job, pixel[passes], primitive[passes]), np.cumsum(passes) - 1
-    with job.timed("blend"):
-        color = np.empty((len(job.pixels), 4), np.float32)
-        color[:] = job.scene.background
-        rule = table.get("blend", job.settings.blend).function
+        source, number = _colors(context, pixel[passes], primitive[passes]), np.cumsum(passes) - 1
+    with context.timed("blend"):
+        color = np.empty((len(context.pixels), 4), np.float32)
+        color[:] = context.scene.background
+        rule = table.get("blend", context.settings.blend).function
         blend_stacks(color, source, number, stacks, passes, rule)
     if passes is None:
         return color, (count, len(pixel), len(stacks.pixel))
@@ -97,38 +97,40 @@ def _draw_strip(job: Job, palette: Floats | None) -> tuple[Singles, tuple[int, i
     return color, (count, len(blended), visible)
 
 
-def _test_depth(job: Job, pixel: Integers, primitive: Integers) -> tuple[Integers, Integers, Flags]:
+def _test_depth(
+    context: DrawContext, pixel: Integers, primitive: Integers
+) -> tuple[Integers, Integers, Flags]:
     """Return pixel and primitive (F,) of the fragments in depth range, and which of them pass the depth test."""
-    depth_format = job.depth_format
-    fragments = Fragments(primitive, *job.raster.position(pixel))
-    _, keeps, stored = fragment_depth(job.geometry, fragments, job.raster, depth_format)
+    depth_format = context.depth_format
+    fragments = Fragments(primitive, *context.raster.position(pixel))
+    _, keeps, stored = fragment_depth(context.geometry, fragments, context.raster, depth_format)
     if not keeps.all():
         pixel, primitive, stored = pixel[keeps], primitive[keeps], stored[keeps]
     stacks = stacks_of(pixel, np.arange(len(pixel)))
-    cleared = np.full(len(job.pixels), depth_format.cleared, depth_format.stored_type)
-    tests = run_depth_tests(stored, stacks, cleared, depth_format, job.geometry.uses_depth_test)
+    cleared = np.full(len(context.pixels), depth_format.cleared, depth_format.stored_type)
+    tests = run_depth_tests(stored, stacks, cleared, depth_format, context.geometry.uses_depth_test)
     return pixel, primitive, tests.passes
 
 
-def _fragments(job: Job) -> tuple[Integers, Integers]:
+def _fragments(context: DrawContext) -> tuple[Integers, Integers]:
     """Return pixel and primitive (F,) int64 of all fragments, sorted by pixel, then by drawing order."""
-    geometry, raster = job.geometry, job.raster
+    geometry, raster = context.geometry, context.raster
     count = len(geometry.primitives)
     none = np.empty(0, np.int64)
     pixels, primitives = [none], [none]
-    for first, end, lanes in job.walks(geometry.is_projected):
-        with job.timed("raster"):
-            rows = rows_in_order(lanes, end - first, raster, job.owners, job.arena)
+    for first, end, lanes in context.walks(geometry.is_projected):
+        with context.timed("raster"):
+            rows = rows_in_order(lanes, end - first, raster, context.owners, context.scratch)
             pixel, primitive = pixels_of_rows(rows, raster)
             primitive += first
             pixels.append(pixel)
             primitives.append(primitive)
     rest = np.flatnonzero(~geometry.is_projected)
     if len(rest):
-        for fragments in covered(geometry, job.settings, raster, job.counts, rest):
+        for fragments in covered(geometry, context.settings, raster, context.counts, rest):
             pixels.append(raster.index(fragments.column, fragments.row))
             primitives.append(fragments.primitive)
-    with job.timed("depth"):
+    with context.timed("depth"):
         pixel, primitive = np.concatenate(pixels), np.concatenate(primitives)
         # Spans come in drawing order; what does not is sorted by both, in one number as short as can be.
         bits = max(count - 1, 0).bit_length()
@@ -136,9 +138,9 @@ def _fragments(job: Job) -> tuple[Integers, Integers]:
         return pixel.take(order), primitive.take(order)
 
 
-def _colors(job: Job, pixel: Integers, primitive: Integers) -> Floats:
+def _colors(context: DrawContext, pixel: Integers, primitive: Integers) -> Floats:
     """Return the colours (F, 4) float64 of fragments of primitives (F,) at pixels (F,)."""
-    colors, source = FragmentColors(job), np.empty((4, len(pixel))).T
+    colors, source = FragmentColors(context), np.empty((4, len(pixel))).T
     for part in blocks(len(pixel)):
-        source[part] = colors.at(primitive[part], *job.raster.position(pixel[part]))
+        source[part] = colors.at(primitive[part], *context.raster.position(pixel[part]))
     return source

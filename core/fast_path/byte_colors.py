@@ -21,7 +21,7 @@ from core.fast_path.byte_errors import (
     product_error,
 )
 from core.fast_path.byte_words import FIELDS, unpack
-from core.fast_path.draw_context import Job, Words
+from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.record import Coloring
 from core.framebuffer.display import srgb
 from core.framebuffer.nearest import NearestFragments
@@ -80,7 +80,7 @@ class ByteColors:
         ]
         return integer_planes(self.x, self.y, self.center, fields)
 
-    def block(self, job: Job, triangle: int, strip: Strip) -> Words:
+    def block(self, context: DrawContext, triangle: int, strip: Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a strip: the very bytes of `look_up`."""
         rows, steps, planes = strip.inside, strip.steps, self._planes
         across = planes.across[triangle]
@@ -89,22 +89,22 @@ class ByteColors:
         word = np.add(
             steps.spread(steps.number * across),
             of_row[:, None],
-            out=job.arena("color_block", *shape, dtype=np.int64),
+            out=context.scratch("color_block", *shape, dtype=np.int64),
         )
-        return unpack(word.reshape(-1), job.arena).reshape(word.shape)
+        return unpack(word.reshape(-1), context.scratch).reshape(word.shape)
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         seen_count = 0
         for place, primitive in nearest.seen():
             seen_count += len(place)
-            self.write(job, place, primitive)
+            self.write(context, place, primitive)
         return seen_count
 
-    def write(self, job: Job, place: Integers, primitive: Integers) -> None:
+    def write(self, context: DrawContext, place: Integers, primitive: Integers) -> None:
         """Write the pixels at places (F,) of primitives (F,)."""
-        word = self._planes.at(primitive, *job.raster.position(place))
-        job.pixels[place] = unpack(word, job.arena)
+        word = self._planes.at(primitive, *context.raster.position(place))
+        context.pixels[place] = unpack(word, context.scratch)
 
 
 _last: list[tuple[Floats, str, VertexBytes]] = []
@@ -112,17 +112,17 @@ _last: list[tuple[Floats, str, VertexBytes]] = []
 camera gives the same array again."""
 
 
-def vertex_bytes(job: Job) -> VertexBytes:
+def vertex_bytes(context: DrawContext) -> VertexBytes:
     """Return the lit colours of the vertices."""
-    values, encoding = job.geometry.primitives.values, job.encoding
+    values, encoding = context.geometry.primitives.values, context.encoding
     for rows, of_encoding, known in _last:
         if rows is values.rows and of_encoding == encoding:
-            if known.products and known.most_product == np.inf and _are_of_vertices(job):
-                known = replace(known, most_product=_most_product(job, known))
+            if known.products and known.most_product == np.inf and _are_of_vertices(context):
+                known = replace(known, most_product=_most_product(context, known))
                 _last[:] = [(rows, encoding, known)]
             return known
     mesh = np.zeros(len(values.rows), np.int64)
-    surface = shade_fragments(job.scene, job.settings, values.layout, mesh, values.rows)
+    surface = shade_fragments(context.scene, context.settings, values.layout, mesh, values.rows)
     unbounded = surface.color[:, :3].T
     linear = np.clip(unbounded, 0, 1)
     encoded = np.ascontiguousarray(255 * (srgb(linear) if encoding == "srgb" else linear))
@@ -141,9 +141,9 @@ def vertex_bytes(job: Job) -> VertexBytes:
     return made
 
 
-def _are_of_vertices(job: Job) -> bool:
+def _are_of_vertices(context: DrawContext) -> bool:
     """Tell whether the values belong to the sides of the scene's vertices, all fronts first, then all backs."""
-    geometry = job.geometry
+    geometry = context.geometry
     values, corner = geometry.primitives.values, geometry.vertices.corner_rows
     if geometry.primitives is not geometry.kept or len(values.rows) % len(geometry.vertices.clip):
         return False
@@ -151,27 +151,27 @@ def _are_of_vertices(job: Job) -> bool:
     return np.array_equal(vertex, corner.take(geometry.primitives.triangle, axis=1))
 
 
-def _most_product(job: Job, vertices: VertexBytes) -> float:
+def _most_product(context: DrawContext, vertices: VertexBytes) -> float:
     """Return the largest product error of all sides of all triangles of the scene, drawn or not."""
-    corner, count = job.geometry.vertices.corner_rows, len(job.geometry.vertices.clip)
+    corner, count = context.geometry.vertices.corner_rows, len(context.geometry.vertices.clip)
     most = 0.0
     for first in range(0, vertices.encoded.shape[1], count):
         index = corner + first
         low = np.minimum.reduce([vertices.encoded.take(of, axis=1) for of in index])
-        most = max(most, float(product_error(vertices, index, low, job.encoding).max(initial=0)))
+        most = max(most, float(product_error(vertices, index, low, context.encoding).max(initial=0)))
     return most
 
 
-def byte_colors(job: Job) -> ByteColors | None:
+def byte_colors(context: DrawContext) -> ByteColors | None:
     """Return the colours of all primitives as bytes; ``None`` where they are not those of corners."""
-    geometry, encoding = job.geometry, job.encoding
-    values, interpolation = geometry.primitives.values, job.settings.interpolation
+    geometry, encoding = context.geometry, context.encoding
+    values, interpolation = geometry.primitives.values, context.settings.interpolation
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
-    if not is_lit_at_corners or job.has_texture:
+    if not is_lit_at_corners or context.has_texture:
         return None
     if interpolation == "flat":
         return None
-    vertices = vertex_bytes(job)
+    vertices = vertex_bytes(context)
     count = values.index.shape[1]
     first, second, third = (np.empty((3, count)) for _ in range(3))
     for corner, index in zip((first, second, third), values.index, strict=True):
@@ -199,7 +199,7 @@ def byte_colors(job: Job) -> ByteColors | None:
     steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
     if not steepest < STEEPEST:
         is_near &= np.maximum(np.abs(across), np.abs(up)).max(axis=0) < STEEPEST
-    return _level_where(~is_near, ByteColors(first, across, up, x[0], y[0], job.raster.center, is_near))
+    return _level_where(~is_near, ByteColors(first, across, up, x[0], y[0], context.raster.center, is_near))
 
 
 def _level_where(others: Flags, colors: ByteColors) -> ByteColors:

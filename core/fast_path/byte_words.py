@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from core.numeric.byte_words import FIELDS, OPAQUE, let_meet
-from core.raster.spans.scratch_buffers import Arena
+from core.numeric.byte_words import FIELDS, OPAQUE, pack_pixels
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers
 
 Words = NDArray[np.uint32]
@@ -13,10 +13,10 @@ DRIFT = 2.0**-13
 """Bytes that a value is off at most after one step: half of the last bit of the shortest fraction."""
 
 
-def unpack(word: Integers, arena: Arena) -> Words:
+def unpack(word: Integers, scratch: ScratchBuffers) -> Words:
     """Return words (F,) as opaque pixels (F,) uint32; each has half a byte more, so that cutting off rounds."""
-    pixels: Words = arena("unpacked_pixels", len(word), dtype=np.uint32)
-    let_meet(word.view(np.uint64), arena("unpacked", len(word), dtype=np.uint64), pixels)
+    pixels: Words = scratch("unpacked_pixels", len(word), dtype=np.uint32)
+    pack_pixels(word.view(np.uint64), scratch("unpacked", len(word), dtype=np.uint64), pixels)
     return pixels
 
 

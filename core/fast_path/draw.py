@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.antialiasing.sample_counts import sample_count, side_of
-from core.fast_path.draw_context import Job, Words, encode
+from core.fast_path.draw_context import DrawContext, Words, encode
 from core.fast_path.opaque import draw_opaque
 from core.fast_path.palette import palette
-from core.fast_path.record import Coloring, Passing, Picture, Route
+from core.fast_path.record import Coloring, DepthStatistics, Picture, Route
 from core.methods import table
 from core.numeric.numpy_buffers import short_buffers
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import Raster, make_raster
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers, read_only
 from core.records.frame import STAGES, StageCount
 from core.records.timing import timed
@@ -42,7 +42,7 @@ def draw_picture(
     depth_at: Integers | None = None,
     region: tuple[int, int, int, int] | None = None,
     out: NDArray[np.uint8] | None = None,
-    arena: Arena | None = None,
+    scratch: ScratchBuffers | None = None,
     plain_colors: bool = False,
 ) -> Picture:
     """Draw a scene as the bytes of a screen.
@@ -61,7 +61,7 @@ def draw_picture(
         Pixels of the image that are drawn; the whole image by default.
     out : (H, W, 4) uint8, C-contiguous, optional
         Memory for the pixels.
-    arena : Arena, optional
+    scratch : ScratchBuffers, optional
         Memory to work in; one per thread by default.
     plain_colors : bool
         Attributes and light at every pixel, even where the triangles of the region allow cheaper colours: those of the
@@ -99,7 +99,7 @@ def draw_picture(
         raise ValueError(
             f"depth_at must be places of pixels, 0 to {count - 1}, got {depth_at.min()} to {depth_at.max()}"
         )
-    arena = arena or _memory.__dict__.setdefault("arena", Arena())
+    scratch = scratch or _memory.__dict__.setdefault("scratch", ScratchBuffers())
     counts = {stage: StageCount() for stage in STAGES}
     with timed(counts["resolve"]):
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
@@ -109,22 +109,22 @@ def draw_picture(
         from core.fast_path.supersampled import draw_supersampled
 
         draw_part = partial(draw_picture, plain_colors=plain_colors)
-        return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, arena)
+        return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, scratch)
     depth = None
     if not keeps_depth and _is_multisampled(settings):
         from core.fast_path.multisampled import draw_multisampled
 
-        route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, arena)
+        route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, scratch)
     elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and keeps_depth):
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
     else:
         geometry = process_geometry(scene, settings, counts, raster=raster)
-        job = Job(scene, settings, geometry, raster, encoding, pixels, counts, arena)
+        context = DrawContext(scene, settings, geometry, raster, encoding, pixels, counts, scratch)
         if settings.blend == "opaque":
-            route, depth = draw_opaque(job, with_depth, depth_at, plain_colors)
-            passing = Passing(route.visible, route.visible)
+            route, depth = draw_opaque(context, with_depth, depth_at, plain_colors)
+            passing = DepthStatistics(route.visible, route.visible)
         else:
-            route, passing = _draw_stacks(job)
+            route, passing = _draw_stacks(context)
     _count(counts, route, passing, sample_count(settings) * len(pixels), len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
@@ -166,15 +166,17 @@ def _draw_frame(
     return Picture(_bytes(pixels, raster), depth, frame.statistics, route)
 
 
-def _draw_stacks(job: Job) -> tuple[Route, Passing]:
+def _draw_stacks(context: DrawContext) -> tuple[Route, DepthStatistics]:
     """Draw every fragment in its turn."""
     from core.fast_path.blended import draw_blended
 
-    with job.timed("shade"):
-        of_triangles = palette(job)
-    blended = draw_blended(job, of_triangles)
+    with context.timed("shade"):
+        of_triangles = palette(context)
+    blended = draw_blended(context, of_triangles)
     color: Coloring = "deferred" if of_triangles is None else "palette"
-    return Route("stacks", color, blended.split, blended.visible), Passing(blended.passed, blended.passed)
+    return Route("stacks", color, blended.split, blended.visible), DepthStatistics(
+        blended.passed, blended.passed
+    )
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
@@ -185,7 +187,7 @@ def is_drawn_by_spans(settings: Settings) -> bool:
 
 
 def _count(
-    counts: dict[str, StageCount], route: Route, passing: Passing, sample_count: int, pixel_count: int
+    counts: dict[str, StageCount], route: Route, passing: DepthStatistics, sample_count: int, pixel_count: int
 ) -> None:
     """Note how much each stage took in and gave out; the ends of spans are computed, so no pixel was tested."""
     fragments = route.split.fragments if route.split else 0

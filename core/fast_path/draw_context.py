@@ -13,8 +13,8 @@ from core.framebuffer.display import encode_linear, write_pixels
 from core.methods import table
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import TriangleRows, rows_of_triangles
-from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes, tie_owners
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes, tie_owners
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import StageCount
@@ -43,7 +43,7 @@ def blocks(count: int) -> Iterator[slice]:
 
 
 @dataclass(frozen=True, eq=False)
-class Job:
+class DrawContext:
     """A picture to be drawn."""
 
     scene: AnyScene
@@ -56,11 +56,11 @@ class Job:
     pixels: Words
     """(H*W,) uint32, the picture."""
     counts: dict[str, StageCount]
-    arena: Arena
+    scratch: ScratchBuffers
     mesh_number: int | None = None
     """Of a scene of several meshes, the one whose primitives these are; ``None``: they may be of all."""
 
-    def part(self, chosen: Integers, mesh_number: int | None = None) -> "Job":
+    def part(self, chosen: Integers, mesh_number: int | None = None) -> "DrawContext":
         """Return the same picture of the ``chosen`` (C,) primitives, numbered anew; all of one mesh, if it is given."""
         primitives, area = self.geometry.primitives.take(chosen), self.geometry.doubled_area.take(chosen)
         geometry = replace(self.geometry, primitives=primitives, doubled_area=area)
@@ -103,13 +103,13 @@ class Job:
         """Return the bytes of linear colours (F, 4), a word each."""
         return encode(color, self.encoding)
 
-    def walks(self, chosen: Flags | None = None) -> Iterator[tuple[int, int, Lanes]]:
+    def walks(self, chosen: Flags | None = None) -> Iterator[tuple[int, int, TriangleSetup]]:
         """Yield first and end of primitives that walk together, and the ``chosen`` (P,) ones, or all, side by side."""
         count = len(self.geometry.primitives)
         for first in range(0, count, TOGETHER):
             yield from self._walks(first, min(first + TOGETHER, count), chosen)
 
-    def _walks(self, first: int, end: int, chosen: Flags | None) -> Iterator[tuple[int, int, Lanes]]:
+    def _walks(self, first: int, end: int, chosen: Flags | None) -> Iterator[tuple[int, int, TriangleSetup]]:
         """Yield primitives ``first`` to ``end`` in as many parts as they have too many rows for one."""
         with self.timed("bin"):
             lanes = self._lanes(first, end, chosen)
@@ -121,13 +121,13 @@ class Job:
         for start in range(first, end, part):
             yield from self._walks(start, min(start + part, end), chosen)
 
-    def _lanes(self, first: int, end: int, chosen: Flags | None) -> Lanes:
+    def _lanes(self, first: int, end: int, chosen: Flags | None) -> TriangleSetup:
         at = slice(first, end)
         area = self.geometry.doubled_area[at]
         if chosen is not None:
-            area = np.multiply(area, chosen[at], out=self.arena("chosen_area", end - first))
+            area = np.multiply(area, chosen[at], out=self.scratch("chosen_area", end - first))
         x, y = self.geometry.window_x[:, at], self.geometry.window_y[:, at]
-        return set_up_lanes(x, y, area, self.raster, self.owners, self.arena)
+        return set_up_lanes(x, y, area, self.raster, self.owners, self.scratch)
 
     def rows_of_each(self, chosen: Integers) -> Iterator[tuple[int, TriangleRows]]:
         """Yield every ``chosen`` (C,) primitive, a large one, with its rows: found for many at once, not for all."""
@@ -139,7 +139,7 @@ class Job:
                     of.take(part, axis=-1)
                     for of in (self.geometry.window_x, self.geometry.window_y, self.geometry.doubled_area)
                 )
-                rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.arena)
+                rows = rows_of_triangles(x, y, area, self.raster, self.owners, self.scratch)
             yield from zip(part.tolist(), rows, strict=True)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from core.fast_path.byte_colors import ByteColors
 from core.fast_path.deferred import shade_visible
-from core.fast_path.draw_context import Job, blocks
+from core.fast_path.draw_context import DrawContext, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.record import Coloring
 from core.framebuffer.nearest import READ_AT_ONCE, NearestFragments
@@ -29,14 +29,14 @@ class SomeBytes:
     for_layer: ClassVar[None] = None
     """None: what is seen is coloured by attributes and light, once it is known."""
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
         is_near = self.colors.is_near
         if not is_near.any():
-            return shade_visible(job, nearest)
+            return shade_visible(context, nearest)
         others = np.flatnonzero(~is_near)
         number = np.cumsum(~is_near) - 1
-        plain = FragmentColors(job.part(others))
+        plain = FragmentColors(context.part(others))
         seen_count = 0
         for first in range(0, len(nearest.keys), READ_AT_ONCE):
             place, primitive = nearest.seen_in(slice(first, first + READ_AT_ONCE))
@@ -45,7 +45,7 @@ class SomeBytes:
             near, other = np.flatnonzero(shows_near), np.flatnonzero(~shows_near)
             for part in blocks(len(near)):
                 at = near[part]
-                self.colors.write(job, place.take(at), primitive.take(at))
+                self.colors.write(context, place.take(at), primitive.take(at))
             for part in blocks(len(other)):
                 at = other[part]
                 plain.write(place.take(at), number.take(primitive.take(at)))

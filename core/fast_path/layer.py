@@ -9,7 +9,7 @@ import numpy as np
 
 from core.fast_path.byte_colors import ByteColors
 from core.fast_path.byte_words import unpack
-from core.fast_path.draw_context import Job, Words
+from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.palette import PaletteColors
 from core.fast_path.record import Split
 from core.fast_path.textured import TextureColors
@@ -21,60 +21,62 @@ from core.records.arrays import Flags, Integers
 LayerColors = PaletteColors | ByteColors | TextureColors
 
 
-def draw_layer(job: Job, colors: LayerColors) -> Split | None:
+def draw_layer(context: DrawContext, colors: LayerColors) -> Split | None:
     """Draw all primitives over the background; return which way they went, ``None`` if they overlap.
 
     All corners are projected, and every fragment would pass the depth test; no pixel that ``colors`` give is 0.
     """
-    geometry, pixels = job.geometry, job.pixels
+    geometry, pixels = context.geometry, context.pixels
     is_checked = len(geometry.primitives) > 1
-    with job.timed("resolve"):
-        pixels.fill(0 if is_checked else job.background)
+    with context.timed("resolve"):
+        pixels.fill(0 if is_checked else context.background)
     if isinstance(colors, TextureColors):
         is_big: Flags = np.ones(len(geometry.primitives), bool)
         fragments = 0
     else:
         is_big = np.abs(geometry.doubled_area) > 2 * BIG_AREA
-        fragments = _write_small(job, colors, ~is_big)
+        fragments = _write_small(context, colors, ~is_big)
     big = np.flatnonzero(is_big)
-    fragments += _write_big(job, colors, big)
+    fragments += _write_big(context, colors, big)
     if is_checked:
-        with job.timed("resolve"):
+        with context.timed("resolve"):
             if int(np.count_nonzero(pixels)) != fragments:
                 return None
-            np.copyto(pixels, job.background, where=pixels == 0)
+            np.copyto(pixels, context.background, where=pixels == 0)
     return Split(len(is_big) - len(big), len(big), 0, fragments)
 
 
-def _write_small(job: Job, colors: PaletteColors | ByteColors, chosen: Flags) -> int:
+def _write_small(context: DrawContext, colors: PaletteColors | ByteColors, chosen: Flags) -> int:
     """Write the ``chosen`` (P,) triangles along their spans; return how many pixels they have."""
     if not chosen.any():
         return 0
     fragments = 0
-    with job.timed("interpolate"):
+    with context.timed("interpolate"):
         planes = colors.packed()
-    for first, end, lanes in job.walks(chosen):
-        with job.timed("raster"):
-            spans = word_spans(planes.part(first, end), lanes, job.raster, job.owners, job.arena)
+    for first, end, lanes in context.walks(chosen):
+        with context.timed("raster"):
+            spans = word_spans(
+                planes.part(first, end), lanes, context.raster, context.owners, context.scratch
+            )
             fragments += spans.pixel_count
-        with job.timed("shade"):
+        with context.timed("shade"):
             for k, pixel, word in each_pass(spans):
-                job.pixels[k:][pixel] = unpack(word, job.arena)
+                context.pixels[k:][pixel] = unpack(word, context.scratch)
     return fragments
 
 
-def _write_big(job: Job, colors: LayerColors, chosen: Integers) -> int:
+def _write_big(context: DrawContext, colors: LayerColors, chosen: Integers) -> int:
     """Write the pixels of the ``chosen`` (C,) triangles; return how many they have."""
-    image = job.pixels.reshape(job.raster.shape)
+    image = context.pixels.reshape(context.raster.shape)
     fragments = 0
-    for triangle, rows in job.rows_of_each(chosen):
+    for triangle, rows in context.rows_of_each(chosen):
         fragments += rows.pixel_count
-        with job.timed("shade"):
+        with context.timed("shade"):
             if isinstance(colors, PaletteColors):
-                fill_rows(image, rows, colors.words[triangle], job.raster)
+                fill_rows(image, rows, colors.words[triangle], context.raster)
             else:
                 for strip in strips(rows):
-                    copy_rows(image, colors.block(job, triangle, strip), strip.inside, job.raster)
+                    copy_rows(image, colors.block(context, triangle, strip), strip.inside, context.raster)
     return fragments
 
 

@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 from core.antialiasing.multisampling import at_sample
 from core.antialiasing.sampled import grown, inner_of
 from core.antialiasing.supersampling import bands_of
-from core.fast_path.draw_context import Job, Words, blocks
+from core.fast_path.draw_context import DrawContext, Words, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.palette import palette
-from core.fast_path.record import Passing, Route, Split
+from core.fast_path.record import DepthStatistics, Route, Split
 from core.fast_path.visible import find_visible
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
 from core.framebuffer.sample_positions import ROTATED_GRID
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers, Singles
 from core.records.frame import StageCount
 from core.scene import AnyScene
@@ -43,53 +43,57 @@ def draw_multisampled(
     encoding: str,
     pixels: Words,
     counts: dict[str, StageCount],
-    arena: Arena,
-) -> tuple[Route, Passing]:
+    scratch: ScratchBuffers,
+) -> tuple[Route, DepthStatistics]:
     """Draw opaque filled triangles with four samples a pixel into ``pixels`` (H*W,): the bytes of `render`."""
     weights = filter_weights(ROTATED_GRID, settings.resolve_filter)
     wide = grown(raster, reach_of(weights))
     room = pixels
     if len(pixels) != wide.shape[0] * wide.shape[1]:
-        room = arena("wide_pixels", wide.shape[0] * wide.shape[1], dtype=np.uint32)
+        room = scratch("wide_pixels", wide.shape[0] * wide.shape[1], dtype=np.uint32)
     geometry = process_geometry(scene, settings, counts)
-    job = Job(scene, settings, geometry, wide, encoding, room, counts, arena)
-    numbers, split = _find_samples(job)
+    context = DrawContext(scene, settings, geometry, wide, encoding, room, counts, scratch)
+    numbers, split = _find_samples(context)
     route = Route("multisampled", "deferred", split, int(np.count_nonzero(numbers.any(axis=0))))
     sample_count = int(np.count_nonzero(numbers))
     if reach_of(weights):
-        return route, Passing(sample_count, _resolve_all(job, numbers, weights, raster, pixels))
-    with job.timed("shade"):
-        of_triangles = palette(job)
-    words = None if of_triangles is None else job.encode(of_triangles)
-    colors, looked_up = FragmentColors(job), 0
+        return route, DepthStatistics(sample_count, _resolve_all(context, numbers, weights, raster, pixels))
+    with context.timed("shade"):
+        of_triangles = palette(context)
+    words = None if of_triangles is None else context.encode(of_triangles)
+    colors, looked_up = FragmentColors(context), 0
     for part in blocks(len(pixels)):
         number = numbers[:, part]
         is_mixed = (number[1:] != number[0]).any(axis=0)
-        pixels[part] = job.background
-        looked_up += _color_alike(job, colors, words, np.where(is_mixed, 0, number[0]), part)
+        pixels[part] = context.background
+        looked_up += _color_alike(context, colors, words, np.where(is_mixed, 0, number[0]), part)
         mixed = np.flatnonzero(is_mixed)
-        color = sample_colors(job, colors, number[:, mixed], mixed + part.start)
-        with job.timed("resolve"):
-            pixels[part][mixed] = job.encode(resolve_samples(color[:, None], weights)[0])
-    passing = Passing(sample_count, colors.count + looked_up)
+        color = sample_colors(context, colors, number[:, mixed], mixed + part.start)
+        with context.timed("resolve"):
+            pixels[part][mixed] = context.encode(resolve_samples(color[:, None], weights)[0])
+    passing = DepthStatistics(sample_count, colors.count + looked_up)
     return route if words is None else replace(route, color="palette"), passing
 
 
-def _find_samples(job: Job) -> tuple[Numbers, Split]:
+def _find_samples(context: DrawContext) -> tuple[Numbers, Split]:
     """Return what every sample shows, and how the last one was drawn, with the fragments of all."""
-    numbers: Numbers = job.arena("sample_numbers", len(ROTATED_GRID), len(job.pixels), dtype=np.int32)
+    numbers: Numbers = context.scratch(
+        "sample_numbers", len(ROTATED_GRID), len(context.pixels), dtype=np.int32
+    )
     fragments = 0
     for sample, number in enumerate(numbers):
-        nearest, split = find_visible(replace(job, geometry=at_sample(job.geometry, sample)))
+        nearest, split = find_visible(replace(context, geometry=at_sample(context.geometry, sample)))
         fragments += split.fragments
-        with job.timed("depth"):
+        with context.timed("depth"):
             for part in blocks(len(number)):
-                of_block = job.arena("numbers_of_block", len(number[part]), dtype=np.int64)
+                of_block = context.scratch("numbers_of_block", len(number[part]), dtype=np.int64)
                 number[part] = nearest.number_in(part, of_block)
     return numbers, replace(split, fragments=fragments)
 
 
-def _color_alike(job: Job, colors: FragmentColors, words: Words | None, number: Numbers, part: slice) -> int:
+def _color_alike(
+    context: DrawContext, colors: FragmentColors, words: Words | None, number: Numbers, part: slice
+) -> int:
     """Write the pixels of a part of the picture that one triangle has all samples of.
 
     ``number`` (N,) is its primitive plus one, 0: leave the pixel; ``words`` (P,) the colours of triangles of one each,
@@ -98,25 +102,25 @@ def _color_alike(job: Job, colors: FragmentColors, words: Words | None, number: 
     place = np.flatnonzero(number)
     primitive = number.take(place).astype(np.int64) - 1
     if words is None:
-        color = colors.at(primitive, *job.raster.position(place + part.start))
-    with job.timed("resolve"):
-        job.pixels[part][place] = job.encode(color) if words is None else words.take(primitive)
+        color = colors.at(primitive, *context.raster.position(place + part.start))
+    with context.timed("resolve"):
+        context.pixels[part][place] = context.encode(color) if words is None else words.take(primitive)
     return 0 if words is None else len(place)
 
 
-def sample_colors(job: Job, colors: FragmentColors, number: Numbers, place: Integers) -> Singles:
+def sample_colors(context: DrawContext, colors: FragmentColors, number: Numbers, place: Integers) -> Singles:
     """Return the linear colours (4, N, 4) float32 of the samples of pixels, one shade for a triangle in a pixel.
 
     Parameters
     ----------
-    job : Job
+    context : DrawContext
     colors : FragmentColors
     number : (4, N) int32
         What every sample shows, plus one; 0 for none.
     place : (N,) int64
-        The pixels, in the flattened raster of the job.
+        The pixels, in the flattened raster of the context.
     """
-    with job.timed("blend"):
+    with context.timed("blend"):
         # The first sample of the pixel that shows the same is shaded for all of them.
         first = (number[:, None] == number[None]).argmax(axis=1)
         is_first = (first == np.arange(len(number))[:, None]) & (number > 0)
@@ -125,29 +129,31 @@ def sample_colors(job: Job, colors: FragmentColors, number: Numbers, place: Inte
         row_of_color[is_first] = np.arange(1, len(of_pixel) + 1)
         row_of_color = np.take_along_axis(row_of_color, first, axis=0)
     shaded = np.empty((len(of_pixel) + 1, 4), np.float32)
-    shaded[0] = job.scene.background
+    shaded[0] = context.scene.background
     pixel, primitive = place.take(of_pixel), number[is_first].astype(np.int64) - 1
     for part in blocks(len(pixel)):
         with np.errstate(over="ignore"):
-            shaded[1:][part] = colors.at(primitive[part], *job.raster.position(pixel[part]))
-    with job.timed("blend"):
+            shaded[1:][part] = colors.at(primitive[part], *context.raster.position(pixel[part]))
+    with context.timed("blend"):
         return shaded.take(row_of_color, axis=0)
 
 
-def _resolve_all(job: Job, numbers: Numbers, weights: Floats, raster: Raster, pixels: Words) -> int:
-    """Colour all samples of a job's raster, and resolve those of ``raster`` into ``pixels`` (H*W,).
+def _resolve_all(
+    context: DrawContext, numbers: Numbers, weights: Floats, raster: Raster, pixels: Words
+) -> int:
+    """Colour all samples of a context's raster, and resolve those of ``raster`` into ``pixels`` (H*W,).
 
     Returns how many fragments were coloured.
     """
-    colors = FragmentColors(job)
+    colors = FragmentColors(context)
     for band in bands_of(raster, 1, BAND):
         around = grown(band, reach_of(weights))
-        rows, _ = inner_of(job.raster, around)
-        place = np.arange(rows.start * job.raster.shape[1], rows.stop * job.raster.shape[1])
-        color = sample_colors(job, colors, numbers[:, place], place)
-        with job.timed("resolve"):
+        rows, _ = inner_of(context.raster, around)
+        place = np.arange(rows.start * context.raster.shape[1], rows.stop * context.raster.shape[1])
+        color = sample_colors(context, colors, numbers[:, place], place)
+        with context.timed("resolve"):
             resolved = resolve_samples(color.reshape(len(color), *around.shape, 4), weights)
             at = (band.bounds[1] - raster.bounds[1]) * raster.shape[1]
             inner = resolved[inner_of(around, band)].reshape(-1, 4)
-            pixels[at : at + len(inner)] = job.encode(inner)
+            pixels[at : at + len(inner)] = context.encode(inner)
     return colors.count

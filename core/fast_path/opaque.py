@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from core.fast_path.draw_context import Job
+from core.fast_path.draw_context import DrawContext
 from core.fast_path.palette import PaletteColors, palette
 from core.fast_path.record import Route
 from core.fast_path.visible import find_visible
@@ -26,13 +26,13 @@ _overlaps: WeakKeyDictionary[Mesh | ClipScene, bool] = WeakKeyDictionary()
 
 
 def draw_opaque(
-    job: Job, with_depth: bool, depth_at: Integers | None, plain_colors: bool
+    context: DrawContext, with_depth: bool, depth_at: Integers | None, plain_colors: bool
 ) -> tuple[Route, Singles | None]:
     """Draw what is nearest at every pixel.
 
     Parameters
     ----------
-    job : Job
+    context : DrawContext
     with_depth, depth_at, plain_colors
         As `draw_picture`.
 
@@ -41,75 +41,77 @@ def draw_opaque(
     route : Route
     depth : (H, W) or (N,) array, or None where none is asked for
     """
-    allowed = _choose_colors(job)
+    allowed = _choose_colors(context)
     colors = None if plain_colors and not isinstance(allowed, PaletteColors) else allowed
     keeps_depth = with_depth or depth_at is not None
-    depth, route = None, None if keeps_depth else _draw_layer(job, colors)
+    depth, route = None, None if keeps_depth else _draw_layer(context, colors)
     if route is None:
-        nearest, route = _draw_visible(job, colors)
+        nearest, route = _draw_visible(context, colors)
         if depth_at is not None:
             depth = read_only(nearest.depth_at(depth_at))
         elif with_depth:
-            depth = read_only(nearest.depth().reshape(job.raster.shape))
+            depth = read_only(nearest.depth().reshape(context.raster.shape))
     # A part without triangles forbids nothing, as one colour a triangle does not.
     name = allowed.name if allowed else "deferred"
-    return replace(route, allowed=name if len(job.geometry.primitives) else PaletteColors.name), depth
+    return replace(route, allowed=name if len(context.geometry.primitives) else PaletteColors.name), depth
 
 
-def _choose_colors(job: Job) -> "PaletteColors | SmoothColors | None":
+def _choose_colors(context: DrawContext) -> "PaletteColors | SmoothColors | None":
     """Return the cheapest colours that give the right bytes; ``None``: only attributes and light per pixel do."""
-    with job.timed("shade"):
-        of_triangles = palette(job)
+    with context.timed("shade"):
+        of_triangles = palette(context)
         if of_triangles is not None:
-            return PaletteColors(job.encode(of_triangles))
+            return PaletteColors(context.encode(of_triangles))
     from core.fast_path.smooth_colors import smooth_colors
 
-    with job.timed("interpolate"):
-        return smooth_colors(job)
+    with context.timed("interpolate"):
+        return smooth_colors(context)
 
 
-def _draw_layer(job: Job, colors: "PaletteColors | SmoothColors | None") -> Route | None:
+def _draw_layer(context: DrawContext, colors: "PaletteColors | SmoothColors | None") -> Route | None:
     """Draw without depth, if that can be right; ``None``: it is not."""
     of_layer = None if colors is None else colors.for_layer
-    if of_layer is None or not _may_be_one_layer(job):
+    if of_layer is None or not _may_be_one_layer(context):
         return None
     from core.fast_path.layer import draw_layer
 
-    split = draw_layer(job, of_layer)
+    split = draw_layer(context, of_layer)
     if split is None:
-        _overlaps[_key(job.scene)] = True
+        _overlaps[_key(context.scene)] = True
         return None
     return Route("layer", of_layer.name, split, split.fragments)
 
 
-def _may_be_one_layer(job: Job) -> bool:
+def _may_be_one_layer(context: DrawContext) -> bool:
     """Tell whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
-    geometry, scene = job.geometry, job.scene
+    geometry, scene = context.geometry, context.scene
     if not (geometry.is_projected.all() and geometry.is_in_range.all()):
         return False
     count = len(geometry.primitives)
-    is_likely = count <= FEW or (job.settings.cull != "none" and not isinstance(scene, ClipScene))
+    is_likely = count <= FEW or (context.settings.cull != "none" and not isinstance(scene, ClipScene))
     if count > 1 and (not is_likely or _key(scene) in _overlaps):
         return False
     from core.fast_path.depth_free import all_pass_depth_test
 
-    with job.timed("depth"):
-        return all_pass_depth_test(geometry, job.depth_format)
+    with context.timed("depth"):
+        return all_pass_depth_test(geometry, context.depth_format)
 
 
 def _key(scene: AnyScene) -> Mesh | ClipScene:
     return scene if isinstance(scene, ClipScene) else scene.meshes[0]
 
 
-def _draw_visible(job: Job, colors: "PaletteColors | SmoothColors | None") -> tuple[NearestFragments, Route]:
+def _draw_visible(
+    context: DrawContext, colors: "PaletteColors | SmoothColors | None"
+) -> tuple[NearestFragments, Route]:
     """Find what is seen, then colour it."""
-    nearest, split = find_visible(job)
+    nearest, split = find_visible(context)
     if not isinstance(colors, PaletteColors):  # which writes the background as one of its colours
-        with job.timed("resolve"):
-            job.pixels.fill(job.background)
+        with context.timed("resolve"):
+            context.pixels.fill(context.background)
     if colors is None:
         from core.fast_path.deferred import shade_visible
 
-        return nearest, Route("words", "deferred", split, shade_visible(job, nearest))
-    with job.timed(colors.stage):
-        return nearest, Route("words", colors.name, split, colors.look_up(job, nearest))
+        return nearest, Route("packed-depth", "deferred", split, shade_visible(context, nearest))
+    with context.timed(colors.stage):
+        return nearest, Route("packed-depth", colors.name, split, colors.look_up(context, nearest))

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from core.fast_path.byte_words import OPAQUE, pack_level
-from core.fast_path.draw_context import BLOCK, Job, Words
+from core.fast_path.draw_context import BLOCK, DrawContext, Words
 from core.fast_path.record import Coloring
 from core.framebuffer.nearest import NearestFragments
 from core.numeric.integer_planes import IntegerPlanes
@@ -20,7 +20,7 @@ FEW = 64
 """Triangles that are looked at first: mostly they tell."""
 
 
-def palette(job: Job) -> Floats | None:
+def palette(context: DrawContext) -> Floats | None:
     """Return the linear colour of every primitive, (P, 4) float64, or ``None`` where its pixels differ.
 
     Notes
@@ -28,8 +28,8 @@ def palette(job: Job) -> Floats | None:
     The corners of a triangle agree in all that is interpolated, so its pixels agree, to the rounding of the weights'
     sum: the colour is that of a corner.
     """
-    scene, geometry = job.scene, job.geometry
-    if job.has_texture or (isinstance(scene, Scene) and job.settings.shading == "phong"):
+    scene, geometry = context.scene, context.geometry
+    if context.has_texture or (isinstance(scene, Scene) and context.settings.shading == "phong"):
         return None
     values = geometry.primitives.values
     is_known = isinstance(scene, ClipScene) and geometry.clipped is None and _is_flat(scene)
@@ -37,7 +37,7 @@ def palette(job: Job) -> Floats | None:
         return None
     given = values.rows.take(values.index[0], axis=0)
     mesh = geometry.primitives.mesh
-    color: Floats = shade_fragments(scene, job.settings, values.layout, mesh, given).color
+    color: Floats = shade_fragments(scene, context.settings, values.layout, mesh, given).color
     return color
 
 
@@ -77,7 +77,7 @@ class PaletteColors:
         level = np.zeros(len(self.words), np.int64)
         return IntegerPlanes(pack_level(self.words), level, level)
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the colour of the triangle seen at every pixel, or of the background; return how many are seen.
 
         Notes
@@ -85,12 +85,12 @@ class PaletteColors:
         The low bits of a word are the number of the triangle plus one, and 0 where nothing was drawn: an index as it
         is into a table that begins with the background.
         """
-        table = np.concatenate([[job.background], self.words])
+        table = np.concatenate([[context.background], self.words])
         seen_count = 0
-        for first in range(0, len(job.pixels), BLOCK):
+        for first in range(0, len(context.pixels), BLOCK):
             part = slice(first, first + BLOCK)
-            pixels = job.pixels[part]
-            index = nearest.number_in(part, job.arena("palette_index", len(pixels), dtype=np.int64))
+            pixels = context.pixels[part]
+            index = nearest.number_in(part, context.scratch("palette_index", len(pixels), dtype=np.int64))
             table.take(index, out=pixels, mode="clip")
             seen_count += int(np.count_nonzero(index))
         return seen_count

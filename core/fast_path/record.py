@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from core.records.frame import StageCount
 
-Visibility = Literal["layer", "words", "stacks", "frame", "supersampled", "multisampled"]
+Visibility = Literal["layer", "packed-depth", "stacks", "frame", "supersampled", "multisampled"]
 Coloring = Literal[
     "palette", "bytes", "some-bytes", "normals", "lit-texture", "meshes", "texture", "deferred"
 ]
@@ -55,7 +55,7 @@ class Route:
         return self.split.fragments / max(self.visible, 1) if self.split else 0.0
 
 
-class Passing(NamedTuple):
+class DepthStatistics(NamedTuple):
     """How much of a picture passed the depth test."""
 
     passed: int

@@ -25,7 +25,7 @@ from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
 from core.framebuffer.sample_positions import grid_positions
 from core.pipeline import draw
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Singles, read_only
 from core.records.frame import STAGES, StageCount
 from core.records.timing import timed
@@ -44,7 +44,7 @@ def draw_supersampled(
     raster: Raster,
     encoding: str,
     pixels: Words,
-    arena: Arena,
+    scratch: ScratchBuffers,
 ) -> Picture:
     """Draw a picture with n x n samples a pixel into ``pixels`` (H*W,).
 
@@ -60,7 +60,7 @@ def draw_supersampled(
     route = Route("supersampled", "bytes")
     for band in _pixel_bands(raster, side):
         wide_pixels = grown(band, reach_of(weights))
-        drawn = draw_picture(finer, plain, region=_region(finer_raster(wide_pixels, side)), arena=arena)
+        drawn = draw_picture(finer, plain, region=_region(finer_raster(wide_pixels, side)), scratch=scratch)
         _add(counts, drawn.statistics)
         route = replace(route, color=drawn.route.color, visible=route.visible + drawn.route.visible)
         with timed(counts["resolve"]):

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.fast_path.draw_context import Job, Words
+from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.record import Coloring
 from core.fragments.interpolation import value_plane
 from core.fragments.packed_texture import FARTHEST, PackedSampler, has_bytes, is_packable, linear_levels
@@ -27,7 +27,7 @@ SINGLE = 2.0**-23
 
 
 class TextureColors:
-    """Colours of the textured triangles of a job, block by block; the texture is packable."""
+    """Colours of the textured triangles of a context, block by block; the texture is packable."""
 
     name: ClassVar[Coloring] = "texture"
     stage = "shade"
@@ -37,12 +37,12 @@ class TextureColors:
         """These, for a picture that is one layer: no pixel that is drawn is 0."""
         return self
 
-    def __init__(self, job: Job, texture: Texture) -> None:
-        geometry = job.geometry
+    def __init__(self, context: DrawContext, texture: Texture) -> None:
+        geometry = context.geometry
         values = geometry.primitives.values
         uv = values.rows[:, values.layout["uv"]]
         levels = None if has_bytes(texture) else encode_linear(linear_levels())
-        self._sampler = PackedSampler(texture, job.settings.texture_filter, job.settings.wrap, levels)
+        self._sampler = PackedSampler(texture, context.settings.texture_filter, context.settings.wrap, levels)
         inverse_w = geometry.inverse_w_plane
         self._planes = [inverse_w]
         """Of 1 / w, and of the positions in the texture divided by w."""
@@ -57,13 +57,13 @@ class TextureColors:
             )
             self._planes.append((a, b, c))
 
-    def rounding(self, job: Job) -> float:
+    def rounding(self, context: DrawContext) -> float:
         """Return by how many 256ths of a texel a position may be off, as planes and quotient are in float32.
 
         Of one triangle and the whole window, so that what holds for all bands of a picture holds for the picture.
         """
-        width, height = job.scene.size
-        w = job.geometry.primitives.clip[..., 3].max(axis=1)
+        width, height = context.scene.size
+        w = context.geometry.primitives.clip[..., 3].max(axis=1)
         of_w, *positions = (
             (np.abs(a) * width + np.abs(b) * height + np.abs(c)) * w * SINGLE for a, b, c in self._planes
         )
@@ -71,12 +71,14 @@ class TextureColors:
         off = [of + at * (of_w + SINGLE) for of, at in zip(positions, corners, strict=True)]
         return float(np.max(off, initial=0.0))
 
-    def block(self, job: Job, triangle: int, band: Band | Strip) -> Words:
+    def block(self, context: DrawContext, triangle: int, band: Band | Strip) -> Words:
         """Return the pixels (R, C) uint32 of one triangle at all pixels of a band's block."""
         rows, steps = band.inside, band.steps
-        x, y, step = job.raster.along(rows.origin), job.raster.along(rows.row), steps.number
+        x, y, step = context.raster.along(rows.origin), context.raster.along(rows.row), steps.number
         shape = (len(rows), steps.width)
-        inverse_w, u, v = (job.arena(f"texture_{name}", *shape, dtype=np.float32) for name in ("w", "u", "v"))
+        inverse_w, u, v = (
+            context.scratch(f"texture_{name}", *shape, dtype=np.float32) for name in ("w", "u", "v")
+        )
         for values, (a, b, c) in zip((inverse_w, u, v), self._planes, strict=True):
             ramp = (a[triangle] * step).astype(np.float32)
             of_row = (a[triangle] * x + (b[triangle] * y + c[triangle])).astype(np.float32)
@@ -87,7 +89,7 @@ class TextureColors:
             for position in (u, v):
                 position *= inverse_w
                 is_near = is_near and _largest_at_ends(position) <= FARTHEST
-        pixels: Words = job.arena("texture_pixels", *shape, dtype=np.uint32)
+        pixels: Words = context.scratch("texture_pixels", *shape, dtype=np.uint32)
         u, v, flat = u.reshape(-1), v.reshape(-1), pixels.reshape(-1)
         if is_near:
             self._sampler.write_words_at(u, v, flat)
@@ -96,15 +98,19 @@ class TextureColors:
             self._sampler.write_words((u - across.offset) / across.scale, (v - up.offset) / up.scale, flat)
         return pixels
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
-        number = nearest.number_in(slice(None), np.empty(len(job.pixels), np.int64)).reshape(job.raster.shape)
-        image = job.pixels.reshape(job.raster.shape)
-        for triangle, rows in job.rows_of_each(np.arange(len(job.geometry.primitives))):
-            for band in bands(rows, job.raster):
+        number = nearest.number_in(slice(None), np.empty(len(context.pixels), np.int64)).reshape(
+            context.raster.shape
+        )
+        image = context.pixels.reshape(context.raster.shape)
+        for triangle, rows in context.rows_of_each(np.arange(len(context.geometry.primitives))):
+            for band in bands(rows, context.raster):
                 is_seen = number[band.rows, band.columns] == triangle + 1
                 if is_seen.any():
-                    np.copyto(image[band.rows, band.columns], self.block(job, triangle, band), where=is_seen)
+                    np.copyto(
+                        image[band.rows, band.columns], self.block(context, triangle, band), where=is_seen
+                    )
         return int(np.count_nonzero(number))
 
 
@@ -123,27 +129,27 @@ def _ends(values: Singles) -> Singles:
     return values[:, :: max(values.shape[1] - 1, 1)]
 
 
-def texture_colors(job: Job) -> TextureColors | None:
+def texture_colors(context: DrawContext) -> TextureColors | None:
     """Return the colours of all primitives, or ``None`` where they are more than one texture, or too many."""
-    primitives, settings = job.geometry.primitives, job.settings
+    primitives, settings = context.geometry.primitives, context.settings
     if (
-        job.encoding != "linear"
-        or job.counts["cull"].outgoing > MOST
+        context.encoding != "linear"
+        or context.counts["cull"].outgoing > MOST
         or settings.interpolation != "perspective"
     ):
         return None
     if settings.texture_filter not in ("bilinear", "nearest"):
         return None
-    texture = _only_texture(job.scene)
+    texture = _only_texture(context.scene)
     if texture is None or not is_packable(texture, settings.wrap):
         return None
     values = primitives.values
-    if not set(values.layout) <= {"uv", "color"} or not job.geometry.is_projected.all():
+    if not set(values.layout) <= {"uv", "color"} or not context.geometry.is_projected.all():
         return None
-    if not isinstance(job.scene, ClipScene) and (values.rows[:, values.layout["color"]] != 1).any():
+    if not isinstance(context.scene, ClipScene) and (values.rows[:, values.layout["color"]] != 1).any():
         return None
-    colors = TextureColors(job, texture)
-    return colors if colors.rounding(job) <= MOST_ROUNDING else None
+    colors = TextureColors(context, texture)
+    return colors if colors.rounding(context) <= MOST_ROUNDING else None
 
 
 def _only_texture(scene: AnyScene) -> Texture | None:

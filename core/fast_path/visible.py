@@ -8,7 +8,7 @@ them keep the least word, so the order does not matter and every fill sees the s
 
 import numpy as np
 
-from core.fast_path.draw_context import Job
+from core.fast_path.draw_context import DrawContext
 from core.fast_path.record import Split
 from core.framebuffer.fixed_depth import SLACK
 from core.framebuffer.nearest import NearestFragments
@@ -21,31 +21,35 @@ from core.records.arrays import Flags, Integers
 Planes = IntegerPlanes | DepthPlanes
 
 
-def find_visible(job: Job) -> tuple[NearestFragments, Split]:
+def find_visible(context: DrawContext) -> tuple[NearestFragments, Split]:
     """Return the nearest fragment of every pixel."""
-    geometry = job.geometry
-    with job.timed("depth"):
-        memory = job.arena("words", len(job.pixels), dtype=np.int64)
+    geometry = context.geometry
+    with context.timed("depth"):
+        memory = context.scratch("words", len(context.pixels), dtype=np.int64)
         nearest = NearestFragments(
-            len(job.pixels), len(geometry.primitives), job.depth_format, geometry.uses_depth_test, memory
+            len(context.pixels),
+            len(geometry.primitives),
+            context.depth_format,
+            geometry.uses_depth_test,
+            memory,
         )
-    with job.timed("edges"):
-        planes, is_walked = _word_planes(job, nearest)
+    with context.timed("edges"):
+        planes, is_walked = _word_planes(context, nearest)
     is_big = is_walked & (np.abs(geometry.doubled_area) > 2 * BIG_AREA)
     fragments = 0
     if planes is not None:
-        fragments += _walk(job, nearest.keys, planes, is_walked & ~is_big)
-        fragments += _draw_big(job, nearest.keys, planes, np.flatnonzero(is_big))
+        fragments += _walk(context, nearest.keys, planes, is_walked & ~is_big)
+        fragments += _draw_big(context, nearest.keys, planes, np.flatnonzero(is_big))
     rest = np.flatnonzero(~is_walked)
     if len(rest):
-        fragments += _one_by_one(job, nearest, rest)
+        fragments += _one_by_one(context, nearest, rest)
     big = int(np.count_nonzero(is_big))
     return nearest, Split(int(np.count_nonzero(is_walked)) - big, big, len(rest), fragments)
 
 
-def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Flags]:
+def _word_planes(context: DrawContext, nearest: NearestFragments) -> tuple[Planes | None, Flags]:
     """Return the words of all primitives as planes, and for which (P,) they hold: these walk along spans."""
-    geometry, depth_format = job.geometry, job.depth_format
+    geometry, depth_format = context.geometry, context.depth_format
     count = len(geometry.primitives)
     if not geometry.uses_depth_test or depth_format.quantity not in ("z", "reversed-z"):
         return None, np.zeros(count, bool)
@@ -60,54 +64,54 @@ def _word_planes(job: Job, nearest: NearestFragments) -> tuple[Planes | None, Fl
     return planes, geometry.is_projected & geometry.is_in_range & planes.is_finite
 
 
-def _walk(job: Job, words: Integers, planes: Planes, chosen: Flags) -> int:
+def _walk(context: DrawContext, words: Integers, planes: Planes, chosen: Flags) -> int:
     """Draw the ``chosen`` (P,) triangles along their spans; return how many fragments there were."""
-    raster, arena = job.raster, job.arena
+    raster, scratch = context.raster, context.scratch
     fragments = 0
-    for first, end, lanes in job.walks(chosen):
+    for first, end, lanes in context.walks(chosen):
         part = planes.part(first, end)
         if isinstance(part, IntegerPlanes):
-            with job.timed("raster"):
-                word_rows = word_spans(part, lanes, raster, job.owners, arena)
-            with job.timed("depth"):
+            with context.timed("raster"):
+                word_rows = word_spans(part, lanes, raster, context.owners, scratch)
+            with context.timed("depth"):
                 fragments += word_rows.pixel_count
                 draw_words(words, word_rows)
         else:
-            with job.timed("raster"):
-                rows = plane_spans(lanes, raster, job.owners, arena)
-            with job.timed("depth"):
+            with context.timed("raster"):
+                rows = plane_spans(lanes, raster, context.owners, scratch)
+            with context.timed("depth"):
                 fragments += rows.pixel_count
-                draw_plane_words(words, part, rows, lanes.triangle, raster, arena)
+                draw_plane_words(words, part, rows, lanes.triangle, raster, scratch)
     return fragments
 
 
-def _draw_big(job: Job, words: Integers, planes: Planes, chosen: Integers) -> int:
+def _draw_big(context: DrawContext, words: Integers, planes: Planes, chosen: Integers) -> int:
     """Draw the ``chosen`` (C,) triangles in bands; return how many fragments they had."""
-    image = words.reshape(job.raster.shape)
+    image = words.reshape(context.raster.shape)
     fragments = 0
-    with job.timed("raster"):
-        for triangle, rows in job.rows_of_each(chosen):
-            for band in bands(rows, job.raster):
+    with context.timed("raster"):
+        for triangle, rows in context.rows_of_each(chosen):
+            for band in bands(rows, context.raster):
                 if isinstance(planes, IntegerPlanes):
-                    block = word_block(planes, triangle, band, job.arena)
+                    block = word_block(planes, triangle, band, context.scratch)
                 else:
-                    block = planes.block(triangle, band, job.raster, job.arena)
+                    block = planes.block(triangle, band, context.raster, context.scratch)
                 fragments += draw_band_words(image, band, block)
     return fragments
 
 
-def _one_by_one(job: Job, nearest: NearestFragments, chosen: Integers) -> int:
+def _one_by_one(context: DrawContext, nearest: NearestFragments, chosen: Integers) -> int:
     """Look at the fragments of the ``chosen`` (C,) triangles; return how many there were."""
     from core.pipeline import (
         covered,
         fragment_depth,
     )  # Most pictures have no such triangle and do not wait for it.
 
-    raster = job.raster
+    raster = context.raster
     total = 0
-    for fragments in covered(job.geometry, job.settings, raster, job.counts, chosen):
-        with job.timed("depth"):
-            _, keeps, stored = fragment_depth(job.geometry, fragments, raster, job.depth_format)
+    for fragments in covered(context.geometry, context.settings, raster, context.counts, chosen):
+        with context.timed("depth"):
+            _, keeps, stored = fragment_depth(context.geometry, fragments, raster, context.depth_format)
             total += len(fragments)
             if not keeps.all():
                 fragments, stored = fragments.select(keeps), stored[keeps]

@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 
 from core.fragments.texel_places import PLACES, AxisPlaces, Wholes, place_count
 from core.methods import table
-from core.numeric.byte_words import FIELDS, OPAQUE, let_meet
+from core.numeric.byte_words import FIELDS, OPAQUE, pack_pixels
 from core.records.arrays import Floats, Integers, Singles, read_only
 from core.scene import Texture
 
@@ -264,7 +264,7 @@ class PackedSampler:
     def _write_bytes(self, means: Integers, words: Words) -> None:
         """Turn weighted sums (F,) into words of bytes."""
         if not self._byte_words:
-            let_meet(means.view(np.uint64), means.view(np.uint64), words)
+            pack_pixels(means.view(np.uint64), means.view(np.uint64), words)
             return
         (byte,), index = self._rows(np.uint32, len(means)), self._rows(np.int64, len(means))[0]
         words[:] = OPAQUE

@@ -17,7 +17,7 @@ _MEETING = np.uint64(1 + (1 << 8) + (1 << 36))
 _SHIFT = np.uint64(40)
 
 
-def let_meet(words: NDArray[np.uint64], wide: NDArray[np.uint64], pixels: NDArray[np.uint32]) -> None:
+def pack_pixels(words: NDArray[np.uint64], wide: NDArray[np.uint64], pixels: NDArray[np.uint32]) -> None:
     """Write the whole parts of ``words`` (F,) as opaque ``pixels`` (F,); ``wide`` (F,) is memory, or ``words``."""
     np.bitwise_and(words, _INTEGER_BITS, out=wide)
     wide *= _MEETING

@@ -19,7 +19,7 @@ from core.geometry.vertex_stage import transform_vertices
 from core.raster.pixel_runs import Raster, make_raster
 from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
 from core.raster.spans.lanes import set_up_lanes, tie_owners
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import STAGES, StageCount
 from core.scene import Camera, Scene
@@ -128,9 +128,9 @@ def _camera_aside(scene: Scene) -> Camera:
 
 def _faces_on_rays(geometry: Geometry, raster: Raster) -> tuple[Integers, Floats, Floats, Integers]:
     """Return ray, depth, doubt and facing (F,) of faces on rays through pixel centres, see `is_never_negative`."""
-    arena, owners = Arena(), tie_owners(geometry.settings.fill_rule)
-    lanes = set_up_lanes(geometry.window_x, geometry.window_y, geometry.doubled_area, raster, owners, arena)
-    rows = rows_in_order(lanes, len(geometry.primitives), raster, owners, arena)
+    scratch, owners = ScratchBuffers(), tie_owners(geometry.settings.fill_rule)
+    lanes = set_up_lanes(geometry.window_x, geometry.window_y, geometry.doubled_area, raster, owners, scratch)
+    rows = rows_in_order(lanes, len(geometry.primitives), raster, owners, scratch)
     ray, primitive = pixels_of_rows(rows, raster)
     corners = geometry.depth.take(primitive, axis=1)
     on_plane = plane_value(geometry.depth_plane, primitive, *raster.centers(*raster.position(ray)))

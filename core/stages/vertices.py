@@ -14,7 +14,7 @@ from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClippi
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 from core.methods import table
-from core.raster.edges.edge_functions import gather_area, orient
+from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
@@ -213,7 +213,7 @@ def face(
     primitives: IndexedPrimitives, window: WindowVertices, size: tuple[int, int], settings: Settings
 ) -> Floats:
     """Return (P,) float64 as ``core.raster.edges.edge_functions.orient``, from vertices that are placed already."""
-    facing = gather_area(window.x, window.y, primitives.corner)
+    facing = doubled_areas(window.x, window.y, primitives.corner)
     lost = np.flatnonzero(~all_projected(window, primitives.corner))
     if len(lost):
         facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))

@@ -11,7 +11,7 @@ from core.geometry.vertex_stage import transform_vertices
 from core.methods import table
 from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.fills.tested import suited_fill
+from core.raster.fills.tested import effective_fill
 from core.raster.lines.intensities import writes_depth
 from core.raster.lines.records import LineSteps
 from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
@@ -68,8 +68,8 @@ class TraceSource:
 
     @property
     def fill(self) -> str:
-        """The fill that runs: see ``core.raster.fills.tested.suited_fill``."""
-        return suited_fill(self.settings.fill, self.settings.coverage)
+        """The fill that runs: see ``core.raster.fills.tested.effective_fill``."""
+        return effective_fill(self.settings.fill, self.settings.coverage)
 
     @cached_property
     def _schedule(self) -> tuple[Boxes, Runs]:

@@ -30,7 +30,7 @@ from widgets.space.orbit import Orbit
 from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
 from widgets.space.paint import paint_label, paint_spot
 from widgets.space.picture_area import picture_area
-from widgets.space.view_depth import Sight
+from widgets.space.view_depth import ViewDepth
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +72,7 @@ class ScenePicture:
     labels: tuple[tuple[float, float, str, str], ...] = ()
     """Fraction across, fraction up, text, ink."""
     caption: str = ""
-    sight: Sight | None = None
+    sight: ViewDepth | None = None
     """Where the wheel goes; None: to the target of the orbit."""
 
     def __post_init__(self) -> None:

@@ -9,7 +9,7 @@ from widgets.space.orbit import Orbit, refocused
 
 
 @dataclass(frozen=True, eq=False)
-class Sight:
+class ViewDepth:
     """Distances at some places of a picture that was drawn in perspective."""
 
     orbit: Orbit

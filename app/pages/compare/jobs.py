@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Slot
 
 from app import __version__
-from app.background.workers import Desk, Progress
+from app.background.workers import JobGroup, Progress
 from app.pages.page_bar import StepRequest
 from app.pages.step.opening_document import part_around
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER
@@ -66,7 +66,7 @@ class PointsShown:
     openings: tuple[Opening | None, ...]
 
 
-class StudyDesk(Desk):
+class StudyJobs(JobGroup):
     """At most one measurement, one drawing of pictures and one search at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:

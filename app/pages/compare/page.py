@@ -10,7 +10,7 @@ from app.export.study import study_content
 from app.files.kept_results import KeptResults
 from app.files.study_files import EXTENSION, load_study, study_json
 from app.pages.compare.charts import TIME
-from app.pages.compare.jobs import StudyDesk, StudyResult
+from app.pages.compare.jobs import StudyJobs, StudyResult
 from app.pages.compare.pictures_presenter import StudyPicturesPresenter
 from app.pages.compare.presenter import StudyPresenter
 from app.pages.file_page import FilePage, FileWords
@@ -43,7 +43,7 @@ class ComparePage(FilePage):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(FILE_WORDS, KeptResults("study", load_study), parent)
-        self.desk = StudyDesk(self)
+        self.desk = StudyJobs(self)
         self.families, self.readout = FamilyList(self), Readout("Figures", self)
         self.controls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.export.views import copy_widget
 from app.pages.compare.charts import title_of
-from app.pages.compare.jobs import PointsShown, StudyDesk
+from app.pages.compare.jobs import PointsShown, StudyJobs
 from app.pages.compare.presenter import StudyPresenter
 from app.pages.page_bar import StepRequest
 from core.study.accuracy.record import Pictures
@@ -33,7 +33,7 @@ class StudyPicturesPresenter(QObject):
     def __init__(
         self,
         studies: StudyPresenter,
-        desk: StudyDesk,
+        desk: StudyJobs,
         charts: tuple[Chart | ChartLegend, ...],
         numbers: StudyTable,
         view: StudyPictures,

@@ -11,7 +11,7 @@ from app.background.paced_drawing import PacedDrawing
 from app.pages.compare.charts import MOST_NAMED, growth_of, numbers_of, scatter_of
 from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
 from app.pages.compare.figures import point_text, study_text, table_of
-from app.pages.compare.jobs import StudyDesk, StudyOrder, StudyResult
+from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult
 from app.pages.compare.words import machine_sentence, work_sentence
 from app.pages.plan.points import chosen_points, plan_candidates
 from app.session.session import Session
@@ -51,7 +51,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
     def __init__(
         self,
         session: Session,
-        desk: StudyDesk,
+        desk: StudyJobs,
         families: FamilyList,
         controls: StudyControls,
         charts: tuple[Chart, Chart],

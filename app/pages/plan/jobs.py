@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Slot
 
-from app.background.workers import Desk, Progress
+from app.background.workers import JobGroup, Progress
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
@@ -45,7 +45,7 @@ class PlanPictures:
     """(H, W), of the channel that differs most, in 1/255."""
 
 
-class PlanDesk(Desk):
+class PlanJobs(JobGroup):
     """At most one look and one drawing at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:

@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from app.pages.page_bar import Handlers, Page
-from app.pages.plan.jobs import PlanDesk
+from app.pages.plan.jobs import PlanJobs
 from app.pages.plan.pictures_presenter import PlanPicturesPresenter
 from app.pages.plan.presenter import PlanPresenter
 from app.session.session import Session
@@ -19,7 +19,7 @@ class PlanPage(Page):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.desk = PlanDesk(self)
+        self.desk = PlanJobs(self)
         self.controls, self.summary, self.rows = PlanControls(self), PlanSummary(self), PlanRows(self)
         self.findings, self.pictures = PlanFindings(self), StudyPictures(self)
         self.plans = PlanPresenter(

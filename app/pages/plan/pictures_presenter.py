@@ -5,7 +5,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.export.views import copy_widget
 from app.pages.page_bar import StepRequest
-from app.pages.plan.jobs import PlanDesk, PlanPictures
+from app.pages.plan.jobs import PlanJobs, PlanPictures
 from app.pages.plan.presenter import PlanPresenter
 from core.explain.number_text import counted
 from core.explain.stage_texts import family_title
@@ -24,7 +24,7 @@ class PlanPicturesPresenter(QObject):
     refused = Signal(str)
 
     def __init__(
-        self, plans: PlanPresenter, desk: PlanDesk, view: StudyPictures, parent: QObject | None = None
+        self, plans: PlanPresenter, desk: PlanJobs, view: StudyPictures, parent: QObject | None = None
     ) -> None:
         super().__init__(parent)
         self._plans, self._desk, self._view = plans, desk, view

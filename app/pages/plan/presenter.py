@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QObject, Slot
 
-from app.background.background_task import AskedWork, WorkWords
-from app.pages.plan.jobs import PlanDesk, PlanOrder
+from app.background.background_task import BackgroundTask, WorkWords
+from app.pages.plan.jobs import PlanJobs, PlanOrder
 from app.pages.plan.words import EMPTY, about, advice_html, details, findings_html, headline, rows_of
 from app.session.session import Session
 from core.study import Plan, PlanReport, Tolerance, everything_on
@@ -27,13 +27,13 @@ class PlanShown:
 WORDS = WorkWords("The look was cancelled", "It could not be planned", "what was found before is as it was")
 
 
-class PlanPresenter(AskedWork):
+class PlanPresenter(BackgroundTask):
     """Looks at the open scene and shows what it needs; results of an earlier scene are marked as such."""
 
     def __init__(
         self,
         session: Session,
-        desk: PlanDesk,
+        desk: PlanJobs,
         controls: PlanControls,
         summaries: tuple[PlanSummary, PlanFindings],
         rows: PlanRows,

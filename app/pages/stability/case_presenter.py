@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.pages.page_bar import StepRequest
 from app.pages.stability.format_probe_words import dial_rows, dial_sentence
-from app.pages.stability.jobs import CaseFound, CaseOrder, ShrunkFound, StabilityDesk, wanted_cover
+from app.pages.stability.jobs import CaseFound, CaseOrder, ShrunkFound, StabilityJobs, wanted_cover
 from app.pages.stability.presenter import StabilityPresenter
 from app.pages.stability.records import (
     case_record,
@@ -43,7 +43,7 @@ class StabilityCasePresenter(QObject):
     def __init__(
         self,
         runs: StabilityPresenter,
-        desk: StabilityDesk,
+        desk: StabilityJobs,
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         view: CaseView,

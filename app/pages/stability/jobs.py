@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Slot
 
 from app import __version__
-from app.background.workers import Desk, Progress
+from app.background.workers import JobGroup, Progress
 from app.pages.stability.choices import AtlasResult
 from core import Frame, render
 from core.scene import AnyScene, ClipScene
@@ -69,7 +69,7 @@ class ShrunkFound:
     frame: Frame | None
 
 
-class StabilityDesk(Desk):
+class StabilityJobs(JobGroup):
     """At most one run of a grid, one look at a cell, one shrinking and one reading at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:

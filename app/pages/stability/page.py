@@ -16,7 +16,7 @@ from app.pages.page_bar import Handlers
 from app.pages.side_columns import SideColumns
 from app.pages.stability.case_presenter import StabilityCasePresenter
 from app.pages.stability.choices import AtlasResult
-from app.pages.stability.jobs import StabilityDesk
+from app.pages.stability.jobs import StabilityJobs
 from app.pages.stability.presenter import StabilityPresenter
 from app.session.session import Session
 from core.study.stability import Atlas
@@ -46,7 +46,7 @@ class StabilityPage(FilePage):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(FILE_WORDS, KeptResults("atlas", load_atlas), parent)
-        self.desk = StabilityDesk(self)
+        self.desk = StabilityJobs(self)
         self.experiments, self.readout = FamilyList(self), Readout("Figures", self)
         self.experiments.setAccessibleName("Experiments")
         self.controls, self.maps, self.case = StabilityControls(self), AtlasView(self), CaseView(self)

@@ -13,7 +13,7 @@ from app.background.paced_drawing import PacedDrawing
 from app.export.atlas_text import WORDS
 from app.pages.compare.words import machine_words
 from app.pages.stability.choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
-from app.pages.stability.jobs import CellRun, StabilityDesk, StressOrder
+from app.pages.stability.jobs import CellRun, StabilityJobs, StressOrder
 from app.pages.stability.records import (
     atlas_record,
     blank_cells,
@@ -64,7 +64,7 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
     def __init__(
         self,
         session: Session,
-        desk: StabilityDesk,
+        desk: StabilityJobs,
         experiments: FamilyList,
         controls: StabilityControls,
         maps: AtlasView,

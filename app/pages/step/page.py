@@ -25,7 +25,7 @@ from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_presenter import InspectorPresenter
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
-from app.pages.step.scene_outline_presenter import ScenePresenter
+from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
 from app.session.session import Session
 from app.views.stage_views import StageViews
@@ -76,7 +76,7 @@ class StepPage(Page):
             self,
         )
         self.grids = GridPresenter(session, self.grid, self.strip, self.legend, self.ranges, self)
-        self.scene = ScenePresenter(session, self.outline, self.settings_panel, self)
+        self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.views = StageViews(session, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self)

@@ -22,7 +22,7 @@ NUMBERS_OFFERED = {
 """Settings that are numbers: the ones to choose from, and how they are called."""
 
 
-class ScenePresenter(QObject):
+class SceneOutlinePresenter(QObject):
     """Shows and edits scene values and settings."""
 
     edit_refused = Signal(str)

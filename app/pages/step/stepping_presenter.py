@@ -11,7 +11,7 @@ from app.session.session import Session
 from app.views.scene_figures import FrameFigures
 from core import STAGES
 from core.explain.stage_texts import SHORT_TITLES
-from core.raster.fills.tested import suited_fill
+from core.raster.fills.tested import effective_fill
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level
 from core.trace import StageTrace
@@ -141,7 +141,7 @@ class SteppingPresenter(QObject):
     def _level_names(self, stage: str) -> dict[Level, str]:
         """Return what a step of each level is in a stage."""
         settings = self._session.document.settings
-        fill = suited_fill(settings.fill, settings.coverage)
+        fill = effective_fill(settings.fill, settings.coverage)
         if stage == "raster":
             is_wireframe = settings.polygon_mode == "wireframe"
             return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(fill, "Row")}

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from core.fast_path.draw_context import BLOCK, Job, blocks
+from core.fast_path.draw_context import BLOCK, DrawContext, blocks
 from core.fast_path.lit.corner_places import corner_places
 from core.fast_path.lit.light_visible import Lit, color_doubtful
 from core.fast_path.lit.one_color import (
@@ -38,7 +38,7 @@ AT_ONCE = 4 * BLOCK
 class MeshPart:
     """The primitives of one mesh."""
 
-    job: Job
+    context: DrawContext
     colors: LitNormals | LitTexture
 
 
@@ -56,17 +56,17 @@ class LitMeshes:
     for_layer: ClassVar[None] = None
     """None: they light what is seen once it is known, so a picture has its depth first."""
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
         seen_count, doubtful = 0, [np.empty(0, np.int64)]
         for first in range(0, len(nearest.keys), AT_ONCE):
             seen = nearest.seen_in(slice(first, first + AT_ONCE))
             for part, place, local in self._by_part(*seen):
                 seen_of_part = ((place[at], local[at]) for at in blocks(len(place)))
-                lit = part.colors.light_seen(part.job, seen_of_part)
+                lit = part.colors.light_seen(part.context, seen_of_part)
                 seen_count += lit.seen_count
                 doubtful.append(lit.place)
-        return color_doubtful(job, nearest, Lit(seen_count, np.concatenate(doubtful)))
+        return color_doubtful(context, nearest, Lit(seen_count, np.concatenate(doubtful)))
 
     def _by_part(self, place: Integers, primitive: Integers) -> Iterator[tuple[MeshPart, Integers, Integers]]:
         """Yield the parts that are seen at places (V,), with those of each, and their primitives there."""
@@ -79,18 +79,22 @@ class LitMeshes:
                 yield part, place[first:end], local[first:end]
 
 
-def lit_meshes(job: Job) -> LitMeshes | None:
+def lit_meshes(context: DrawContext) -> LitMeshes | None:
     """Return the meshes of a scene of several, or ``None`` where one of them allows no cheaper colours.
 
     Pieces of clipped triangles are left to the plain rules.
     """
-    scene, primitives = job.scene, job.geometry.primitives
-    if not isinstance(scene, Scene) or not 1 < len(scene.meshes) <= MOST or job.geometry.clipped is not None:
+    scene, primitives = context.scene, context.geometry.primitives
+    if (
+        not isinstance(scene, Scene)
+        or not 1 < len(scene.meshes) <= MOST
+        or context.geometry.clipped is not None
+    ):
         return None
     # What is interpolated is found once for all of them.
-    if job.settings.shading != "phong" or not len(primitives.values.rows):
+    if context.settings.shading != "phong" or not len(primitives.values.rows):
         return None
-    if not is_mostly_in_front(job.geometry):
+    if not is_mostly_in_front(context.geometry):
         return None
     drawn = np.flatnonzero(np.bincount(primitives.mesh, minlength=len(scene.meshes)))
     part_of_mesh = np.zeros(len(scene.meshes), np.uint8)
@@ -99,12 +103,12 @@ def lit_meshes(job: Job) -> LitMeshes | None:
     jobs = []
     for place, number in enumerate(drawn.tolist()):
         chosen = np.flatnonzero(part == place)
-        jobs.append((job.part(chosen, number), chosen))
+        jobs.append((context.part(chosen, number), chosen))
     lit = [mesh for of_mesh, _ in jobs if (mesh := even_mesh(of_mesh))]
-    facts = [vertex_facts(job.geometry, number) for number in range(len(scene.meshes))]
-    if len(lit) < len(jobs) or not have_few_unlike(job, facts):
+    facts = [vertex_facts(context.geometry, number) for number in range(len(scene.meshes))]
+    if len(lit) < len(jobs) or not have_few_unlike(context, facts):
         return None
-    places = corner_places(job.geometry)
+    places = corner_places(context.geometry)
     local, parts = np.empty(len(primitives), np.int64), []
     for mesh, (of_mesh, chosen) in zip(lit, jobs, strict=True):
         at = places.take(chosen)

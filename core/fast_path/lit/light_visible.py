@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.fast_path.draw_context import Job, blocks
+from core.fast_path.draw_context import DrawContext, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.lit.normals import NormalPlanes, unit_normals
 from core.fast_path.lit.pixel_light import PixelLight, lit_pixels
@@ -47,31 +47,31 @@ class LitPlanes:
     """(P,) bool, those in doubt where they are (``corner_places``), and those whose normals differ too much
     (``normals``): their pixels are coloured once more."""
 
-    def light_seen(self, job: Job, seen: Seen, albedo: Albedo) -> Lit:
+    def light_seen(self, context: DrawContext, seen: Seen, albedo: Albedo) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
         seen_count, has_doubtful = 0, bool(self.is_doubtful.any())
         doubtful = [np.empty(0, np.int64)]
         for place, primitive in seen:
             seen_count += len(place)
-            column, row = job.raster.position(place)
+            column, row = context.raster.position(place)
             color = albedo(primitive, column, row)
-            normal = unit_normals(self.normals, job, primitive, column, row)
-            diffuse, specular, in_doubt = self.light.at(job, normal, self.turn, column, row)
-            job.pixels[place] = lit_pixels(job, color, diffuse, specular)
+            normal = unit_normals(self.normals, context, primitive, column, row)
+            diffuse, specular, in_doubt = self.light.at(context, normal, self.turn, column, row)
+            context.pixels[place] = lit_pixels(context, color, diffuse, specular)
             doubtful.append(place.take(in_doubt))
             if has_doubtful:
                 doubtful.append(place[self.is_doubtful.take(primitive)])
         return Lit(seen_count, np.concatenate(doubtful))
 
 
-def color_doubtful(job: Job, nearest: NearestFragments, lit: Lit) -> int:
+def color_doubtful(context: DrawContext, nearest: NearestFragments, lit: Lit) -> int:
     """Colour pixels in doubt as ``render`` has them, and return how many pixels are lit."""
     if len(lit.place):
         # Only the primitives that are shown there are set up.
-        is_shown = np.zeros(len(job.geometry.primitives), bool)
+        is_shown = np.zeros(len(context.geometry.primitives), bool)
         for part in blocks(len(lit.place)):
             is_shown[nearest.primitive_at(lit.place[part])] = True
-        colors, number = FragmentColors(job.part(np.flatnonzero(is_shown))), np.cumsum(is_shown) - 1
+        colors, number = FragmentColors(context.part(np.flatnonzero(is_shown))), np.cumsum(is_shown) - 1
         for part in blocks(len(lit.place)):
             place = lit.place[part]
             colors.write(place, number.take(nearest.primitive_at(place)))

@@ -7,7 +7,7 @@ by w.
 
 import numpy as np
 
-from core.fast_path.draw_context import Job
+from core.fast_path.draw_context import DrawContext
 from core.fast_path.lit.corner_places import CornerPlaces
 from core.fast_path.lit.pixel_light import make_unit
 from core.fast_path.lit.planes import Plane, evaluate, plane_through
@@ -25,7 +25,7 @@ NormalPlanes = tuple[Plane, Plane, Plane]
 
 
 def normal_planes(
-    job: Job,
+    context: DrawContext,
     camera: Camera,
     facts: VertexFacts,
     places: CornerPlaces,
@@ -48,9 +48,9 @@ def normal_planes(
     ``None`` is returned where a plane is too steep.
     """
     normal = facts.values.normals_seen_by(camera)
-    corners = [normal.take(index, axis=1) for index in job.geometry.primitives.values.index]
+    corners = [normal.take(index, axis=1) for index in context.geometry.primitives.values.index]
     is_unlike = np.zeros(len(places.is_doubtful), bool)
-    if job.geometry.clipped is not None or facts.unlike_count:
+    if context.geometry.clipped is not None or facts.unlike_count:
         is_unlike = are_unlike(corners)
         for corner in corners:
             corner[:, is_unlike] = FORWARD
@@ -63,13 +63,13 @@ def normal_planes(
 
 
 def unit_normals(
-    planes: NormalPlanes, job: Job, primitive: Integers, column: Integers, row: Integers
+    planes: NormalPlanes, context: DrawContext, primitive: Integers, column: Integers, row: Integers
 ) -> Singles:
-    """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the job's arena."""
-    x, y = job.raster.centers(column, row)
-    value, term = job.arena("normal_value", len(x)), job.arena("normal_term", len(x))
-    components = job.arena("components", 3, len(x), dtype=np.float32)
+    """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the context's scratch."""
+    x, y = context.raster.centers(column, row)
+    value, term = context.scratch("normal_value", len(x)), context.scratch("normal_term", len(x))
+    components = context.scratch("components", 3, len(x), dtype=np.float32)
     for plane, component in zip(planes, components, strict=True):
         evaluate(plane, primitive, x, y, value, term)
         np.copyto(component, value, casting="same_kind")
-    return make_unit(components, job.arena)
+    return make_unit(components, context.scratch)

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.fast_path.draw_context import Job
+from core.fast_path.draw_context import DrawContext
 from core.fast_path.lit.corner_places import CornerPlaces, corner_places
 from core.fast_path.lit.light_errors import light_error, normal_error
 from core.fast_path.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
@@ -45,33 +45,33 @@ class LitNormals:
     for_layer: ClassVar[None] = None
     """None: they light what is seen once it is known, so a picture has its depth first."""
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return color_doubtful(job, nearest, self.light_seen(job, nearest.seen()))
+        return color_doubtful(context, nearest, self.light_seen(context, nearest.seen()))
 
-    def light_seen(self, job: Job, seen: Seen) -> Lit:
+    def light_seen(self, context: DrawContext, seen: Seen) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels."""
-        return self.planes.light_seen(job, seen, self._albedo)
+        return self.planes.light_seen(context, seen, self._albedo)
 
     def _albedo(self, primitive: Integers, column: Integers, row: Integers) -> Color:
         """Return the colour, which is that of all primitives (F,) at all pixels."""
         return self.albedo
 
 
-def lit_normals(job: Job) -> LitNormals | None:
+def lit_normals(context: DrawContext) -> LitNormals | None:
     """Return the lit normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
     They are those of one mesh of one colour without a texture, lit from far away, nearly all of it in front of the eye.
     """
-    lit = lit_mesh(job)
-    if lit is None or lit.mesh.texture is not None or not have_few_unlike(job, [lit.facts]):
+    lit = lit_mesh(context)
+    if lit is None or lit.mesh.texture is not None or not have_few_unlike(context, [lit.facts]):
         return None
-    return normals_of(job, lit, corner_places(job.geometry))
+    return normals_of(context, lit, corner_places(context.geometry))
 
 
-def normals_of(job: Job, lit: "LitMesh", places: CornerPlaces) -> LitNormals | None:
+def normals_of(context: DrawContext, lit: "LitMesh", places: CornerPlaces) -> LitNormals | None:
     """Return the lit normals of a mesh whose corners are at ``places``; ``None``: it has a texture, or as above."""
-    planes = None if lit.mesh.texture is not None else lit_planes(job, lit, places)
+    planes = None if lit.mesh.texture is not None else lit_planes(context, lit, places)
     return LitNormals(planes, lit.color) if planes else None
 
 
@@ -86,36 +86,36 @@ class LitMesh:
     """Linear grey, or red, green and blue, of all vertices."""
 
 
-def lit_mesh(job: Job) -> LitMesh | None:
+def lit_mesh(context: DrawContext) -> LitMesh | None:
     """Return the mesh that all primitives are of, or ``None`` where something else differs from pixel to pixel.
 
     It is an `even_mesh` of a scene that is nearly all in front of the eye.
     """
-    mesh = even_mesh(job)
-    return mesh if mesh and is_mostly_in_front(job.geometry) else None
+    mesh = even_mesh(context)
+    return mesh if mesh and is_mostly_in_front(context.geometry) else None
 
 
-def even_mesh(job: Job) -> LitMesh | None:
+def even_mesh(context: DrawContext) -> LitMesh | None:
     """Return the mesh that all primitives are of: opaque, of one colour, lit from far away, shaded as Phong does."""
-    scene, settings, number = job.scene, job.settings, job.only_mesh
+    scene, settings, number = context.scene, context.settings, context.only_mesh
     if number is None or not isinstance(scene, Scene) or settings.shading != "phong":
         return None
     if settings.interpolation != "perspective":
         return None
     mesh = scene.meshes[number]
     light = pixel_light(scene, mesh)
-    facts = vertex_facts(job.geometry, number)
+    facts = vertex_facts(context.geometry, number)
     if light is None or facts.color is None:
         return None
     return LitMesh(mesh, light, facts, facts.color)
 
 
-def have_few_unlike(job: Job, meshes: Sequence[VertexFacts]) -> bool:
+def have_few_unlike(context: DrawContext, meshes: Sequence[VertexFacts]) -> bool:
     """Tell whether so few triangles of all ``meshes`` of a scene have unlike normals that these may be coloured twice.
 
     Of whole meshes, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
     """
-    if job.geometry.clipped is not None:
+    if context.geometry.clipped is not None:
         return True
     unlike = sum(mesh.unlike_count for mesh in meshes)
     return unlike <= MOST_UNLIKE * sum(mesh.triangle_count for mesh in meshes)
@@ -136,7 +136,9 @@ def is_mostly_in_front(geometry: Geometry) -> bool:
     return bool(in_front >= IN_FRONT * corner.shape[1])
 
 
-def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: float = 0.0) -> LitPlanes | None:
+def lit_planes(
+    context: DrawContext, mesh: LitMesh, places: CornerPlaces, texture_error: float = 0.0
+) -> LitPlanes | None:
     """Return the normals of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
     Parameters
@@ -145,10 +147,10 @@ def lit_planes(job: Job, mesh: LitMesh, places: CornerPlaces, texture_error: flo
         Bytes that what the light is multiplied with may be off.
     """
     turn, brightest = normal_error(places), float(max(mesh.color))
-    error = light_error(turn, mesh.light, brightest, job.encoding) + texture_error
+    error = light_error(turn, mesh.light, brightest, context.encoding) + texture_error
     if not error <= TOLERANCE:
         return None
-    found = normal_planes(job, mesh.light.camera, mesh.facts, places)
+    found = normal_planes(context, mesh.light.camera, mesh.facts, places)
     if found is None:
         return None
     normals, is_unlike = found

@@ -11,10 +11,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.fast_path.draw_context import Job, Words
+from core.fast_path.draw_context import DrawContext, Words
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.geometry.matrices import world_to_camera
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.scene import Camera, DirectionalLight, Light, Material, Mesh, Scene
 
@@ -42,7 +42,7 @@ class PixelLight:
     camera: Camera
 
     def at(
-        self, job: Job, normal: Singles, turn: float, column: Integers, row: Integers
+        self, context: DrawContext, normal: Singles, turn: float, column: Integers, row: Integers
     ) -> tuple[Singles, Singles, Integers]:
         """Return the light that falls on points, the light that they mirror, and where that is in doubt.
 
@@ -58,23 +58,25 @@ class PixelLight:
         Returns
         -------
         diffuse, specular : (1 or 3, F) float32 arrays
-            One row where light is grey; in the job's arena.
+            One row where light is grey; in the context's scratch.
         doubtful : (D,) int64 array
             Points, maybe twice, whose highlight ends within ``turn``, or whose light comes from beyond them so straight
             that it has no half-way to the eye: there a small error is a large one.
         """
-        arena, material, count = job.arena, self.material, normal.shape[1]
+        scratch, material, count = context.scratch, self.material, normal.shape[1]
         is_gray = all(len(set(color)) == 1 for _, color in self.lights)
         channels = 1 if is_gray else 3
-        diffuse, specular = (arena(f"light_{name}", channels, count, dtype=np.float32) for name in ("d", "s"))
+        diffuse, specular = (
+            scratch(f"light_{name}", channels, count, dtype=np.float32) for name in ("d", "s")
+        )
         diffuse.fill(material.ambient)
         specular.fill(0)
-        to_eye = self._to_eye(job, column, row)
+        to_eye = self._to_eye(context, column, row)
         doubtful = [np.empty(0, np.int64)]
         for to_light, color in self.lights:
-            cosine, power = self._terms(normal, to_eye, to_light, arena)
+            cosine, power = self._terms(normal, to_eye, to_light, scratch)
             if material.specular:
-                found = _at_the_edge(cosine, to_eye, to_light, turn, arena)
+                found = _at_the_edge(cosine, to_eye, to_light, turn, scratch)
                 doubtful.append(found[power.take(found) * material.specular * max(color) > UNSEEN])
                 power *= cosine > 0
             np.clip(cosine, np.float32(0), MOST, out=cosine)
@@ -82,7 +84,7 @@ class PixelLight:
                 if len(self.lights) == 1 and channel == channels - 1:
                     product = cosine
                 else:
-                    product = arena("light_product", count, dtype=np.float32)
+                    product = scratch("light_product", count, dtype=np.float32)
                 np.multiply(cosine, np.float32(material.diffuse * color[channel]), out=product)
                 diffuse[channel] += product
                 if material.specular:
@@ -90,13 +92,13 @@ class PixelLight:
                     specular[channel] += product
         return diffuse, specular, np.concatenate(doubtful)
 
-    def _to_eye(self, job: Job, column: Integers, row: Integers) -> Singles:
+    def _to_eye(self, context: DrawContext, column: Integers, row: Integers) -> Singles:
         """Return the unit directions (3, F) float32 from pixels to the eye, in camera space."""
-        direction: Singles = job.arena("to_eye", 3, len(column), dtype=np.float32)
+        direction: Singles = context.scratch("to_eye", 3, len(column), dtype=np.float32)
         if self.camera.projection == "orthographic":
             direction[:2], direction[2] = 0, 1
             return direction
-        (width, height), center = job.scene.size, job.raster.center
+        (width, height), center = context.scene.size, context.raster.center
         half_height = float(np.tan(self.camera.field_of_view / 2))
         pixel = np.float32(2 * half_height / height)
         np.copyto(direction[0], column, casting="unsafe")
@@ -105,18 +107,18 @@ class PixelLight:
         direction[1] -= np.float32(height / 2 - center)
         direction[:2] *= -pixel
         direction[2] = 1
-        return make_unit(direction, job.arena)
+        return make_unit(direction, context.scratch)
 
     def _terms(
-        self, normal: Singles, to_eye: Singles, to_light: Singles, arena: Arena
+        self, normal: Singles, to_eye: Singles, to_light: Singles, scratch: ScratchBuffers
     ) -> tuple[Singles, Singles]:
         """Return the cosine to a light, and the power of a highlight wherever it shines, (F,) float32 each."""
-        cosine = _dot(normal, to_light, arena("cosine", normal.shape[1], dtype=np.float32), arena)
-        power = arena("power", normal.shape[1], dtype=np.float32)
+        cosine = _dot(normal, to_light, scratch("cosine", normal.shape[1], dtype=np.float32), scratch)
+        power = scratch("power", normal.shape[1], dtype=np.float32)
         if self.material.specular:
-            half = arena("half", *normal.shape, dtype=np.float32)
+            half = scratch("half", *normal.shape, dtype=np.float32)
             np.add(to_eye, to_light[:, None], out=half)
-            _dot(normal, make_unit(half, arena), power, arena)
+            _dot(normal, make_unit(half, scratch), power, scratch)
             np.clip(power, np.float32(1e-30), MOST, out=power)
             np.log2(power, out=power)
             power *= np.float32(self.material.shininess)
@@ -124,13 +126,15 @@ class PixelLight:
         return cosine, power
 
 
-def _at_the_edge(cosine: Singles, to_eye: Singles, to_light: Singles, turn: float, arena: Arena) -> Integers:
+def _at_the_edge(
+    cosine: Singles, to_eye: Singles, to_light: Singles, turn: float, scratch: ScratchBuffers
+) -> Integers:
     """Return the points (D,) of which a turn of the normal decides whether they mirror a light; see `PixelLight.at`."""
-    size = np.abs(cosine, out=arena("cosine_size", len(cosine), dtype=np.float32))
+    size = np.abs(cosine, out=scratch("cosine_size", len(cosine), dtype=np.float32))
     is_at_edge: Flags = size <= np.float32(turn)
     # Light from this side of the window is never opposite to an eye that looks at most 60 degrees past its middle.
     if to_light[2] < 0 or to_eye[2].min(initial=1) < 0.5:
-        facing = _dot(to_eye, to_light, size, arena)
+        facing = _dot(to_eye, to_light, size, scratch)
         is_opposite: Flags = facing < np.float32(OPPOSITE)
         is_opposite &= cosine > -np.float32(turn)
         is_at_edge |= is_opposite
@@ -155,7 +159,7 @@ def _far_light(light: Light, rotation: Floats) -> FarLight:
 
 
 def lit_pixels(
-    job: Job, albedo: Sequence[Singles | np.float32], diffuse: Singles, specular: Singles
+    context: DrawContext, albedo: Sequence[Singles | np.float32], diffuse: Singles, specular: Singles
 ) -> Words:
     """Return the opaque pixels (F,) uint32 of albedo times diffuse light plus specular light.
 
@@ -166,13 +170,13 @@ def lit_pixels(
     diffuse, specular : (1 or 3, F) float32 arrays
         As from `PixelLight.at`.
     """
-    arena, count = job.arena, diffuse.shape[1]
+    scratch, count = context.scratch, diffuse.shape[1]
     is_gray = len(diffuse) == len(albedo) == 1
-    level = arena("level", count, dtype=np.float32)
+    level = scratch("level", count, dtype=np.float32)
     # Floats are cut off to 32 bits five times as fast as to 64.
-    index = arena("level_index", count, dtype=np.int32)
-    pixels, byte = (arena(f"level_{name}", count, dtype=np.uint32) for name in ("pixels", "byte"))
-    tables = level_words(job.encoding)
+    index = scratch("level_index", count, dtype=np.int32)
+    pixels, byte = (scratch(f"level_{name}", count, dtype=np.uint32) for name in ("pixels", "byte"))
+    tables = level_words(context.encoding)
     for channel in range(1 if is_gray else 3):
         source = min(channel, len(diffuse) - 1)
         np.multiply(diffuse[source], albedo[min(channel, len(albedo) - 1)], out=level)
@@ -198,18 +202,18 @@ def level_words(encoding: str) -> tuple[Words, Words, Words, Words]:
     return read_only(red), read_only(green), read_only(blue), read_only(red | green | blue)
 
 
-def make_unit(vectors: Singles, arena: Arena) -> Singles:
+def make_unit(vectors: Singles, scratch: ScratchBuffers) -> Singles:
     """Make vectors (3, F) that are not zero unit, in place, and return them."""
-    length = _dot(vectors, vectors, arena("squared_length", vectors.shape[1], dtype=np.float32), arena)
+    length = _dot(vectors, vectors, scratch("squared_length", vectors.shape[1], dtype=np.float32), scratch)
     np.sqrt(length, out=length)
     np.divide(np.float32(1), length, out=length)
     vectors *= length
     return vectors
 
 
-def _dot(a: Singles, b: Singles, out: Singles, arena: Arena) -> Singles:
+def _dot(a: Singles, b: Singles, out: Singles, scratch: ScratchBuffers) -> Singles:
     """Write the dot products (F,) of vectors (3, F) with others, (3, F) or (3,)."""
-    part = arena("dot_part", len(out), dtype=np.float32)
+    part = scratch("dot_part", len(out), dtype=np.float32)
     np.multiply(a[0], b[0], out=out)
     for axis in (1, 2):
         np.multiply(a[axis], b[axis], out=part)

@@ -17,7 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.fast_path.draw_context import Job
+from core.fast_path.draw_context import DrawContext
 from core.fast_path.lit.corner_places import CornerPlaces, corner_places
 from core.fast_path.lit.light_errors import STEEPEST
 from core.fast_path.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
@@ -48,25 +48,27 @@ class LitTexture:
     for_layer: ClassVar[None] = None
     """None: they light what is seen once it is known, so a picture has its depth first."""
 
-    def look_up(self, job: Job, nearest: NearestFragments) -> int:
+    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return color_doubtful(job, nearest, self.light_seen(job, nearest.seen()))
+        return color_doubtful(context, nearest, self.light_seen(context, nearest.seen()))
 
-    def light_seen(self, job: Job, seen: Seen) -> Lit:
+    def light_seen(self, context: DrawContext, seen: Seen) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels."""
-        return self.planes.light_seen(job, seen, partial(self._albedo, job))
+        return self.planes.light_seen(context, seen, partial(self._albedo, context))
 
-    def _albedo(self, job: Job, primitive: Integers, column: Integers, row: Integers) -> list[Singles]:
+    def _albedo(
+        self, context: DrawContext, primitive: Integers, column: Integers, row: Integers
+    ) -> list[Singles]:
         """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
-        x, y = job.raster.centers(column, row)
-        inverse_w, u, v = job.arena("texture_position", 3, len(x))
-        term = job.arena("texture_term", len(x))
+        x, y = context.raster.centers(column, row)
+        inverse_w, u, v = context.scratch("texture_position", 3, len(x))
+        term = context.scratch("texture_term", len(x))
         for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
             evaluate(plane, primitive, x, y, values, term)
         np.divide(1, inverse_w, out=inverse_w)
         u *= inverse_w
         v *= inverse_w
-        colors = job.arena("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
+        colors = context.scratch("texture_colors", self.sampler.channels, len(x), dtype=np.float32)
         self.sampler.write_colors(u, v, colors)
         if all(part == 1 for part in self.color):
             return list(colors)
@@ -76,33 +78,33 @@ class LitTexture:
         ]
 
 
-def lit_texture(job: Job) -> LitTexture | None:
+def lit_texture(context: DrawContext) -> LitTexture | None:
     """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
 
     They are what ``one_color`` draws, with a texture that is looked up bilinearly.
     """
-    mesh = lit_mesh(job)
-    if mesh is None or mesh.mesh.texture is None or not have_few_unlike(job, [mesh.facts]):
+    mesh = lit_mesh(context)
+    if mesh is None or mesh.mesh.texture is None or not have_few_unlike(context, [mesh.facts]):
         return None
-    return texture_of(job, mesh, corner_places(job.geometry))
+    return texture_of(context, mesh, corner_places(context.geometry))
 
 
-def texture_of(job: Job, mesh: LitMesh, places: CornerPlaces) -> LitTexture | None:
+def texture_of(context: DrawContext, mesh: LitMesh, places: CornerPlaces) -> LitTexture | None:
     """Return the lit texture of a mesh whose corners are at ``places``; ``None``: it has none, or as above."""
-    texture, settings = mesh.mesh.texture, job.settings
+    texture, settings = mesh.mesh.texture, context.settings
     if texture is None or settings.texture_filter != "bilinear" or not is_plain(texture, settings.wrap):
         return None
     if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
-    position = _texel_positions(job.geometry, mesh, texture)
+    position = _texel_positions(context.geometry, mesh, texture)
     error = _texture_bytes(mesh, position_error(places, position))
-    planes = lit_planes(job, mesh, places, error)
+    planes = lit_planes(context, mesh, places, error)
     if planes is None:
         return None
     inverse = list(1 / places.w)
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
     inverse_w, u, v = (plane_through(places, values) for values in (inverse, *over_w))
-    sampler = SingleSampler(texture, job.settings.wrap)
+    sampler = SingleSampler(texture, context.settings.wrap)
     return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
 
 

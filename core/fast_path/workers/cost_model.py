@@ -9,7 +9,7 @@ TRIANGLE, PIXEL = 60e-9, 1e-9
 follow, to within a factor of two."""
 FRAGMENT: dict[Visibility, float] = {
     "layer": 6e-9,
-    "words": 8e-9,
+    "packed-depth": 8e-9,
     "stacks": 60e-9,
     "frame": 250e-9,
     "supersampled": 8e-9,
@@ -46,7 +46,7 @@ class Load:
     """Covered pixels of all triangles."""
     visible: int
     """Pixels that something is seen at."""
-    visibility: Visibility = "words"
+    visibility: Visibility = "packed-depth"
     """As in ``Route``, which see; also ``color``."""
     color: Coloring = "bytes"
 

@@ -34,7 +34,7 @@ import numpy as np
 from core.methods import table
 from core.raster.edges.cross_product import FIRST, LAST, NEXT, cross
 from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import Held, NumberFormat, number_format
+from core.raster.number_formats.number_format import FormatValue, NumberFormat, number_format
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 
@@ -48,11 +48,11 @@ BLOCK = 16384
 class EdgeFunctions:
     """Edge functions of P triangles, positive inside, in the numbers that they are evaluated in."""
 
-    a: Held
+    a: FormatValue
     """(P, 3) in the format's own type and unit, change per column."""
-    b: Held
+    b: FormatValue
     """(P, 3), change per row."""
-    c: Held
+    c: FormatValue
     """(P, 3), value at the window's origin."""
     owns_tie: Flags
     """(P, 3) bool, whether a pixel centre exactly on the edge belongs to the triangle."""
@@ -108,7 +108,7 @@ def orient(corners: CornerPositions) -> Floats:
     return np.where(corners.is_projected.all(axis=1), area, determinant)
 
 
-def gather_area(x: Floats, y: Floats, corner: Integers) -> Floats:
+def doubled_areas(x: Floats, y: Floats, corner: Integers) -> Floats:
     """Return twice the signed area (P,) of triangles with the corners (3, P) among vertices at x, y (M,).
 
     The same numbers as ``orient`` where all corners are projected, else NaN.
@@ -193,16 +193,16 @@ def anchored_edge(
     return a, b, -(a * x + b * y)
 
 
-def edge_value(a: Held, b: Held, c: Held, x: Held, y: Held) -> Held:
+def edge_value(a: FormatValue, b: FormatValue, c: FormatValue, x: FormatValue, y: FormatValue) -> FormatValue:
     """Evaluate edge functions at pixel centres, all (F,) or (F, 3); the part of the row is summed first.
 
     All numbers are of one format, and so is the value: see ``number_format``.
     """
-    value: Held = a * x + (b * y + c)
+    value: FormatValue = a * x + (b * y + c)
     return value
 
 
-def is_inside(value: Held, owns_tie: Flags) -> Flags:
+def is_inside(value: FormatValue, owns_tie: Flags) -> Flags:
     """Decide on which side of an edge pixel centres (F,) lie; on it, the fill rule decides."""
     return np.asarray((value > 0) | ((value == 0) & owns_tie))
 

@@ -14,7 +14,7 @@ from core.raster.binning import bound
 from core.raster.coverage import cover
 from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
 from core.raster.edges.snapping import place_corners
-from core.raster.fills.tested import suited_fill
+from core.raster.fills.tested import effective_fill
 from core.raster.number_formats.exact import EXACT_SNAPPED
 from core.raster.pixel_runs import Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers
@@ -113,7 +113,7 @@ def misclassified(
     """
     raster = make_raster(size, pixel_center)
     edges = set_up_edges(place_corners(clip, size, coverage), fill_rule)
-    function = table.get("fill", suited_fill(fill, coverage)).function
+    function = table.get("fill", effective_fill(fill, coverage)).function
     drawn, tested = _cover_count(edges, function(edges, bound(edges, raster), raster, block_size), raster)
     wanted = exact_coverage(clip, size, fill_rule, pixel_center, snapped=snapped).astype(np.int64)
     missing, extra = np.maximum(wanted - drawn, 0), np.maximum(drawn - wanted, 0)

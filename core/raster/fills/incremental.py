@@ -19,7 +19,7 @@ import numpy as np
 
 from core.raster.binning import bound
 from core.raster.edges.edge_functions import EdgeFunctions, edge_value
-from core.raster.number_formats.number_format import Held, NumberFormat
+from core.raster.number_formats.number_format import FormatValue, NumberFormat
 from core.raster.pixel_runs import ADDED_A, ADDED_B, EVALUATED, Raster, Runs, Stepping
 from core.records.arrays import Flags, Integers
 
@@ -42,13 +42,13 @@ def step_to(edges: EdgeFunctions, runs: Runs, raster: Raster) -> Stepping:
     return Stepping(value, np.where((strides > 0)[:, None], left, below), added)
 
 
-def increments(numbers: NumberFormat, slope: Held) -> Held:
+def increments(numbers: NumberFormat, slope: FormatValue) -> FormatValue:
     """Return what a value grows by from pixel to pixel, where a or b is ``slope``, any shape."""
-    increment: Held = slope * numbers.of_pixels(np.ones(1))
+    increment: FormatValue = slope * numbers.of_pixels(np.ones(1))
     return increment
 
 
-def add_up(value: Held, step: Held, count: Integers) -> tuple[Held, Held]:
+def add_up(value: FormatValue, step: FormatValue, count: Integers) -> tuple[FormatValue, FormatValue]:
     """Add steps (N, 3) to values (N, 3), one after the other, ``count`` (N,) times each.
 
     Returns
@@ -69,7 +69,7 @@ def add_up(value: Held, step: Held, count: Integers) -> tuple[Held, Held]:
     return found, earlier
 
 
-def stepped_values(edges: EdgeFunctions, runs: Runs) -> Held:
+def stepped_values(edges: EdgeFunctions, runs: Runs) -> FormatValue:
     """Return the values (Q, 3) at all pixels of runs, run by run, added up along them from where they start."""
     assert runs.stepping is not None
     length = runs.lengths

@@ -88,7 +88,7 @@ def incremental(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: 
     return replace(runs, stepping=step_to(edges, runs, raster))
 
 
-def suited_fill(fill: str, coverage: str) -> str:
+def effective_fill(fill: str, coverage: str) -> str:
     """Return the fill that runs: ``bounding-box`` in the place of spans that do not suit the numbers.
 
     Spans give the pixels of a test at every pixel only where values are monotone along a row, and are made for
@@ -98,4 +98,4 @@ def suited_fill(fill: str, coverage: str) -> str:
     return "bounding-box" if needs_float64 and not number_format(coverage).suits_spans else fill
 
 
-__all__ = ["blocks", "bound", "bounding_box", "brute_force", "hierarchy", "incremental", "suited_fill"]
+__all__ = ["blocks", "bound", "bounding_box", "brute_force", "effective_fill", "hierarchy", "incremental"]

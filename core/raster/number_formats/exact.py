@@ -20,7 +20,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.edges.snapping import SUBPIXELS, CornerPositions
-from core.raster.number_formats.number_format import Coefficients, Held, NumberFormat
+from core.raster.number_formats.number_format import Coefficients, FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats, Integers
 
 MANTISSA_BITS = 53
@@ -49,7 +49,7 @@ class ExactFormat(NumberFormat):
         """Tell whether corners are counted in 1/256 of half a pixel: some have places there."""
         return self.uses_lattice or any(corners.shift)
 
-    def held_corners(self, corners: CornerPositions) -> tuple[Held, Held, Held]:
+    def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
         """Return x, y, w (3, P) of the homogeneous window in half pixels: (x + w) width, (y + w) height, w."""
         clip = corners.clip
         is_finite = np.isfinite(clip).all(axis=(1, 2), keepdims=True)
@@ -70,11 +70,11 @@ class ExactFormat(NumberFormat):
         snapped_x, snapped_y = place.astype(np.int64).astype(object) * w
         return np.where(is_snapped, snapped_x, x), np.where(is_snapped, snapped_y, y), unit
 
-    def of_pixels(self, position: Floats) -> Held:
+    def of_pixels(self, position: Floats) -> FormatValue:
         """Return x or y of pixel centres, any shape, in half pixels."""
         return np.asarray(position * 2).astype(np.int64).astype(object)
 
-    def shown(self, held: Held, exponent: int) -> Floats:
+    def shown(self, held: FormatValue, exponent: int) -> Floats:
         """Return whole numbers of any shape as the nearest float64; what is not 0 stays so."""
         return np.asarray(_nearest_floats(held, exponent), np.float64)
 
@@ -88,12 +88,12 @@ def unit_shift(values: Floats) -> int:
     return int(max(MANTISSA_BITS - exponent.min(), 0))
 
 
-def whole_numbers(values: Floats, shift: int) -> Held:
+def whole_numbers(values: Floats, shift: int) -> FormatValue:
     """Return finite ``values`` (any shape) times 2^shift as whole numbers of any length."""
     mantissa, exponent = np.frexp(values)
     whole = np.ldexp(mantissa, MANTISSA_BITS).astype(np.int64).astype(object)
     places = np.where(values == 0, 0, exponent - MANTISSA_BITS + shift).astype(object)
-    shifted: Held = np.left_shift(whole, places)
+    shifted: FormatValue = np.left_shift(whole, places)
     return shifted
 
 
@@ -113,7 +113,7 @@ _nearest_floats = np.frompyfunc(nearest_float, 2, 1)
 
 def decide_filtered(
     approximate: tuple[Floats, Floats, Floats],
-    exact: tuple[Held, Held, Held],
+    exact: tuple[FormatValue, FormatValue, FormatValue],
     owns_tie: Flags,
     run: Integers,
     x: Floats,

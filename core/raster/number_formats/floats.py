@@ -12,7 +12,7 @@ import numpy as np
 from core.methods import method
 from core.raster.edges.edge_functions import set_up_per_edge
 from core.raster.edges.snapping import CornerPositions, snap
-from core.raster.number_formats.number_format import Coefficients, Held, NumberFormat
+from core.raster.number_formats.number_format import Coefficients, FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats
 
 
@@ -36,14 +36,14 @@ class RoundedFormat(NumberFormat):
     def shown_ends(self, corners: CornerPositions) -> Floats:
         """Return (P, 3, 3) float64 the homogeneous corners, rounded to the format."""
         with np.errstate(over="ignore"):
-            rounded: Held = corners.homogeneous.astype(self.held_as)
+            rounded: FormatValue = corners.homogeneous.astype(self.held_as)
         shown: Floats = rounded.astype(np.float64)
         return shown
 
     def spacing(self, size: Floats) -> Floats:
         """Return the units in the last place of numbers of this size, any shape."""
         with np.errstate(over="ignore", invalid="ignore"):
-            spacing: Held = np.spacing(size.astype(self.held_as))
+            spacing: FormatValue = np.spacing(size.astype(self.held_as))
         shown: Floats = spacing.astype(np.float64)
         return shown
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.edges.snapping import SUBPIXELS, CornerPositions, snap
-from core.raster.number_formats.number_format import Held, NumberFormat
+from core.raster.number_formats.number_format import FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats
 
 
@@ -31,14 +31,14 @@ class FixedFormat(NumberFormat):
         """Return positions (P, 3, 2) on the lattice of 1/256 pixel, and where (P, 3) bool the format has them."""
         return snap(window, self.limit)
 
-    def held_corners(self, corners: CornerPositions) -> tuple[Held, Held, Held]:
+    def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
         """Return x, y, w (3, P) in 1/256 pixel; w is 1, and all are 0 where a triangle cannot be drawn."""
         is_drawn = corners.is_projected.all(axis=1)
         held = np.where(is_drawn, corners.decided.transpose(2, 1, 0) * SUBPIXELS, 0).astype(self.held_as)
         w = np.broadcast_to(is_drawn, held.shape[1:]).astype(self.held_as)
         return held[0], held[1], w
 
-    def of_pixels(self, position: Floats) -> Held:
+    def of_pixels(self, position: Floats) -> FormatValue:
         """Return x or y of pixel centres, any shape, in 1/256 pixel."""
         return np.asarray(position * SUBPIXELS).astype(self.held_as)
 

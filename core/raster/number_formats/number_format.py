@@ -24,7 +24,7 @@ from core.raster.edges.cross_product import LAST, NEXT, cross
 from core.raster.edges.snapping import CornerPositions, keep
 from core.records.arrays import Flags, Floats
 
-Held = NDArray[Any]
+FormatValue = NDArray[Any]
 """Numbers of a format, kept in an array of its own type."""
 
 
@@ -33,10 +33,10 @@ class Coefficients(NamedTuple):
 
     numbers: "NumberFormat"
     """The format, fitted to these triangles."""
-    a: Held
+    a: FormatValue
     """(P, 3)."""
-    b: Held
-    c: Held
+    b: FormatValue
+    c: FormatValue
     doubled_area: Floats
     """(P,) float64, twice the signed area or the determinant as the format sees it; 0: nothing is drawn."""
 
@@ -68,7 +68,7 @@ class NumberFormat:
         """Return positions (P, 3, 2) on the format's lattice, and where (P, 3) bool there are any."""
         return keep(window)
 
-    def held_corners(self, corners: CornerPositions) -> tuple[Held, Held, Held]:
+    def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
         """Return x, y, w (3, P) of the corners in the format's own units."""
         x, y, w = corners.homogeneous.transpose(2, 1, 0)
         return x.astype(self.held_as), y.astype(self.held_as), w.astype(self.held_as)
@@ -91,19 +91,19 @@ class NumberFormat:
             shown = self.shown(area, self.area_exponent)
             return Coefficients(self, (sign * a).T, (sign * b).T, (sign * c).T, shown)
 
-    def of_pixels(self, position: Floats) -> Held:
+    def of_pixels(self, position: Floats) -> FormatValue:
         """Return x or y of pixel centres, any shape, in the format's own units."""
         if self.held_as is np.float64:
             return position
         return position.astype(self.held_as)
 
-    def shown(self, held: Held, exponent: int) -> Floats:
+    def shown(self, held: FormatValue, exponent: int) -> Floats:
         """Return numbers of any shape as float64, in pixels; ``exponent`` is what one unit is worth."""
         if held.dtype == np.float64:
             return held
         return np.ldexp(held.astype(np.float64), exponent)
 
-    def shown_values(self, held: Held) -> Floats:
+    def shown_values(self, held: FormatValue) -> Floats:
         """Return values of edge functions, any shape, as float64."""
         return self.shown(held, self.value_exponent)
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from core.raster.pixel_runs import Raster
 from core.raster.spans.lane_rows import rows_in_order
 from core.raster.spans.lanes import TieOwners, set_up_lanes
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
 BIG_AREA = 1 << 15
@@ -126,7 +126,7 @@ class Strip:
 
 
 def rows_of_triangles(
-    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, arena: Arena
+    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
 ) -> list[TriangleRows]:
     """Return the rows of triangles, of all of them at once.
 
@@ -137,13 +137,13 @@ def rows_of_triangles(
     doubled_area : (P,) float64
     raster : Raster
     owners : TieOwners
-    arena : Arena
+    scratch : ScratchBuffers
     """
     first_column, first_row, end_column, end_row = raster.bounds
     all_columns = replace(raster, region=(0, first_row, raster.width, end_row - first_row))
-    lanes = set_up_lanes(x, y, doubled_area, all_columns, owners, arena)
+    lanes = set_up_lanes(x, y, doubled_area, all_columns, owners, scratch)
     count = len(doubled_area)
-    rows = rows_in_order(lanes, count, all_columns, owners, arena)
+    rows = rows_in_order(lanes, count, all_columns, owners, scratch)
     start, stop = rows.start, rows.stop
     if (first_column, end_column) != (0, raster.width):
         start, stop = (np.clip(of, first_column, end_column) for of in (start, stop))

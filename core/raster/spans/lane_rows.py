@@ -10,9 +10,9 @@ import numpy as np
 
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.pixel_runs import Raster
-from core.raster.spans.lanes import Lanes, TieOwners, set_up_lanes
+from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes
 from core.raster.spans.rows import Carried, bounds_of_rows
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Integers
 
 
@@ -38,11 +38,13 @@ def owners_of(edges: EdgeFunctions) -> TieOwners:
     return TieOwners(*(bool(owns[kind].all()) for kind in kinds))
 
 
-def lanes_of_edges(edges: EdgeFunctions, raster: Raster, owners: TieOwners, arena: Arena) -> Lanes:
-    """Put the triangles side by side whose corners are all projected; they live in the memory of ``arena``."""
+def lanes_of_edges(
+    edges: EdgeFunctions, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
+) -> TriangleSetup:
+    """Put the triangles side by side whose corners are all projected; they live in the memory of ``scratch``."""
     x, y = (np.ascontiguousarray(edges.corners.decided[..., axis].T) for axis in range(2))
     area = np.where(is_in_lane(edges), edges.doubled_area, 0)
-    return set_up_lanes(x, y, area, raster, owners, arena)
+    return set_up_lanes(x, y, area, raster, owners, scratch)
 
 
 def is_in_lane(edges: EdgeFunctions) -> Flags:
@@ -50,7 +52,7 @@ def is_in_lane(edges: EdgeFunctions) -> Flags:
     return np.asarray(edges.corners.is_projected.all(axis=1))
 
 
-def height_of_lanes(lanes: Lanes) -> Integers:
+def height_of_lanes(lanes: TriangleSetup) -> Integers:
     """Return the number of rows (L,) int64 of every lane."""
     shortest_first = np.array(lanes.taller[::-1], np.int64)
     return len(lanes.taller) - np.searchsorted(shortest_first, np.arange(len(lanes.triangle)), side="right")
@@ -58,21 +60,21 @@ def height_of_lanes(lanes: Lanes) -> Integers:
 
 def lane_rows(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> LaneRows:
     """Walk the rows of all triangles that have a lane."""
-    arena = Arena()
-    return rows_in_order(lanes_of_edges(edges, raster, owners, arena), len(edges), raster, owners, arena)
+    scratch = ScratchBuffers()
+    return rows_in_order(lanes_of_edges(edges, raster, owners, scratch), len(edges), raster, owners, scratch)
 
 
 def rows_in_order(
-    lanes: Lanes, triangle_count: int, raster: Raster, owners: TieOwners, arena: Arena
+    lanes: TriangleSetup, triangle_count: int, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
 ) -> LaneRows:
     """Walk the rows of lanes of ``triangle_count`` triangles and put them in drawing order; the lanes are used up."""
     if len(lanes.triangle) == 1:
-        _, start, length = bounds_of_rows(lanes, raster, owners, (), arena)
+        _, start, length = bounds_of_rows(lanes, raster, owners, (), scratch)
         row = int(lanes.first_row[0]) + np.arange(len(start))
         return _as_rows(np.repeat(lanes.triangle, len(start)), row, start, length)
     height, first_row = height_of_lanes(lanes), lanes.first_row.astype(np.int64)
     carried = (Carried(np.arange(len(first_row)), 0), Carried(first_row.copy(), 1))
-    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
+    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, scratch)
 
     # A triangle's rows stand behind those of all triangles drawn before it.
     count = np.zeros(triangle_count, np.int64)

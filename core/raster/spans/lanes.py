@@ -1,4 +1,4 @@
-"""Lanes: triangles side by side, tallest first, and where their edges cross the rows, as exact fractions.
+"""TriangleSetup: triangles side by side, tallest first, and where their edges cross the rows, as exact fractions.
 
 An edge from (x0, y0) to (x1, y1) crosses the row whose centres are at y in the column
 
@@ -24,10 +24,10 @@ import numpy as np
 from core.methods import table
 from core.numeric.sorting import largest_first
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
-GUARD = 2.0**-35
+ROUNDING_MARGIN = 2.0**-35
 """Columns; larger than the rounding of a crossing, smaller than its distance from a whole number that it is not."""
 SUBPIXEL_GUARD = 2.0**-10
 """The same for the rows of corners, which are multiples of 2^-8."""
@@ -48,12 +48,12 @@ class TieOwners:
     @property
     def left_guard(self) -> float:
         """What is added to a left crossing."""
-        return -GUARD if self.left else GUARD
+        return -ROUNDING_MARGIN if self.left else ROUNDING_MARGIN
 
     @property
     def right_guard(self) -> float:
         """What is added to a right crossing."""
-        return GUARD if self.right else -GUARD
+        return ROUNDING_MARGIN if self.right else -ROUNDING_MARGIN
 
 
 @cache
@@ -64,7 +64,7 @@ def tie_owners(fill_rule: str) -> TieOwners:
 
 
 @dataclass(frozen=True, eq=False)
-class Lanes:
+class TriangleSetup:
     """L triangles that have rows, tallest first."""
 
     triangle: Integers
@@ -83,9 +83,9 @@ class Lanes:
     """Some triangle, drawn or not, has a corner left or right of the raster."""
 
 
-def row_range(y: Floats, raster: Raster, owners: TieOwners, arena: Arena) -> tuple[Floats, Floats]:
+def row_range(y: Floats, raster: Raster, owners: TieOwners, scratch: ScratchBuffers) -> tuple[Floats, Floats]:
     """Return the first row and the number of rows (P,) float64 of triangles with corners at y (3, P), in the raster."""
-    first, end = arena("first", y.shape[1]), arena("rows", y.shape[1])
+    first, end = scratch("first", y.shape[1]), scratch("rows", y.shape[1])
     np.minimum(y[0], y[1], out=first)
     np.minimum(first, y[2], out=first)
     np.maximum(y[0], y[1], out=end)
@@ -101,8 +101,8 @@ def row_range(y: Floats, raster: Raster, owners: TieOwners, arena: Arena) -> tup
 
 
 def set_up_lanes(
-    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, arena: Arena
-) -> Lanes:
+    x: Floats, y: Floats, doubled_area: Floats, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
+) -> TriangleSetup:
     """Put triangles side by side.
 
     Parameters
@@ -113,21 +113,21 @@ def set_up_lanes(
         Its sign is the facing; triangles where it is 0 are left out.
     raster : Raster
     owners : TieOwners
-    arena : Arena
+    scratch : ScratchBuffers
         The lanes live in its memory.
     """
-    first, rows = row_range(y, raster, owners, arena)
+    first, rows = row_range(y, raster, owners, scratch)
     np.copyto(rows, 0.0, where=doubled_area == 0)  # also where a corner is nowhere
-    order, taller = largest_first(rows, arena("missing_rows", 2 * len(rows), dtype=np.uint8))
-    lane_first = arena("lane_first", len(order))
+    order, taller = largest_first(rows, scratch("missing_rows", 2 * len(rows), dtype=np.uint8))
+    lane_first = scratch("lane_first", len(order))
     first.take(order, out=lane_first, mode="clip")
     first_column, _, end_column, _ = raster.bounds
     is_within = bool(x.min(initial=first_column) >= first_column) and bool(
         x.max(initial=0) < end_column + raster.center
     )
-    corners = _from_lowest_corner(x, y, doubled_area, order, arena)
-    numerator, step, reciprocal = _edges(*corners, lane_first, raster.center, arena)
-    return Lanes(order, taller, lane_first, numerator, step, reciprocal, not is_within)
+    corners = _from_lowest_corner(x, y, doubled_area, order, scratch)
+    numerator, step, reciprocal = _edges(*corners, lane_first, raster.center, scratch)
+    return TriangleSetup(order, taller, lane_first, numerator, step, reciprocal, not is_within)
 
 
 _TURNED = np.array([[0, 1, 2, 0, 1, 2], [1, 2, 0, 2, 0, 1], [2, 0, 1, 1, 2, 0]])
@@ -135,21 +135,21 @@ _TURNED = np.array([[0, 1, 2, 0, 1, 2], [1, 2, 0, 2, 0, 1], [2, 0, 1, 1, 2, 0]])
 
 
 def _from_lowest_corner(
-    x: Floats, y: Floats, doubled_area: Floats, order: Integers, arena: Arena
+    x: Floats, y: Floats, doubled_area: Floats, order: Integers, scratch: ScratchBuffers
 ) -> tuple[Floats, Floats]:
     """Return x and y (3, L) of the corners of ``order`` (L,), counter-clockwise from the lowest one."""
     total, count = x.shape[1], len(order)
     y0, y1, y2 = y
-    turn, flag = arena("turn", total, dtype=np.int8), arena("flag", total, dtype=np.bool_)
+    turn, flag = scratch("turn", total, dtype=np.int8), scratch("flag", total, dtype=np.bool_)
     np.less(y1, y0, out=turn, casting="unsafe")
-    np.less(y2, np.minimum(y0, y1, out=arena("lower", total)), out=flag)
+    np.less(y2, np.minimum(y0, y1, out=scratch("lower", total)), out=flag)
     np.maximum(turn, flag.view(np.int8) << 1, out=turn)
     np.less(doubled_area, 0, out=flag)
     turn += flag.view(np.int8) * np.int8(3)
     turn = turn.take(order)
 
-    place = arena("place", count, dtype=np.int64)
-    turned_x, turned_y = arena("turned_x", 3, count), arena("turned_y", 3, count)
+    place = scratch("place", count, dtype=np.int64)
+    turned_x, turned_y = scratch("turned_x", 3, count), scratch("turned_y", 3, count)
     flat_x, flat_y = x.reshape(-1), y.reshape(-1)
     for corner, first_place in enumerate(_TURNED * total):
         first_place.take(turn, out=place, mode="clip")
@@ -163,7 +163,7 @@ LEFT, MIDDLE_LEFT, RIGHT, MIDDLE_RIGHT = range(4)
 
 
 def _edges(
-    x: Floats, y: Floats, first_row: Floats, center: float, arena: Arena
+    x: Floats, y: Floats, first_row: Floats, center: float, scratch: ScratchBuffers
 ) -> tuple[Floats, Floats, Floats]:
     """Return numerator at the first row, step and reciprocal (4, L) of the edges between corners at x, y (3, L).
 
@@ -171,8 +171,8 @@ def _edges(
     on the right where it goes up, on the left where it goes down. A level edge bounds no row.
     """
     count = len(first_row)
-    numerator, step, reciprocal = (arena(name, 4, count) for name in ("numerator", "step", "reciprocal"))
-    dy, above_start, part = (arena(name, count) for name in ("dy", "above_start", "part"))
+    numerator, step, reciprocal = (scratch(name, 4, count) for name in ("numerator", "step", "reciprocal"))
+    dy, above_start, part = (scratch(name, count) for name in ("dy", "above_start", "part"))
     for side, start, end in ((RIGHT, 0, 1), (LEFT, 0, 2), (MIDDLE_RIGHT, 1, 2)):
         if side != LEFT:
             np.subtract(first_row, y[start], out=above_start)

@@ -19,7 +19,7 @@ from core.raster.pixel_runs import Raster
 from core.raster.spans.lane_rows import LaneRows, height_of_lanes, lane_rows, lanes_of_edges
 from core.raster.spans.lanes import TieOwners
 from core.raster.spans.rows import Carried, walk_rows
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers
 
 
@@ -55,9 +55,9 @@ class SpanOrder:
 
 def order_of_spans(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> SpanOrder:
     """Walk the rows of all lanes and sort their spans as pictures do."""
-    arena, count = Arena(), len(edges)
+    scratch, count = ScratchBuffers(), len(edges)
     rows = lane_rows(edges, raster, owners)
-    lanes = lanes_of_edges(edges, raster, owners, arena)
+    lanes = lanes_of_edges(edges, raster, owners, scratch)
     lane, first_row = np.full(count, -1), np.full(count, -1)
     lane[lanes.triangle] = np.arange(len(lanes.triangle))
     first_row[lanes.triangle] = lanes.first_row
@@ -67,7 +67,7 @@ def order_of_spans(edges: EdgeFunctions, raster: Raster, owners: TieOwners) -> S
 
     # The spans, longest first, and where their rows stand in drawing order.
     carried = Carried(lanes.first_row.astype(np.int64), 1)
-    spans = walk_rows(lanes, raster, owners, (carried,), arena)
+    spans = walk_rows(lanes, raster, owners, (carried,), scratch)
     triangle = lanes.triangle.take(spans.lane)
     place = np.full(len(rows.row), -1)
     place[before[triangle] + spans.carried[0] - first_row[triangle]] = np.arange(len(spans))

@@ -17,9 +17,9 @@ import numpy as np
 from core.numeric.integer_planes import IntegerPlanes
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
-from core.raster.spans.lanes import Lanes, TieOwners
+from core.raster.spans.lanes import TieOwners, TriangleSetup
 from core.raster.spans.rows import Carried, bounds_of_rows, longest_first
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers
 
 FEW = 96
@@ -46,12 +46,12 @@ class WordSpans:
 
 
 def word_spans(
-    planes: IntegerPlanes, lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena
+    planes: IntegerPlanes, lanes: TriangleSetup, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
 ) -> WordSpans:
     """Walk the rows of all lanes and return their spans with the words to start from."""
     count = len(lanes.triangle)
     across, up, word, pixel = (
-        arena(name, count, dtype=np.int64) for name in ("lane_across", "lane_up", "lane_word", "lane_pixel")
+        scratch(name, count, dtype=np.int64) for name in ("lane_across", "lane_up", "lane_word", "lane_pixel")
     )
     np.copyto(pixel, lanes.first_row, casting="unsafe")
     planes.up.take(lanes.triangle, out=up, mode="clip")
@@ -63,15 +63,15 @@ def word_spans(
     pixel *= columns
     pixel += raster.place_of_origin
     carried = (Carried(pixel, columns), Carried(word, up), Carried(across, 0))
-    (pixel, word, step), start, length = bounds_of_rows(lanes, raster, owners, carried, arena)
+    (pixel, word, step), start, length = bounds_of_rows(lanes, raster, owners, carried, scratch)
 
     # From column 0 to the first pixel of every row.
-    column = arena("row_column", len(start), dtype=np.int64)
+    column = scratch("row_column", len(start), dtype=np.int64)
     np.copyto(column, start)
     pixel += column
     column *= step
     word += column
-    (pixel, word, step), longer = longest_first(length, (pixel, word, step), arena)
+    (pixel, word, step), longer = longest_first(length, (pixel, word, step), scratch)
     return WordSpans(pixel, word, step, longer)
 
 
@@ -109,10 +109,10 @@ def write_out(longer: list[int]) -> tuple[Integers, Integers]:
     return span, np.arange(len(span)) - np.repeat(np.cumsum(length) - length, length)
 
 
-def word_block(planes: IntegerPlanes, triangle: int, band: Band, arena: Arena) -> Integers:
+def word_block(planes: IntegerPlanes, triangle: int, band: Band, scratch: ScratchBuffers) -> Integers:
     """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
     ramp = band.column * planes.across[triangle]
     of_row = planes.origin[triangle] + band.inside.row * planes.up[triangle]
-    block = arena("word_block", len(of_row), len(ramp), dtype=np.int64)
+    block = scratch("word_block", len(of_row), len(ramp), dtype=np.int64)
     np.add(ramp, of_row[:, None], out=block)
     return block

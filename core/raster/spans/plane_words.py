@@ -12,10 +12,10 @@ import numpy as np
 
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
-from core.raster.spans.lanes import Lanes, TieOwners
+from core.raster.spans.lanes import TieOwners, TriangleSetup
 from core.raster.spans.packed import FEW, write_out
 from core.raster.spans.rows import Carried, Spans, walk_rows
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
 
 PAYLOAD_BITS = 32
@@ -52,24 +52,24 @@ class DepthPlanes:
         at = slice(first, end)
         return replace(self, a=self.a[at], b=self.b[at], c=self.c[at], payload=self.payload[at])
 
-    def block(self, triangle: int, band: Band, raster: Raster, arena: Arena) -> Integers:
+    def block(self, triangle: int, band: Band, raster: Raster, scratch: ScratchBuffers) -> Integers:
         """Return the words (R, C) int64 of one triangle at all pixels of a band's block."""
         shape = (len(band.inside), len(band.column))
-        depth = arena("depth_block", *shape)
+        depth = scratch("depth_block", *shape)
         of_row = self.b[triangle] * raster.along(band.inside.row) + self.c[triangle]
         np.add(self.a[triangle] * raster.along(band.column), of_row[:, None], out=depth)
-        return self.words(depth.reshape(-1), self.payload[triangle], arena).reshape(shape)
+        return self.words(depth.reshape(-1), self.payload[triangle], scratch).reshape(shape)
 
-    def words(self, depth: Floats, payload: Integers, arena: Arena) -> Integers:
+    def words(self, depth: Floats, payload: Integers, scratch: ScratchBuffers) -> Integers:
         """Return the words (F,) int64 of depths (F,), which are limited and rounded in place."""
         np.clip(depth, 0.0, 1.0, out=depth)
         if self.scale != 1:
             depth *= self.scale
             np.rint(depth, out=depth)
-        single = arena("plane_single", len(depth), dtype=np.float32)
+        single = scratch("plane_single", len(depth), dtype=np.float32)
         np.copyto(single, depth, casting="same_kind")
         single += np.float32(0)  # no negative zero: bits are compared
-        words = arena("plane_words", len(depth), dtype=np.int64)
+        words = scratch("plane_words", len(depth), dtype=np.int64)
         np.copyto(words, single.view(np.int32))
         if self.larger_is_nearer:
             np.subtract(INFINITY, words, out=words)
@@ -78,18 +78,23 @@ class DepthPlanes:
         return words
 
 
-def plane_spans(lanes: Lanes, raster: Raster, owners: TieOwners, arena: Arena) -> Spans:
+def plane_spans(lanes: TriangleSetup, raster: Raster, owners: TieOwners, scratch: ScratchBuffers) -> Spans:
     """Walk the rows of all lanes; the place of column 0 in the buffer and the row are carried along."""
-    row = arena("plane_row", len(lanes.triangle), dtype=np.int64)
+    row = scratch("plane_row", len(lanes.triangle), dtype=np.int64)
     np.copyto(row, lanes.first_row, casting="unsafe")
     columns = raster.shape[1]
-    pixel: Integers = np.multiply(row, columns, out=arena("plane_pixel", len(row), dtype=np.int64))
+    pixel: Integers = np.multiply(row, columns, out=scratch("plane_pixel", len(row), dtype=np.int64))
     pixel += raster.place_of_origin
-    return walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(row, 1)), arena)
+    return walk_rows(lanes, raster, owners, (Carried(pixel, columns), Carried(row, 1)), scratch)
 
 
 def draw_plane_words(
-    words: Integers, planes: DepthPlanes, spans: Spans, triangle: Integers, raster: Raster, arena: Arena
+    words: Integers,
+    planes: DepthPlanes,
+    spans: Spans,
+    triangle: Integers,
+    raster: Raster,
+    scratch: ScratchBuffers,
 ) -> None:
     """Keep the least word of every pixel.
 
@@ -114,10 +119,10 @@ def draw_plane_words(
         if count < FEW:
             span, place = write_out(spans.longer[k:])
             depth = a[span] * (x[span] + place) + of_row[span]
-            np.minimum.at(words[k:], pixel[span] + place, planes.words(depth, payload[span], arena))
+            np.minimum.at(words[k:], pixel[span] + place, planes.words(depth, payload[span], scratch))
             return
-        depth = np.multiply(a[:count], x[:count], out=arena("plane_depth", count))
+        depth = np.multiply(a[:count], x[:count], out=scratch("plane_depth", count))
         depth += of_row[:count]
         # The k-th pixel is k places behind the first, see `packed.each_pass`.
-        np.minimum.at(words[k:], pixel[:count], planes.words(depth, payload[:count], arena))
+        np.minimum.at(words[k:], pixel[:count], planes.words(depth, payload[:count], scratch))
         x[:further] += 1

@@ -16,8 +16,8 @@ import numpy as np
 
 from core.numeric.sorting import largest_first
 from core.raster.pixel_runs import Raster
-from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, Lanes, TieOwners
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, TieOwners, TriangleSetup
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
 GROUP = 4096
@@ -57,17 +57,25 @@ class Spans:
 
 
 def walk_rows(
-    lanes: Lanes, raster: Raster, owners: TieOwners, carried: Sequence[Carried], arena: Arena
+    lanes: TriangleSetup,
+    raster: Raster,
+    owners: TieOwners,
+    carried: Sequence[Carried],
+    scratch: ScratchBuffers,
 ) -> Spans:
     """Return the spans of all lanes, longest first, with the carried values of their rows; see `bounds_of_rows`."""
     lane = Carried(np.arange(len(lanes.triangle)), 0)
-    (of_lane, *values), start, length = bounds_of_rows(lanes, raster, owners, (lane, *carried), arena)
-    columns, longer = longest_first(length, (of_lane, start.astype(np.int64), *values), arena)
+    (of_lane, *values), start, length = bounds_of_rows(lanes, raster, owners, (lane, *carried), scratch)
+    columns, longer = longest_first(length, (of_lane, start.astype(np.int64), *values), scratch)
     return Spans(columns[0], columns[1], columns[2:], longer)
 
 
 def bounds_of_rows(
-    lanes: Lanes, raster: Raster, owners: TieOwners, carried: Sequence[Carried], arena: Arena
+    lanes: TriangleSetup,
+    raster: Raster,
+    owners: TieOwners,
+    carried: Sequence[Carried],
+    scratch: ScratchBuffers,
 ) -> tuple[list[Integers], Integers, Integers]:
     """Walk the rows of all lanes, lowest level first.
 
@@ -86,19 +94,19 @@ def bounds_of_rows(
     """
     groups = _groups(lanes.taller)
     total = sum(count * levels for count, levels in groups)
-    left, right = arena("left", total), arena("right", total)
-    values = [arena(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
+    left, right = scratch("left", total), scratch("right", total)
+    values = [scratch(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
     done = row = 0
     for (count, levels), (further, _) in pairwise((*groups, (0, 0))):
         end = done + count * levels
         shape = (levels, count)
         bounds = left[done:end].reshape(shape), right[done:end].reshape(shape)
-        _cross(lanes, row, levels, count, further, *bounds, arena)
+        _cross(lanes, row, levels, count, further, *bounds, scratch)
         for value, carry in zip(values, carried, strict=True):
             _carry(carry, levels, further, value[done:end].reshape(shape))
         done = end
         row += levels
-    start, length = _bound_columns(left, right, lanes.reaches_out, raster, owners, arena)
+    start, length = _bound_columns(left, right, lanes.reaches_out, raster, owners, scratch)
     return values, start, length
 
 
@@ -113,20 +121,27 @@ def _groups(taller: list[int]) -> list[tuple[int, int]]:
 
 
 def _cross(
-    lanes: Lanes, row: int, levels: int, count: int, further: int, left: Floats, right: Floats, arena: Arena
+    lanes: TriangleSetup,
+    row: int,
+    levels: int,
+    count: int,
+    further: int,
+    left: Floats,
+    right: Floats,
+    scratch: ScratchBuffers,
 ) -> None:
     """Write the bounds (levels, count) of the next rows, and move the numerators of the ``further`` lanes on."""
     numerator, step, reciprocal = (
         values[:, :count] for values in (lanes.numerator, lanes.step, lanes.reciprocal)
     )
     if levels == 1:
-        at = arena("crossing", 4, count)
+        at = scratch("crossing", 4, count)
         np.multiply(numerator, reciprocal, out=at)
         np.maximum(at[LEFT], at[MIDDLE_LEFT], out=left[0])
         np.minimum(at[RIGHT], at[MIDDLE_RIGHT], out=right[0])
         numerator[:, :further] += step[:, :further]
         return
-    block = arena("crossings", 4, levels, count)
+    block = scratch("crossings", 4, levels, count)
     np.multiply(step[:, None], np.arange(float(levels))[:, None], out=block)
     block += numerator[:, None]
     block *= reciprocal[:, None]
@@ -158,7 +173,7 @@ def _carry(carry: Carried, levels: int, further: int, values: Integers) -> None:
 
 
 def _bound_columns(
-    left: Floats, right: Floats, reaches_out: bool, raster: Raster, owners: TieOwners, arena: Arena
+    left: Floats, right: Floats, reaches_out: bool, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
 ) -> tuple[Integers, Integers]:
     """Return first column and length (R,) int32 of spans between crossings (R,); the crossings are used up."""
     # One more than the crossing, cut off: the next whole number, since the guard leaves none on a whole number.
@@ -168,7 +183,7 @@ def _bound_columns(
         first_column, _, end_column, _ = raster.bounds
         np.maximum(left, float(first_column), out=left)
         np.minimum(right, float(end_column), out=right)
-    start, length = (arena(name, len(left), dtype=np.int32) for name in ("row_start", "row_length"))
+    start, length = (scratch(name, len(left), dtype=np.int32) for name in ("row_start", "row_length"))
     np.copyto(start, left, casting="unsafe")
     np.copyto(length, right, casting="unsafe")
     length -= start
@@ -176,7 +191,7 @@ def _bound_columns(
 
 
 def longest_first(
-    length: Integers, columns: Sequence[Integers], arena: Arena
+    length: Integers, columns: Sequence[Integers], scratch: ScratchBuffers
 ) -> tuple[list[Integers], list[int]]:
     """Put rows in order of their length, the longest first, without empty ones.
 
@@ -186,7 +201,7 @@ def longest_first(
         Used up.
     columns : sequence of (R,) int64
         What is known of the rows.
-    arena : Arena
+    scratch : ScratchBuffers
 
     Returns
     -------
@@ -195,9 +210,9 @@ def longest_first(
         Element k: how many have more than k pixels.
     """
     np.maximum(length, 0, out=length)
-    order, longer = largest_first(length, arena("missing_pixels", 2 * len(length), dtype=np.uint8))
+    order, longer = largest_first(length, scratch("missing_pixels", 2 * len(length), dtype=np.uint8))
     placed = []
     for number, given in enumerate(columns):
-        placed.append(arena(f"span_column_{number}", len(order), dtype=np.int64))
+        placed.append(scratch(f"span_column_{number}", len(order), dtype=np.int64))
         given.take(order, out=placed[-1], mode="clip")
     return placed, longer

@@ -2,7 +2,7 @@
 
 from math import ceil, floor
 
-from core.raster.spans.lanes import GUARD, SUBPIXEL_GUARD
+from core.raster.spans.lanes import ROUNDING_MARGIN, SUBPIXEL_GUARD
 
 
 def rows_of_triangle(
@@ -36,10 +36,10 @@ def span_of_row(
         numerator = (x0 - center) * dy + (y - y0) * dx  #: numerator
         crossing = numerator * (1 / dy)  #: crossing
         if dy < 0:  #: side
-            guard = -GUARD if owns_tie else GUARD
+            guard = -ROUNDING_MARGIN if owns_tie else ROUNDING_MARGIN
             start = max(start, floor(crossing + (1 + guard)))  #: start
         else:
-            guard = GUARD if owns_tie else -GUARD
+            guard = ROUNDING_MARGIN if owns_tie else -ROUNDING_MARGIN
             stop = min(stop, floor(crossing + (1 + guard)))  #: stop
     return start, max(start, stop)  #: span
 

@@ -17,14 +17,14 @@ _block = np.empty(_LARGEST_KEPT, np.uint8)
 del _block
 
 
-class Arena:
+class ScratchBuffers:
     """Named pieces of memory that only grow.
 
     Notes
     -----
     A fresh array of more than about a megabyte is given by the system page by page, at three to four times the
     cost of the work that is done in it. Whoever asks again for the same name and type gets the same memory, contents
-    undefined; so two arrays that live at the same time need two names, and an arena serves one picture at a time.
+    undefined; so two arrays that live at the same time need two names, and an scratch serves one picture at a time.
     """
 
     def __init__(self) -> None:

@@ -16,7 +16,7 @@ from core.study.accuracy.speed_accuracy import collector_off
 from core.study.planner.planning import plan
 from core.study.planner.progress import Watch, unwatched
 from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
-from core.study.planner.words.phrases import in_bytes, opened, phrase
+from core.study.planner.words.phrases import capitalized, in_bytes, phrase
 
 ROUNDS = 5
 
@@ -142,7 +142,7 @@ def put_back(chosen: Plan, setting: str) -> Plan:
     for decision in chosen.decisions:
         if decision.setting == setting:
             cheaper, dearest = (phrase(setting, name) for name in (decision.chosen, decision.dearest))
-            reason = f"{opened(cheaper)} was measured to be too far off, so {dearest} stays."
+            reason = f"{capitalized(cheaper)} was measured to be too far off, so {dearest} stays."
             decision = replace(
                 decision,
                 chosen=decision.dearest,

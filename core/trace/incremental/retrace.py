@@ -23,7 +23,7 @@ from core.records.cached import cached_property
 from core.stages.fragment_color import Surface
 from core.stages.vertices import Geometry
 from core.trace.incremental.row_pieces import RowPieces, pieces_of
-from core.trace.incremental.unchanged import numbers_before
+from core.trace.incremental.unchanged import unchanged_primitives
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows
 
@@ -59,7 +59,7 @@ class Retrace(TraceSource):
         earlier = None if self.earlier is None else self.earlier()
         if earlier is None:
             return None
-        numbers = numbers_before(self, earlier)
+        numbers = unchanged_primitives(self, earlier)
         return numbers if (numbers >= 0).any() else None
 
     @cached_property

@@ -141,8 +141,8 @@ def same_rows(first: NDArray[Any], second: NDArray[Any]) -> NDArray[np.bool_]:
     if not first.size:
         return np.ones(count, bool)
     if first.dtype.hasobject:
-        numbers, numbers_before = first, second
+        numbers, unchanged_primitives = first, second
     else:
-        numbers, numbers_before = (np.ascontiguousarray(of).view(np.uint8) for of in (first, second))
-    same: NDArray[np.bool_] = np.equal(numbers, numbers_before).reshape(count, -1).all(axis=1)
+        numbers, unchanged_primitives = (np.ascontiguousarray(of).view(np.uint8) for of in (first, second))
+    same: NDArray[np.bool_] = np.equal(numbers, unchanged_primitives).reshape(count, -1).all(axis=1)
     return same

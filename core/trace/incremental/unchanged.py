@@ -14,7 +14,7 @@ from core.trace.incremental.row_pieces import same_rows
 from core.trace.source import TraceSource
 
 
-def numbers_before(now: TraceSource, before: TraceSource) -> Integers:
+def unchanged_primitives(now: TraceSource, before: TraceSource) -> Integers:
     """Return (P,) int64: the number that each primitive had in ``before`` if its pixels are the same, else -1."""
     numbers = np.full(len(now.geometry.primitives), -1)
     if not _are_comparable(now, before):

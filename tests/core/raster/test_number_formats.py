@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import cover, examine_pixels
-from core.raster.fills.tested import suited_fill
+from core.raster.fills.tested import effective_fill
 from core.raster.number_formats.exact import nearest_float, unit_shift, whole_numbers
 from core.raster.number_formats.inverse import inverse_coefficients, invert
 from core.raster.number_formats.number_format import number_format
@@ -69,7 +69,7 @@ def test_exact_is_rational_arithmetic(case, rule: str, doubled_center: int) -> N
 @example([1.0, 2.0, 0.0, 5e-324, 0.3, 1e3, 0.0, 1e-200, -7.0, 0.1, 0.0, 3.0], (16, 16), "hierarchy")
 def test_exact_on_any_numbers_with_any_fill(numbers: list[float], size: tuple[int, int], fill: str) -> None:
     clip = np.reshape(numbers, (1, 3, 4))
-    drawn = cover_each(clip, size, suited_fill(fill, "exact"), coverage="exact") > 0
+    drawn = cover_each(clip, size, effective_fill(fill, "exact"), coverage="exact") > 0
     assert np.array_equal(drawn, exact_each(clip, size))
 
 
@@ -325,4 +325,4 @@ def test_spans_are_drawn_only_in_numbers_that_suit_them(name: str) -> None:
     suits = name in ("snapped", "float64")
     for fill in table.names("fill"):
         wanted = "bounding-box" if fill in ("spans", "scanline") and not suits else fill
-        assert suited_fill(fill, name) == wanted
+        assert effective_fill(fill, name) == wanted

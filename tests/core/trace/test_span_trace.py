@@ -10,7 +10,7 @@ from core import ClipScene, Settings, trace
 from core.methods import table
 from core.raster.spans.lane_rows import lanes_of_edges
 from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, tie_owners
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 from tests.core.trace.trace_cases import SCENES, small_region
@@ -127,7 +127,7 @@ def test_the_fractions_are_those_of_the_engine(case):
     traced = trace(ClipScene(clip, size=size), Settings(fill="spans"))
     found, edges, raster = traced.stage("raster"), traced.source.geometry.edges, traced.source.raster
     c = found.columns
-    lanes = lanes_of_edges(edges, raster, tie_owners("shared-edge"), Arena())
+    lanes = lanes_of_edges(edges, raster, tie_owners("shared-edge"), ScratchBuffers())
     for row in np.flatnonzero(kinds_of(found) == "lane-row").tolist():
         lane, level = c["lane"][row], c["level"][row]
         crossings = (lanes.numerator[:, lane] + level * lanes.step[:, lane]) * lanes.reciprocal[:, lane]

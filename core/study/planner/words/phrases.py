@@ -57,7 +57,7 @@ def phrase(family: str, method: str) -> str:
     return PHRASES[family][method]
 
 
-def opened(text: str) -> str:
+def capitalized(text: str) -> str:
     """Return a text that a sentence begins with."""
     return text[:1].upper() + text[1:]
 

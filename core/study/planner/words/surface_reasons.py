@@ -3,7 +3,7 @@
 from core.settings import Settings
 from core.study.planner.choices.surface_choice import SurfaceChoice
 from core.study.planner.records import Tolerance
-from core.study.planner.words.phrases import bound, counted, listed, opened, phrase
+from core.study.planner.words.phrases import bound, capitalized, counted, listed, phrase
 
 STEPS = "1.5 of its 65,535 steps"
 """How close two depths must be for 16 bits to take one for the other."""
@@ -31,13 +31,13 @@ def surface_reasons(
         "antialiasing": _samples_reason(surface, everything, tolerance, shared),
     }
     for family, method in surface.slower:
-        reasons[family] += f" {opened(phrase(family, method))} would do, but takes longer here."
+        reasons[family] += f" {capitalized(phrase(family, method))} would do, but takes longer here."
     return reasons
 
 
 def _samples_reason(surface: SurfaceChoice, everything: Settings, tolerance: Tolerance, shared: str) -> str:
     if surface.by_widths:
-        return f"{opened(shared)}, so one sample is enough."
+        return f"{capitalized(shared)}, so one sample is enough."
     width = float(surface.surfaces.width.max(initial=0.0))
     meets = (
         f"In {counted(surface.beyond, 'pixel')} what can be seen differs by more than {tolerance.bytes}/255, by up to "
@@ -61,7 +61,9 @@ def _rejected(surface: SurfaceChoice, tolerance: Tolerance) -> str:
     least = min(error.beyond for _, error in surface.rejected)
     each = " each" if len(surface.rejected) > 1 else ""
     allowed = f"{tolerance.pixels:,} may be" if tolerance.pixels else "none may be"
-    return f" {opened(names)} could be too far off in {counted(least, 'pixel')} or more{each}; {allowed}."
+    return (
+        f" {capitalized(names)} could be too far off in {counted(least, 'pixel')} or more{each}; {allowed}."
+    )
 
 
 def _cull_reason(surface: SurfaceChoice, everything: Settings, chosen: Settings, shared: str) -> str:
@@ -114,7 +116,7 @@ def _depth_reason(surface: SurfaceChoice, chosen: Settings, shared: str) -> str:
     if chosen.visibility != "z-buffer":
         return "Depth is not compared, so its format does not matter."
     if surface.by_widths:
-        return f"{opened(shared)}, whichever is drawn of what its steps cannot tell apart."
+        return f"{capitalized(shared)}, whichever is drawn of what its steps cannot tell apart."
     if surface.coarse == 0:
         return f"Where surfaces of different colours overlap, 16 bits tell them apart: they differ by {STEPS} or more."
     close = f"In {counted(surface.coarse, 'pixel')} surfaces overlap that 16 bits may not tell apart ({STEPS} or less)"

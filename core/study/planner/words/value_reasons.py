@@ -10,7 +10,7 @@ from core.study.planner.bounds.color_ranges import ColorRanges, materials, norma
 from core.study.planner.choices.surface_choice import SurfaceChoice
 from core.study.planner.choices.value_choice import ValueChoice
 from core.study.planner.scene_analysis.conservative_coverage import Touched
-from core.study.planner.words.phrases import bound, counted, figure, listed, opened, phrase
+from core.study.planner.words.phrases import bound, capitalized, counted, figure, listed, phrase
 
 USELESS = 128
 """1/255: a bound from here on says next to nothing."""
@@ -40,7 +40,7 @@ def value_reasons(
 
 def _reason(family: str, fact: str, value: ValueChoice) -> str:
     """Return a fact, what the choice does at most, and why nothing cheaper was chosen."""
-    chosen = opened(phrase(family, value.chosen))
+    chosen = capitalized(phrase(family, value.chosen))
     parts = [fact]
     if not value.is_dearest and fact not in IDLE:
         parts.append(
@@ -59,7 +59,7 @@ def _reason(family: str, fact: str, value: ValueChoice) -> str:
     if unknown:
         parts.append(f"For {listed(unknown)} no useful bound is known.")
     if value.slower:
-        slower = opened(listed([phrase(family, name) for name in value.slower]))
+        slower = capitalized(listed([phrase(family, name) for name in value.slower]))
         parts.append(f"{slower} would do, but {'take' if len(value.slower) > 1 else 'takes'} longer here.")
     return " ".join(parts)
 

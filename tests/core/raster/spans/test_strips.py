@@ -7,7 +7,7 @@ from core.raster.pixel_runs import make_raster
 from core.raster.spans.bands import bands, rows_of_triangles, strips
 from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.raster.spans.rows import Carried, bounds_of_rows
-from core.raster.spans.scratch_buffers import Arena
+from core.raster.spans.scratch_buffers import ScratchBuffers
 
 TRIANGLES = {
     "slanted both ways": [(3.0, 2.0), (400.5, 180.25), (20.0, 390.0)],
@@ -27,7 +27,7 @@ def corners(names):
 
 def rows_of(names, region=None):
     raster, owners = make_raster((400, 400), "half", region), tie_owners("shared-edge")
-    return raster, rows_of_triangles(*corners(names), raster, owners, Arena())
+    return raster, rows_of_triangles(*corners(names), raster, owners, ScratchBuffers())
 
 
 def pixels_of(rows):
@@ -43,10 +43,10 @@ def pixels_of(rows):
 def test_rows_of_triangles_have_the_pixels_that_walking_their_lanes_finds(names, region):
     raster, found = rows_of(names, REGIONS[region])
     owners = tie_owners("shared-edge")
-    lanes = set_up_lanes(*corners(names), raster, owners, Arena())
+    lanes = set_up_lanes(*corners(names), raster, owners, ScratchBuffers())
     first = lanes.first_row.astype(np.int64)
     carried = (Carried(np.arange(len(first)), 0), Carried(first, 1))
-    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, Arena())
+    (lane, row), start, length = bounds_of_rows(lanes, raster, owners, carried, ScratchBuffers())
     expected = {name: set() for name in names}
     for which, at, begin, count in zip(lane, row, start.tolist(), length.tolist(), strict=True):
         name = names[lanes.triangle[which]]

@@ -1,0 +1,178 @@
+"""``rasterscope screenshot``: the window in a file, without a display."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.export.atlas import atlas_json
+from core.study.stability import Axis, experiments, stress
+from tests.app.cli.cli_runs import ROOT, refused, run_program
+
+NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}
+
+
+LINES = ["--page", "compare", "--show", "visibility", "--work", "cycle", "--rounds", "1"]
+MAPS = ["--page", "stability", "--show", "painters-cycle"]
+DIAL = ["--page", "stability", "--show", "precision-dial"]
+SHOTS = {
+    "light": ["shared-edge", "--size", "1100x700"],
+    "dark": ["shared-edge", "--size", "1100x700", "--theme", "dark"],
+    "step": ["shared-edge"],
+    "first": ["shared-edge", "--stage", "raster", "--step", "1"],
+    "last": ["shared-edge", "--stage", "raster"],
+    "space": ["shared-edge", "--stage", "raster", "--view", "pyramid"],
+    "plain": ["shared-edge", "--stage", "resolve"],
+    "smooth": ["shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16"],
+    "lines": ["shared-edge", *LINES],
+    "maps": ["shared-edge", *MAPS],
+    "plan": ["shared-edge", "--page", "plan"],
+    "closed": ["shared-edge", *DIAL],
+    "opened": ["shared-edge", *DIAL, "--choose", "coverage=float32"],
+    "saved": ["../maps/atlas.json"],
+}
+"""Name of a picture of the window to what it shows."""
+ONE_AFTER_THE_OTHER = """
+import json, sys
+from app.cli.commands import run_command_line
+sys.exit(sum(run_command_line(["screenshot", *arguments]) for arguments in json.loads(sys.argv[1])))
+"""
+
+
+def run_all(folder, commands):
+    """Run the command with all these arguments in one process: to start one for each takes longer than the rest."""
+    environment = {
+        **os.environ,
+        **NO_DISPLAY,
+        "PYTHONPATH": str(ROOT),
+        "PYTHONWARNINGS": "error",
+        "RASTERSCOPE_CONFIG": str(folder / "none"),
+    }
+    return subprocess.run(
+        [sys.executable, "-P", "-c", ONE_AFTER_THE_OTHER, json.dumps(commands)],
+        capture_output=True,
+        encoding="utf-8",
+        cwd=folder,
+        env=environment,
+        timeout=300,
+    )
+
+
+def pictures_in(folder):
+    """Make all pictures of the window, and return them by name, (h, w, 3)."""
+    (folder / "maps").mkdir()
+    axes = tuple(
+        Axis(a.name, a.title, a.unit, a.values[:3], True) for a in experiments.get("slivers").info.axes
+    )
+    (folder / "maps" / "atlas.json").write_text(atlas_json(stress("slivers", axes=axes)))
+    shots = folder / "shots"
+    shots.mkdir()
+    run = run_all(shots, [[*arguments, "-o", f"{name}.png"] for name, arguments in SHOTS.items()])
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    written = {f"{name}.png" for name in SHOTS}
+    assert set(os.listdir(shots)) == written, "a picture must not change what the window remembers"
+    found = {}
+    for name in SHOTS:
+        with Image.open(shots / f"{name}.png") as image:
+            found[name] = np.asarray(image.convert("RGB")).astype(int)
+    return found
+
+
+def differs(first, second):
+    """Return the part of the pixels of two pictures that differ."""
+    return (first != second).any(axis=2).mean()
+
+
+def test_the_program_makes_a_picture_without_a_display(tmp_path):
+    run = run_program(
+        *["screenshot", "shared-edge", "-o", "window.png"],
+        cwd=tmp_path,
+        RASTERSCOPE_CONFIG=tmp_path / "none",
+        **NO_DISPLAY,
+    )
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    assert os.listdir(tmp_path) == ["window.png"]
+
+
+def test_pictures_show_what_was_asked_for(tmp_path):
+    """One test, so that one worker makes the pictures once."""
+    pictures = pictures_in(tmp_path)
+
+    light, dark = pictures["light"], pictures["dark"]
+    assert light.shape == dark.shape == (700, 1100, 3)
+    assert light.mean() > 180
+    assert dark.mean() < 90
+
+    # Stage, step, view and method.
+    first, last, space = (pictures[name] for name in ("first", "last", "space"))
+    assert first.shape == last.shape == space.shape == (800, 1280, 3)
+    assert differs(first, last) > 0.01
+    assert differs(space, last) > 0.01
+    assert differs(pictures["plain"], pictures["smooth"]) > 0.01
+
+    # Every page is filled, and what is behind a mark is opened.
+    pages = [pictures[name] for name in ("step", "lines", "maps", "plan")]
+    for number, page in enumerate(pages):
+        for other in pages[:number]:
+            assert differs(page, other) > 0.05
+    lower = slice(560, 760), slice(290, 1280)
+    assert differs(pictures["closed"][lower], pictures["opened"][lower]) > 0.2
+    assert differs(pictures["saved"], pictures["step"]) > 0.05
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (["cube", "--page", "plan", "--stage", "raster"], "--stage: it is for page step, got page plan"),
+        (["cube", "--show", "slivers"], "--show: it is for page compare or stability, got page step"),
+        (
+            ["cube", "--page", "stability", "--work", "any"],
+            "--work: it is for page compare, got page stability",
+        ),
+        (["cube", "--page", "plan", "--rounds", "2"], "--rounds: it is for page compare, got page plan"),
+        (["cube", "--grow"], "--grow: it is for page compare, got page step"),
+        (["cube", "--page", "compare", "--rounds", "0"], "must be a whole number from 1 to 1000, got 0"),
+        (["study.json", "--step", "3"], "--step: it is for page step, got a saved study or atlas"),
+        (["study.json", "--page", "step"], "a saved study or atlas has its own, got study.json"),
+        (["cube", "--page", "lesson"], "invalid choice: 'lesson'"),
+    ],
+)
+def test_options_of_another_page_are_wrong_usage(tmp_path, arguments, wanted):
+    line = refused(2, "screenshot", *arguments, "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
+    assert wanted in line
+
+
+REFUSED = [
+    (["cube", "-o", "a.png", "--page", "compare", "--show", "tea"], "family must be one of "),
+    (
+        ["cube", "-o", "a.png", "--page", "compare", "--show", "line", "--work", "x"],
+        "work of line must be one",
+    ),
+    (
+        ["cube", "-o", "a.png", "--page", "stability", "--show", "tea"],
+        "experiment must be one of precision-dial",
+    ),
+    (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no such file"),
+    (["gone.obj", "-o", "a.png"], "there is no file gone.obj"),
+    (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
+    (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),
+]
+
+
+def test_what_cannot_be_done_is_one_line(tmp_path):
+    run = run_all(tmp_path, [arguments for arguments, _ in REFUSED])
+    assert (run.returncode, run.stdout) == (len(REFUSED), ""), run.stderr
+    told = run.stderr.splitlines()
+    for line, (_, wanted) in zip(told, REFUSED, strict=True):
+        assert line.startswith("rasterscope screenshot: ")
+        assert wanted in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_that_cannot_be_made_ends_the_program_with_1(tmp_path):
+    line = refused(1, "screenshot", "gone.obj", "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
+    assert "there is no file gone.obj" in line

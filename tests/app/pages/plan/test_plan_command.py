@@ -1,0 +1,59 @@
+"""``rasterscope plan`` as a user types it."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.files.open_any import open_any
+from core.study import Tolerance, plan
+from core.study.planner.measuring import difference, shown
+from tests.app.cli.cli_runs import refused, run_program
+
+
+def test_a_scene_is_planned_and_measured() -> None:
+    run = run_program("plan", "cube", "--size", "48x48", "--tolerance", "8", "--rounds", "1")
+    assert run.returncode == 0, run.stderr
+    assert run.stderr == ""
+    for word in (
+        "setting",
+        "instead of",
+        "antialiasing",
+        "shading: ",
+        "Largest ratio of w",
+        "Within the tolerance",
+    ):
+        assert word in run.stdout
+
+
+def test_the_corpus_tells_the_time_saved() -> None:
+    run = run_program("plan", "--corpus", "2", "--rounds", "1")
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.startswith("2 of 2 plans were within the tolerance of 2/255 and 0 pixels as they were")
+    assert "all" in run.stdout
+    assert "50 %" in run.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "FILE or --corpus is wanted, one of them"),
+        (("cube", "--corpus", "3"), "FILE or --corpus is wanted, one of them"),
+        (("cube", "--tolerance", "300"), "tolerance color must be from 0 to 255, got 300"),
+        (("cube", "--pixels", "-1"), "tolerance pixels must be a whole number from 0 on, got -1"),
+        (("--corpus", "0"), "must be a whole number from 1 to 100000, got 0"),
+    ],
+)
+def test_what_is_wrong_is_told(arguments: tuple[str, ...], said: str) -> None:
+    assert said in refused(2, "plan", *arguments)
+
+
+@pytest.mark.parametrize("name", ["teapot", "spot", "suzanne"])
+def test_plans_of_the_models_beside_the_project_hold(name: str, shared_folder: Path) -> None:
+    scene = replace(open_any(str(shared_folder / "meshes" / f"{name}.obj")).document.scene, size=(72, 72))
+    for tolerance in (Tolerance(), Tolerance(8, 400), Tolerance.exact()):
+        chosen = plan(scene, tolerance)
+        differences = difference(shown(scene, chosen.settings), shown(scene, chosen.everything))
+        assert np.count_nonzero(differences > tolerance.bytes) <= tolerance.pixels
+        assert chosen.settings != chosen.everything

@@ -1,0 +1,220 @@
+"""The pages of the window: one bar, keys of the page that is shown, and what comes back."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
+from pytestqt.qtbot import QtBot
+
+from app.pages.page_bar import StepRequest
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from app.window.preferences import Preferences, load_preferences
+from core import Settings
+from core.study.accuracy.record import Opening
+from lessons.scenes import built_in_scene, make_scene
+
+
+def test_starting_the_window_does_not_wait_for_other_pages() -> None:
+    program = (
+        "import sys, app.window.start\n"
+        "print([name for name in ('pyqtgraph', 'core.study.accuracy.families') if name in sys.modules])"
+    )
+    root = Path(__file__).resolve().parents[3]
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=root)
+    assert done.stdout.strip() == "[]", done.stdout + done.stderr
+
+
+def test_a_click_in_the_bar_shows_a_page_that_is_made_only_then(window: MainWindow) -> None:
+    assert [type(page).__name__ for page in window.pages.made] == ["StepPage"]
+    bar = window.pages.bar
+    QTest.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(1).center())
+    assert window.pages.current_name == "compare"
+    assert len(window.pages.made) == 2
+    assert not window.page.isVisible()
+    QTest.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(0).center())
+    assert window.page.isVisible()
+
+
+def test_keys_of_the_step_page_do_nothing_on_another(window: MainWindow) -> None:
+    QTest.keyClick(window, Qt.Key.Key_2, Qt.KeyboardModifier.AltModifier)
+    assert window.pages.current_name == "compare"
+    before = window.session.cursor, window.session.document
+    for key in (
+        Qt.Key.Key_Right,
+        Qt.Key.Key_Home,
+        Qt.Key.Key_3,
+        Qt.Key.Key_F,
+        Qt.Key.Key_Space,
+        Qt.Key.Key_B,
+    ):
+        QTest.keyClick(window, key)
+    assert (window.session.cursor, window.session.document) == before
+    assert not window.page.timeline.is_playing()
+    for name in ("step_forward", "fit_region", "stage_10", "predict"):
+        assert not window.menus.actions_by_name[name].isEnabled()
+    QTest.keyClick(window, Qt.Key.Key_1, Qt.KeyboardModifier.AltModifier)
+    assert window.menus.actions_by_name["step_forward"].isEnabled()
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    assert window.session.cursor != before[0]
+
+
+def test_menus_without_anything_for_the_page_are_off(window: MainWindow) -> None:
+    window.pages.show_page("compare")
+    off = [action.text() for action in window.menuBar().actions() if not action.isEnabled()]
+    assert off == ["&Step", "&Stage", "&Raster", "&Stability", "&Plan"]
+
+
+def test_the_chosen_page_stays_checked_when_it_is_chosen_again(window: MainWindow) -> None:
+    for _ in range(2):
+        window.menus.actions_by_name["page_compare"].trigger()
+        checked = [name for name, action in window.menus.actions_by_name.items() if action.isChecked()]
+        assert "page_compare" in checked
+        assert "page_step" not in checked
+
+
+def test_undo_theme_and_presenter_work_on_every_page(window: MainWindow) -> None:
+    window.session.set_setting("fill", "scanline")
+    window.pages.show_page("compare")
+    QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.session.document.settings.fill == "bounding-box"
+    QTest.keyClick(window, Qt.Key.Key_T, Qt.KeyboardModifier.ControlModifier)
+    assert window.preferences.theme == "dark"
+
+
+def test_help_lists_the_keys_of_the_page(window: MainWindow) -> None:
+    def listed() -> str:
+        QTest.keyClicks(window, "?")
+        labels = window.overlays.key_help.findChildren(QLabel)
+        text = " ".join(label.text() for label in labels)
+        QTest.keyClick(window, Qt.Key.Key_Escape)
+        return text
+
+    assert "Larger steps (out)" in listed()
+    window.pages.show_page("compare")
+    assert "Larger steps (out)" not in listed()
+    assert "Light or dark" in listed()
+
+
+def test_playing_ends_when_the_page_is_left(window: MainWindow) -> None:
+    window.session.go_to(0)
+    window.page.stepping.toggle_play()
+    window.pages.show_page("compare")
+    assert not window.page.timeline.is_playing()
+
+
+def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
+    window.pages.show_page("compare")
+    window.close()
+    kept = load_preferences()[0]
+    assert kept.page == "compare"
+    scene = built_in_scene("single-triangle")
+    again = MainWindow(open_document(scene.make(), scene.title), kept)
+    qtbot.addWidget(again)
+    again.restore()
+    assert again.pages.current_name == "compare"
+
+
+def test_a_page_that_is_gone_is_the_step_page(qtbot: QtBot) -> None:
+    scene = built_in_scene("single-triangle")
+    made = MainWindow(open_document(scene.make(), scene.title), Preferences(page="from a later version"))
+    qtbot.addWidget(made)
+    made.restore()
+    assert made.pages.current_name == "step"
+
+
+def test_a_page_opens_a_run_on_the_step_page(window: MainWindow, qtbot: QtBot) -> None:
+    window.pages.show_page("compare")
+    before = window.session.document
+    settings = Settings(fill="scanline")
+    opening = Opening(make_scene("single-triangle"), settings, "raster", (20, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.pages.current.step_requested.emit(StepRequest(opening, "Scanline on one triangle"))
+    assert window.pages.current_name == "step"
+    assert window.session.document.settings == settings
+    assert window.session.document.title == "Scanline on one triangle"
+    assert window.session.pin == (20, 20)
+    stage = window.session.stage_trace
+    row = stage.steps.row_at(window.session.cursor.position)[0]
+    assert stage.pixel[row].tolist() == [20, 20]
+    window.session.undo()
+    assert window.session.document is before
+
+
+def test_two_settings_open_as_a_and_b(window: MainWindow, qtbot: QtBot) -> None:
+    first, second = Settings(fill="scanline"), Settings(fill="scanline-lecture", blend="over")
+    opening = Opening(make_scene("single-triangle"), first, "raster", (20, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "Two", second))
+    assert window.page.current_view() == "compare"
+    assert window.page.comparing.other == second
+
+
+@pytest.mark.parametrize("pixel", [(0, 0), (399, 299), (200, 150)])
+def test_a_large_picture_is_stepped_around_the_pixel(
+    window: MainWindow, qtbot: QtBot, pixel: tuple[int, int]
+) -> None:
+    scene = replace(make_scene("sphere"), size=(400, 300))
+    opening = Opening(scene, Settings(), "depth", pixel)
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "Sphere"))
+    document = window.session.document
+    assert document.raster.origin is not None
+    assert window.session.pin == pixel
+    assert document.triangle is not None
+
+
+def test_what_cannot_be_stepped_is_told(window: MainWindow, qtbot: QtBot) -> None:
+    before = window.session.document
+    scene = make_scene("cube")
+    flat = replace(scene, camera=replace(scene.camera, projection="orthographic"))
+    window.opening.open_request(StepRequest(Opening(flat, Settings(depth="inverse-w"), "depth"), "Flat"))
+    qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=20000)
+    assert "perspective" in window.messages.text.text()
+    assert window.session.document is before
+
+
+def test_the_history_of_a_pixel_that_is_opened_from_another_page_is_told(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    window.session.set_pin((3, 3))
+    window.pages.show_page("compare")
+    opening = Opening(make_scene("single-triangle"), Settings(), "raster", (20, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "One triangle"))
+    assert window.page.history.place.text() == "Pixel column 20, row 20"
+    assert "Triangle 0 is seen here" in window.page.history.verdict.text()
+
+
+def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    first, second = Settings(polygon_mode="wireframe"), Settings()
+    opening = Opening(make_scene("single-triangle"), first, "raster", (27, 20))
+    with qtbot.waitSignal(window.opening.opened, timeout=20000):
+        window.opening.open_request(StepRequest(opening, "Two", second))
+    assert "A has no step at pixel (27, 20)" in window.statusBar().currentMessage()
+    window.page.compare_view.swap_requested.emit()
+    window.run_action("next_at_pin")
+    row = window.session.stage_trace.steps.row_at(window.session.cursor.position)[0]
+    assert window.session.stage_trace.pixel[row].tolist() == [27, 20]
+
+
+def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
+    window.resize(1000, 700)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
+    before = window.page.columns.sizes()
+    window.look.set_theme("presenter")
+    window.resize(1900, 1000)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) > 1800)
+    left, middle, right = window.page.columns.sizes()
+    assert left > 1.4 * before[0]
+    assert right > 1.4 * before[2]
+    assert middle > 0.33 * 1800
+    window.look.set_theme("light")
+    assert window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12)

@@ -1,0 +1,60 @@
+"""The program ends with its own exit code, whatever is going on, and begins where it ended."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+START = """
+import sys
+sys.path.insert(0, {root!r})
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+from app import main_window, window_start
+
+def act():
+    window = next(w for w in QApplication.topLevelWidgets() if isinstance(w, main_window.MainWindow))
+    {act}
+    QTimer.singleShot(50, window.close)
+
+QApplication(["rasterscope"])
+QTimer.singleShot(300, act)
+sys.exit(window_start.run_window({target!r}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("target", "act"),
+    [
+        ("single-triangle", "window.page.timeline.toggle_play()"),
+        ("knot", "window.page.show_view('scene')"),
+        ("sphere", "window.session.set_setting('fill', 'brute-force')"),
+        ("torus", "window.files.open_path('knot')"),
+        ("/nowhere/gone.obj", "pass"),
+        ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
+        ("single-triangle", "window.pages.show_page('stability'); window.pages.current.runs.run()"),
+    ],
+)
+def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
+    assert printed(tmp_path, target, act) == ""
+    assert (tmp_path / "preferences.json").is_file()
+
+
+def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last(tmp_path: Path) -> None:
+    printed(tmp_path, None, "window.pages.show_page('plan')")
+    assert '"page": "plan"' in (tmp_path / "preferences.json").read_text()
+    assert printed(tmp_path, "torus", "print(window.pages.current_name)") == "step\n"
+
+
+def printed(folder: Path, target: str | None, act: str) -> str:
+    """Return what the program says whose window shows ``target``, does ``act`` and is closed; it has to end well."""
+    code = START.format(root=str(ROOT), act=act, target=target)
+    environment = {**os.environ, "RASTERSCOPE_CONFIG": str(folder), "QT_QPA_PLATFORM": "offscreen"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=environment
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout

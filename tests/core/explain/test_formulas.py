@@ -1,0 +1,318 @@
+"""Every step that computes something has a formula; its numbers stand under their symbols and are right."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from core import Settings
+from core.explain.formulas.equation import (
+    digits_that_add_up,
+    equation,
+    lattice_latex,
+    number_latex,
+    signed_latex,
+)
+from core.explain.formulas.table import FORMULAS, WITHOUT_FORMULA, formula
+from core.explain.latex import split_cells
+from core.explain.records import Formula
+from core.explain.sentences.table import SENTENCES
+from core.explain.step_values import StepValues
+from core.trace import Explanation
+from tests.core.explain.explained_steps import ALL_SCENES, Step, explained, rare_trace
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.typesetter import Typesetter
+
+SUMS = re.compile(
+    r"transform\..*-to-|clip\..*\.distances|raster\.test\.edge|interpolate\..*\.(total|value)"
+    r"|shade\..*\.product|blend\.over\.color|edges\.edge\.[abc]|clip\..*\.corner|bin\.box\.high|raster\.span\.span"
+)
+"""Keys whose formulas are sums and products, which can be worked out from what is shown."""
+
+
+@pytest.mark.parametrize("name", ALL_SCENES)
+def test_every_step_that_computes_has_a_formula_and_its_sums_come_out(name: str) -> None:
+    checked = 0
+    for number, (explanation, _, _) in enumerate(explained(name)):
+        key = StepValues(explanation).key
+        made = formula(explanation)
+        if made is None:
+            no_light = key.endswith("cosines") and not np.size(explanation.values["n_dot_l"])
+            assert key in WITHOUT_FORMULA or key == "shade.lit.albedo" or no_light, key
+            continue
+        symbols, numbers = split_cells(made.symbolic), split_cells(made.substituted)
+        assert len(symbols) == len(numbers), (key, made)
+        assert not re.search(r"\bnan\b|\binf\b|None|−|e[-+]\d", made.substituted), (key, made)
+        if number % 3 == 0 and SUMS.match(explanation.key) and "NaN" not in made.substituted:
+            checked += sums_that_come_out(made, explanation)
+    assert checked > 20
+
+
+def test_every_key_with_a_sentence_has_a_formula_or_computes_nothing() -> None:
+    assert set(FORMULAS).isdisjoint(WITHOUT_FORMULA)
+    assert set(SENTENCES) == {*FORMULAS, *WITHOUT_FORMULA}
+
+
+def worked_out(cells: tuple[str, ...]) -> float:
+    """Return the value of cells that hold numbers, products, sums and brackets."""
+    text = " ".join(cells)
+    text = re.sub(r"\{(\S+) \\cdot 10\^\{(-?\d+)\}\}", r"\1e\2", text).replace(r"\cdot", "*")
+    assert re.fullmatch(r"[-+*().\de\s]+", text), text
+    return float(eval(text, {"__builtins__": {}}))
+
+
+def sums_that_come_out(made: Formula, explanation: Explanation) -> int:
+    """Check that the equations of a formula hold for the numbers that they show; return how many they are."""
+    checked = 0
+    for line in " & ".join(split_cells(made.substituted)).split(r" & \quad & "):
+        if " & = & " not in line:
+            # Rounded or wrapped around: such an equation says so, and its numbers do not come out.
+            assert explanation.values["rounding"] != "exact"
+            continue
+        left, right = line.split(" & = & ")
+        result = worked_out(tuple(right.split(" & ")))
+        # Twelve digits are shown: what products leave of each other has less.
+        first, second = sorted((abs(float(n)) for n in re.findall(r"\d+\.?\d*", right)), reverse=True)[:2]
+        cancelled = 1e-13 * first * second
+        assert math.isclose(worked_out((left,)), result, rel_tol=2e-3, abs_tol=1e-8 + cancelled), made
+        checked += 1
+    return checked
+
+
+def samples() -> list[Step]:
+    """Return the first and the last step of every key."""
+    first: dict[str, Step] = {}
+    last: dict[str, Step] = {}
+    for name in ALL_SCENES:
+        for step in explained(name):
+            key = StepValues(step[0]).key
+            first.setdefault(key, step)
+            last[key] = step
+    return [*first.values(), *last.values()]
+
+
+def test_formulas_can_be_typeset(qtbot: QtBot) -> None:
+    typesetter = Typesetter(capacity=10_000)
+    number = re.compile(r"\(?-?\d+(\.\d*)?\)?")
+    cells = set()
+    for explanation, _, _ in samples():
+        made = formula(explanation)
+        if made is not None:
+            cells |= {*split_cells(made.symbolic), *split_cells(made.substituted)}
+    problems = {
+        cell: typesetter.typeset(cell, "#000000", 18.0).problem
+        for cell in cells
+        if not number.fullmatch(cell)
+    }
+    assert {cell: problem for cell, problem in problems.items() if problem} == {}
+
+
+def only(stage: str, key: str, settings: Settings, place: int = 0, name: str = "lattice-ties") -> Formula:
+    """Return one formula of a rare triangle."""
+    traced = rare_trace(name, settings).stage(stage)
+    found = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key == key]
+    made = formula(found[place])
+    assert made is not None
+    return made
+
+
+def test_an_edge_function_with_its_numbers() -> None:
+    # Pixel (0, 0) of the triangle (1, 1), (7, 1), (1, 7): E0 = -6 x - 6 y + 48 at (0.5, 0.5).
+    made = only("raster", "raster.test.edge-0", Settings(fill="brute-force"))
+    assert split_cells(made.symbolic) == (
+        "E_0",
+        "=",
+        "a_0",
+        r"\cdot",
+        "x",
+        "+",
+        "b_0",
+        r"\cdot",
+        "y",
+        "+",
+        "c_0",
+    )
+    assert split_cells(made.substituted) == (
+        *("42", "=", "-6", r"\cdot", "0.5", "+", "(-6)", r"\cdot", "0.5", "+", "48"),
+    )
+
+
+def test_the_decision_says_what_is_asked_over_what_holds() -> None:
+    made = only("raster", "raster.test.decide", Settings(fill="brute-force"))
+    assert " ".join(split_cells(made.symbolic)) == (
+        r"E_0 > 0 \land E_1 \ge 0 \land E_2 \ge 0 \Rightarrow \text{covered}"
+    )
+    assert " ".join(split_cells(made.substituted)) == (
+        r"42 > 0 \land -3 < 0 \land -3 < 0 \Rightarrow \text{outside}"
+    )
+
+
+def test_a_clipped_edge_with_its_numbers() -> None:
+    # Distances from the near plane: 1 inside, -2.5 outside.
+    made = only("clip", "clip.in-out.t", Settings(clipping="sutherland-hodgman"), 0, "through-eye")
+    assert split_cells(made.substituted) == ("0.2857", "=", r"\frac{1}{1 - (-2.5)}")
+
+
+def test_the_depth_test_compares_as_the_format_does() -> None:
+    values = {"stored": 0.5, "before": 0.25, "passes": True, "larger_is_nearer": True}
+    made = formula(Explanation("depth.test.compare", values, (), (), None, 0))
+    assert made is not None
+    assert " ".join(split_cells(made.symbolic)) == (
+        r"z_{\mathrm{new}} > z_{\mathrm{buffer}} \Rightarrow \text{passes}"
+    )
+    assert " ".join(split_cells(made.substituted)) == r"0.5 > 0.25 \Rightarrow \text{passes}"
+
+
+def test_interpolation_shows_the_component_in_which_the_corners_differ() -> None:
+    # The three corners have the values (1, 0, 0), (0, 1, 0) and (0, 0, 1): red differs first.
+    made = only("interpolate", "interpolate.perspective.value-color", Settings())
+    cells = split_cells(made.symbolic)
+    assert cells[0] == "r"
+    assert cells[2:5] == (r"\lambda_0", r"\cdot", "r_0")
+    assert split_cells(made.substituted)[4::4] == ("1", "0", "0")
+
+
+def test_more_numbers_of_a_step_make_fuller_formulas() -> None:
+    values = {
+        "high": np.array([5.0, -1.5, 9.0]),
+        "rejected_by": 1,
+        "a": np.array([1.0, 2.0, 0.0]),
+        "b": np.array([1.0, -1.0, 1.0]),
+        "c": np.array([0.0, -20.0, 0.0]),
+        "column": 0,
+        "row": 0,
+        "size": 8,
+        "center": 0.5,
+    }
+    made = formula(Explanation("bin.block.high", values, (), (), None, 0))
+    assert made is not None
+    # Greatest at the right for a > 0, and at the bottom for b < 0.
+    assert split_cells(made.substituted)[2:] == (
+        "2",
+        r"\cdot",
+        "7.5",
+        "+",
+        "(-1)",
+        r"\cdot",
+        "0.5",
+        "+",
+        "(-20)",
+    )
+
+
+FULLER = {
+    "interpolate.perspective.numerators": {
+        "numerators": np.array([3.5, 2.5, -1.0]),
+        **{
+            name: np.array(values)
+            for name, values in (("a", [1.0, 0, -2]), ("b", [2.0, 1, 0]), ("c", [0.0, 1, 0]))
+        },
+        "x": 0.5,
+        "y": 1.5,
+    },
+    "interpolate.affine.numerators": {
+        "numerators": np.array([7.0, 2.5, -4.0]),
+        **{
+            name: np.array(values)
+            for name, values in (("a", [1.0, 0, -2]), ("b", [2.0, 1, 0]), ("c", [0.0, 1, 0]))
+        },
+        "x": 0.5,
+        "y": 1.5,
+        "corner_w": np.array([2.0, 1.0, 4.0]),
+    },
+    "shade.textured.position": {
+        "texel_position": np.array([4.0, 2.0]),
+        "uv": np.array([0.25, 0.5]),
+        "texture_size": np.array([16, 4]),
+    },
+    "shade.textured.albedo": {
+        "albedo": np.array([0.25, 0.5, 0.0, 1.0]),
+        "texture_color": np.array([0.5, 1.0, 1.0, 1.0]),
+        "vertex_color": np.array([0.5, 0.5, 0.0, 1.0]),
+    },
+    "shade.lit.sums": {
+        "diffuse_light": np.array([0.6, 0.1, 0.1]),
+        "n_dot_l": np.array([1.0, -0.5]),
+        "ambient": 0.1,
+        "diffuse": 0.5,
+        "light_colors": np.ones((2, 3)),
+    },
+}
+"""Numbers of steps that have all the inputs of their formula among them."""
+
+
+@pytest.mark.parametrize("key", FULLER)
+def test_all_inputs_of_a_formula_are_put_in_where_they_are_given(key: str) -> None:
+    made = formula(Explanation(key, FULLER[key], (), (), None, 0))
+    assert made is not None
+    for line in " & ".join(split_cells(made.substituted)).split(r" & \quad & "):
+        left, right = line.split(" & = & ")
+        assert worked_out((left,)) == pytest.approx(worked_out(tuple(right.split(" & "))))
+    assert len(split_cells(made.symbolic)) == len(split_cells(made.substituted))
+
+
+def test_the_cosines_of_a_light_with_its_vectors() -> None:
+    values = {
+        "normal": np.array([0.0, 1.0, 0.0]),
+        "to_light": np.array([[0.6, 0.8, 0.0]]),
+        "half": np.array([[0.0, 1.0, 0.0]]),
+        "n_dot_l": np.array([0.8]),
+        "n_dot_h": np.array([1.0]),
+    }
+    made = formula(Explanation("shade.lit.cosines", values, (), (), None, 0))
+    assert made is not None
+    assert split_cells(made.substituted)[:3] == ("0.8", "=", r"0 \cdot 0.6 + 1 \cdot 0.8 + 0 \cdot 0")
+
+
+def test_a_step_without_formula_gives_none() -> None:
+    assert formula(Explanation("raster.accept.accept", {}, (), (), None, 0)) is None
+    assert formula(Explanation("lines.walk.next-pixel", {}, (), (), None, 0)) is None
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (577.25, "577.25"),
+        (-0.03125, "-0.03125"),
+        (1 / 3, "0.3333"),
+        (-0.0, "0"),
+        (12.0, "12"),
+        (1.25e-7, r"{1.25 \cdot 10^{-7}}"),
+        (math.nan, r"\mathrm{NaN}"),
+        (-math.inf, r"-\infty"),
+    ],
+)
+def test_numbers_in_formulas(value: float, expected: str) -> None:
+    assert number_latex(value) == expected
+
+
+def test_negative_numbers_stand_in_brackets_behind_operators() -> None:
+    assert signed_latex(-2.5) == "(-2.5)"
+    assert signed_latex(-1e-9).startswith("({-1 ")
+    made = equation(("x", -1.0), "=", ("a", -2.0), "+", ("b", -3.0))
+    assert split_cells(made.substituted) == ("-1", "=", "-2", "+", "(-3)")
+
+
+def test_small_differences_of_large_numbers_get_the_digits_they_need() -> None:
+    assert digits_that_add_up(0.125, [(258.12890625,), (-1.0, 258.00390625)]) == 6
+    assert digits_that_add_up(516.1328125, [(258.12890625,), (258.00390625,)]) == 4
+    assert number_latex(258.12890625, 8) == "258.12891"
+
+
+def test_lattice_positions_are_exact() -> None:
+    assert lattice_latex(22.5) == "22.5"
+    assert lattice_latex(258 + 33 / 256) == r"258\frac{33}{256}"
+    assert lattice_latex(-1 / 256) == r"-\frac{1}{256}"
+
+
+def test_the_view_shows_them(qtbot: QtBot) -> None:
+    view = FormulaView()
+    qtbot.addWidget(view)
+    view.resize(400, 120)
+    view.show()
+    view.show_formula(only("raster", "raster.test.edge-0", Settings(fill="brute-force")))
+    qtbot.waitUntil(view.is_complete)
+    assert not view.to_image(1.0).isNull()
+    assert "plain text" not in view.toolTip()

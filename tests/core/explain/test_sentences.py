@@ -1,0 +1,143 @@
+"""Every step has a sentence, with its real numbers and its reason."""
+
+import re
+
+import numpy as np
+import pytest
+
+from core import STAGES, Settings
+from core.explain.number_text import counted, joined, pair_text, position_text, spoken
+from core.explain.sentences.table import SENTENCES, initial_sentence, sentence, summary_sentence
+from core.explain.step_values import StepValues
+from core.records.steps import Level
+from core.trace import Explanation
+from lessons.scenes import scene_names
+from tests.core.explain.explained_steps import ALL_SCENES, explained, rare_trace
+
+NUMBERS = {
+    "transform.object-to-world.x": "after_x",
+    "transform.camera-to-clip.w": "after_w",
+    "transform.divide.z": "after_z",
+    "transform.viewport.y": "after_y",
+    "cull.facing.test": "facing",
+    "clip.in-out.t": "t",
+    "clip.out-in.t": "t",
+    "edges.orientation.area": "doubled_area",
+    "edges.edge.a": "a",
+    "edges.edge.b": "b",
+    "edges.edge.c": "c",
+    "raster.test.edge-0": "value_0",
+    "raster.test.edge-1": "value_1",
+    "raster.test.edge-2": "value_2",
+    "interpolate.perspective.total": "total",
+    "interpolate.affine.total": "total",
+    "depth.test.value": "value",
+    "depth.store.value": "value",
+    "depth.test.depth": "stored",
+    "depth.store.depth": "stored",
+    "depth.ray-first.hit": "nearness",
+    "depth.ray.hit": "nearness",
+    "depth.out-of-range.range": "depth",
+}
+"""Keys whose sentence must give this number."""
+
+
+@pytest.mark.parametrize("name", ALL_SCENES)
+def test_every_step_has_a_finished_sentence(name: str) -> None:
+    for explanation, triangle, pixel in explained(name):
+        key = StepValues(explanation).key
+        assert key in SENTENCES, f"{key} has no sentence of its own"
+        text = sentence(explanation, triangle, pixel)
+        assert re.fullmatch(r"[A-Z].*\.", text), text
+        assert not re.search(r"[{}\[\]]|\bnan\b|\binf\b|None|array|\s\s|\.\.|-\d", text), text
+        assert ". " not in text, f"more than one sentence: {text}"
+        assert len(text) < 330, text
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_nothing_is_undefined_in_the_built_in_scenes(name: str) -> None:
+    for explanation, triangle, pixel in explained(name):
+        # Products above 65,504 are infinite in float16, and their differences no numbers.
+        if explanation.values.get("number_format") != "float16":
+            assert "NaN" not in sentence(explanation, triangle, pixel)
+
+
+def test_an_undefined_number_is_said_only_where_there_is_one() -> None:
+    said = 0
+    for explanation, triangle, pixel in explained("rare"):
+        text = sentence(explanation, triangle, pixel)
+        if "NaN" in text:
+            said += 1
+            names = {*explanation.known, "before", "after"} & set(explanation.values)
+            numbers = np.concatenate([np.ravel(np.asarray(explanation.values[n], float)) for n in names])
+            assert np.isnan(numbers).any(), text
+    assert said
+
+
+@pytest.mark.parametrize("name", ALL_SCENES)
+def test_sentences_give_the_numbers_of_the_step(name: str) -> None:
+    for explanation, triangle, pixel in explained(name):
+        variable = NUMBERS.get(StepValues(explanation).key)
+        if variable:
+            number = spoken(float(np.asarray(explanation.values[variable])))
+            assert number in sentence(explanation, triangle, pixel)
+
+
+def test_sentences_are_there_for_all_keys_that_occur() -> None:
+    found = {StepValues(explanation).key for name in ALL_SCENES for explanation, _, _ in explained(name)}
+    # Triangles behind the eye are culled before they reach the bins.
+    assert set(SENTENCES) - found == {"bin.behind.drop"}
+
+
+def test_a_triangle_behind_the_eye_is_not_binned() -> None:
+    made = Explanation("bin.behind.drop", {}, (), (), None, 0)
+    assert sentence(made, 4, None) == (
+        "Triangle 4 is behind the eye, as no corner has w above 0, and no pixel is looked at."
+    )
+
+
+def test_a_key_without_its_own_sentence_tells_what_was_set() -> None:
+    values = {"slope": 0.5, "pixels": np.array([1.0, 2.0])}
+    made = Explanation("lines.walk.next-pixel", values, ("slope", "pixels"), ("slope", "pixels"), None, 0)
+    assert sentence(made, 0, None) == "Walk, next pixel: slope is 0.5 and pixels is (1, 2)."
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_every_stage_has_a_sentence_before_its_first_step(stage: str) -> None:
+    assert re.fullmatch(r"No.*\.", initial_sentence(stage))
+
+
+def test_summaries() -> None:
+    counts = {"rows": 140, "covered": 57, "rejected": 77, "tie": 2, "nan": 0}
+    assert summary_sentence("raster", Level.TRIANGLE, counts, 3) == (
+        "Triangle 3: 134 pixels looked at, 57 covered, 2 on an edge."
+    )
+    assert summary_sentence("raster", Level.STAGE, {**counts, "nan": 1}, None) == (
+        "Whole stage: 134 pixels looked at, 57 covered, 2 on an edge, 1 undefined (NaN)."
+    )
+    assert summary_sentence("depth", Level.GROUP, {"rows": 3, "covered": 2, "depth-failed": 1}, 0) == (
+        "Triangle 0, one row of pixels: 3 fragments looked at, 2 kept, 1 hidden or out of range."
+    )
+    assert summary_sentence("resolve", Level.GROUP, {"rows": 1}, -1) == (
+        "One row of pixels: 1 pixel encoded for the display."
+    )
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("level", [Level.STAGE, Level.TRIANGLE, Level.GROUP, Level.PIXEL])
+def test_every_stage_can_be_summed_up(stage: str, level: Level) -> None:
+    traced = rare_trace("unsnapped", Settings()).stage(stage)
+    text = summary_sentence(stage, level, traced.summary(0, traced.steps.row_count), 0)
+    beginning = "Whole stage" if level == Level.STAGE else "Triangle 0"
+    assert re.fullmatch(beginning + r"[^{}]*\.", text), text
+
+
+def test_words_and_numbers() -> None:
+    assert joined([]) == ""
+    assert joined(["a", "b", "c"]) == "a, b and c"
+    assert counted(1, "pixel") == "1 pixel"
+    assert counted(2048, "pixel") == "2,048 pixels"
+    assert position_text([22.5, 41 + 77 / 256]) == "(22.5, 41 77/256)"
+    assert position_text([float("nan"), -3.0]) == "(NaN, −3)"
+    assert pair_text(0.5, 0.5) == ("0.5", "0.5")
+    assert pair_text(0.1234567, 0.1234568) == ("0.1234567", "0.1234568")

@@ -1,0 +1,372 @@
+"""Sentences of a few steps whose numbers were worked out by hand."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core import ClipScene, Settings, trace
+from core.explain.sentences.table import sentence
+from core.trace import Explanation, pixel_cuts
+from tests.core.explain.explained_steps import rare_trace
+
+# The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:
+# E0 = -6 x - 6 y + 48 (right edge), E1 = 6 x - 6 (left edge), E2 = 6 y - 6 (level bottom edge).
+
+
+@cache
+def said(stage: str, settings: Settings, name: str = "lattice-ties") -> dict[str, list[str]]:
+    """Return all sentences of a stage by key."""
+    traced = rare_trace(name, settings).stage(stage)
+    found: dict[str, list[str]] = {}
+    for position in range(1, traced.steps.count + 1):
+        explanation = traced.explain(position)
+        row, _ = traced.steps.row_at(position)
+        column, line = (int(value) for value in traced.pixel[row])
+        assert explanation is not None
+        text = sentence(explanation, int(traced.triangle[row]), (column, line))
+        found.setdefault(explanation.key, []).append(text)
+    return found
+
+
+BRUTE_FORCE = Settings(fill="brute-force")
+AREA = Settings(antialiasing="area")
+CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
+
+
+@pytest.mark.parametrize(
+    ("stage", "key", "settings", "expected"),
+    [
+        (
+            "raster",
+            "raster.test.decide",
+            BRUTE_FORCE,
+            "Pixel (0, 3) is outside: edge 1 is −0.5 px away (E1 = −3).",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            BRUTE_FORCE,
+            "Pixel (0, 0) is outside: edge 1 is −0.5 px away (E1 = −3) and edge 2 is −0.5 px away (E2 = −3).",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            BRUTE_FORCE,
+            "Pixel (1, 2) is covered: it is inside all three edges, the nearest is edge 1 (0.5 px away, E1 "
+            "= 3).",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            BRUTE_FORCE,
+            "Pixel (3, 4) is not covered: its centre lies exactly on edge 0, which this triangle does not "
+            "own "
+            "because it is a right edge.",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            CORNER_CENTRES,
+            "Pixel (1, 3) is covered: its centre lies exactly on edge 1, which this triangle owns because "
+            "it is "
+            "a left edge.",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            CORNER_CENTRES,
+            "Pixel (3, 1) is covered: its centre lies exactly on edge 2, which this triangle owns because "
+            "it is "
+            "a level bottom edge.",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            Settings(fill="brute-force", fill_rule="inclusive"),
+            "Pixel (3, 4) is covered: its centre lies exactly on edge 0, which this triangle owns because "
+            "the "
+            "inclusive rule counts every edge as inside.",
+        ),
+        (
+            "raster",
+            "raster.test.decide",
+            Settings(fill="brute-force", pixel_center="integer", fill_rule="exclusive"),
+            "Pixel (1, 3) is not covered: its centre lies exactly on edge 1, which this triangle does not "
+            "own "
+            "because the exclusive rule counts no edge as inside.",
+        ),
+        (
+            "raster",
+            "raster.test.edge-1",
+            BRUTE_FORCE,
+            "Pixel (0, 3): E1 is −3 at its centre (0.5, 3.5), so it is outside edge 1 (−0.5 px).",
+        ),
+        (
+            "raster",
+            "raster.test.edge-0",
+            BRUTE_FORCE,
+            "Pixel (3, 4): E0 is 0 at its centre (3.5, 4.5): it lies exactly on edge 0, which this "
+            "triangle does "
+            "not own because it is a right edge.",
+        ),
+        (
+            "raster",
+            "raster.span.edge-0",
+            Settings(fill="scanline"),
+            "Row 2 leaves through edge 0 at x = 5.5: the span ends there, or farther inside.",
+        ),
+        (
+            "raster",
+            "raster.span.edge-2",
+            Settings(fill="scanline"),
+            "Row 2 runs along edge 2, which has all of it inside (E2 = 9).",
+        ),
+        (
+            "raster",
+            "raster.span.span",
+            Settings(fill="scanline"),
+            "Row 2 of triangle 0 is covered in columns 1 to 4: 4 pixels.",
+        ),
+        (
+            "raster",
+            "raster.lane.rows",
+            Settings(fill="spans"),
+            "Triangle 0 reaches from y = 1 to 7, and of the raster the centres of rows 1 to 6 lie between: 6 "
+            "rows.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.edge-0",
+            Settings(fill="spans"),
+            "Row 2 (level 1) crosses edge 0, on the right, at column 5: the fraction 30 / 6, of which only the "
+            "division is rounded.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.start",
+            Settings(fill="spans"),
+            "Row 2 starts at column 1: the left bound is 0.5, and a guard of −2⁻³⁵ counts a centre exactly on "
+            "it in.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.stop",
+            Settings(fill="spans"),
+            "Row 2 stops before column 5: the right bound is 5, and a guard of −2⁻³⁵ leaves a centre exactly "
+            "on it out.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.place",
+            Settings(fill="spans"),
+            "Row 2 of triangle 0 is covered in columns 1 to 4: 4 pixels, which makes it span 1 of 5, sorted "
+            "longest first.",
+        ),
+        (
+            "raster",
+            "raster.lane-row.stop",
+            Settings(fill="spans"),
+            "Row 6 stops where it starts: no centre lies between the bounds 0.5 and 1.",
+        ),
+        (
+            "raster",
+            "raster.pass.pass",
+            Settings(fill="spans"),
+            "Pixel (2, 2) is 1 pixel from its span's start, so pass 1 draws it, in one go with a pixel of each "
+            "of 3 others.",
+        ),
+        (
+            "raster",
+            "raster.pass.draw",
+            Settings(fill="spans"),
+            "Pixel (2, 2) is covered without a test of its own, and its rank is 6: 5 pixels of earlier passes "
+            "and 1 pixel of this one are drawn before it.",
+        ),
+        (
+            "depth",
+            "depth.test.key",
+            Settings(depth="fixed-38"),
+            "Pixel (1, 2): its key is 0x2000100000 | 0x000001, the depth above the lower 24 bits, which hold "
+            "the number of triangle 0 plus one.",
+        ),
+        (
+            "depth",
+            "depth.test.minimum",
+            Settings(depth="fixed-38"),
+            "Pixel (1, 2) passes: its key is less than the buffer's 0x4000100000 | 0x000000, of the empty "
+            "buffer.",
+        ),
+        (
+            "edges",
+            "edges.edge.c",
+            Settings(),
+            "Edge 0 (from corner 1 to corner 2): c is 48, the value of E0 at the window's origin.",
+        ),
+        (
+            "edges",
+            "edges.edge.a",
+            Settings(),
+            "Edge 0 (from corner 1 to corner 2): a is −6, so E0 falls by 6 with every pixel to the right.",
+        ),
+        (
+            "edges",
+            "edges.orientation.area",
+            Settings(),
+            "Twice the signed area of triangle 0 is 36, above 0: its edge functions are positive inside as "
+            "they are.",
+        ),
+        (
+            "bin",
+            "bin.box.high",
+            Settings(),
+            "The box ends with column 6 and row 6, so 6 × 6 = 36 pixels may be covered.",
+        ),
+        (
+            "bin",
+            "bin.block.verdict",
+            Settings(fill="blocks", block_size=2),
+            "The block at column 6, row 6 (2 × 2 pixels) is rejected by edge 0: even its greatest E0 there, "
+            "−30, is outside.",
+        ),
+        (
+            "bin",
+            "bin.block.verdict",
+            Settings(fill="blocks", block_size=2),
+            "The block at column 2, row 2 (2 × 2 pixels) is accepted as a whole: even the least value of "
+            "every "
+            "edge function is inside.",
+        ),
+    ],
+)
+def test_hand_computed_sentences(stage: str, key: str, settings: Settings, expected: str) -> None:
+    assert expected in said(stage, settings)[key]
+
+
+def test_a_clipped_edge_gives_its_t() -> None:
+    # Distances w + z of the corners: 1, 1 and -2.5, so t = 1 / 3.5.
+    found = said("clip", Settings(clipping="sutherland-hodgman"), "through-eye")
+    assert (
+        "The edge leaves through the near plane at t = 0.2857 from its inside end, the start: "
+        "that end is 1 inside, and the two ends are 3.5 apart."
+    ) in found["clip.in-out.t"]
+    assert found["clip.in-in.keep"][0] == "Both ends are inside the near plane, so the end is handed on."
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "expected"),
+    [
+        (
+            "all-behind",
+            Settings(),
+            "Triangle 0 is behind the eye and dropped: no corner has w above 0 (w = −1, −2 and −1).",
+        ),
+        (
+            "outside-left",
+            Settings(),
+            "Triangle 0 is dropped: all its corners are outside the left plane (distances −2, −1 and −3).",
+        ),
+        ("degenerate", Settings(), "Triangle 0 is degenerate and dropped: twice its signed area is 0."),
+        (
+            "clockwise",
+            Settings(cull="back"),
+            "Triangle 0 is culled: twice its signed area is −64, below 0, so we see its back, which the "
+            "cull setting drops.",
+        ),
+        ("clockwise", Settings(), "Triangle 0 is kept: none of the tests drops it."),
+    ],
+)
+def test_culling_gives_its_reason(name: str, settings: Settings, expected: str) -> None:
+    cull = said("cull", settings, name)
+    assert expected == list(cull.values())[-1][-1]
+
+
+def test_the_snapped_decision_and_the_unsnapped_weight_are_named_apart() -> None:
+    # The left edge stands at x = 1.501 and is snapped to 1.5, where the centre of pixel (1, 3) lies.
+    x, y = np.array([1.501, 7.0, 1.501]), np.array([1.0, 1.0, 7.0])
+    clip = np.stack([x / 4 - 1, y / 4 - 1, np.zeros(3), np.ones(3)], axis=1)[None]
+    raster = trace(ClipScene(clip, np.eye(3)[None], (8, 8)), Settings(fill="brute-force")).stage("raster")
+    row = int(raster.rows_at_pixel(1, 3)[0])
+    explanation = raster.explain(raster.steps.position_after(row))
+    assert explanation is not None
+    assert sentence(explanation, 0, (1, 3)) == (
+        "Pixel (1, 3) is covered: its centre lies exactly on edge 1, which this triangle owns because it "
+        "is a left "
+        "edge; E1 (snapped) decides, though weight 1 (unsnapped) is −0.0001819."
+    )
+
+
+def depth_step(operation: str, **values: object) -> str:
+    numbers = {
+        "depth": 0.25,
+        "inverse_w": 0.5,
+        "stored": 0.25,
+        "before": 1.0,
+        "after": 0.25,
+        "passes": True,
+        "writes": True,
+        "larger_is_nearer": False,
+        **values,
+    }
+    made = Explanation(f"depth.{operation}", numbers, (), (), None, 0)  # type: ignore[arg-type]
+    return sentence(made, 3, (5, 6))
+
+
+def test_the_depth_test_says_what_was_compared() -> None:
+    assert (
+        depth_step("test.compare")
+        == "Pixel (5, 6) passes: its z, 0.25, is smaller than the buffer's 1: it is nearer."
+    )
+    assert depth_step("test.compare", before=0.125, passes=False) == (
+        "Pixel (5, 6) fails: its z, 0.25, is larger than the buffer's 0.125: it is hidden."
+    )
+    assert depth_step("test.compare", before=0.25, passes=False).endswith("a tie keeps what is there.")
+    assert depth_step("test.compare", larger_is_nearer=True, stored=0.5, before=0.0) == (
+        "Pixel (5, 6) passes: its 1/w, 0.5, is larger than the buffer's 0: it is nearer."
+    )
+    assert "0.99991, is smaller than the buffer's 0.99992" in depth_step(
+        "test.compare", stored=0.99991, before=0.99992
+    )
+    assert "cannot be compared" in depth_step("test.compare", stored=float("nan"), passes=False)
+    assert (
+        depth_step("test.depth", larger_is_nearer=True, stored=0.5)
+        == "Pixel (5, 6): 1/w is 0.5, to be stored as 0.5."
+    )
+    assert depth_step("out-of-range.range", depth=1.5).endswith(
+        "its depth z is 1.5, above 1: behind the far plane."
+    )
+    assert depth_step("out-of-range.range", depth=-0.5).endswith("is −0.5, below 0: before the near plane.")
+    assert depth_step("out-of-range.range", depth=float("nan")).endswith("is NaN, which is no number.")
+    assert (
+        depth_step("store.write")
+        == "Pixel (5, 6): without a depth test 0.25 simply replaces 1 in the depth buffer."
+    )
+    for kind in ("test", "store"):
+        assert depth_step(f"{kind}.write", after=1.0, writes=False) == (
+            "Pixel (5, 6): the depth buffer keeps 1, as the line covers less than half of this pixel and must not hide "
+            "what is drawn there later."
+        )
+
+
+def test_a_tie_of_keys_names_the_triangle_that_came_first() -> None:
+    corners = [[[-1, -1, 0, 1], [1, -1, 0, 1], [0, 1, 0, 1]]]
+    depth = trace(ClipScene(corners * 2, size=(4, 4)), Settings(depth="fixed-38")).stage("depth")
+    row = int(np.flatnonzero(depth.triangle == 1)[0])
+    explanation = depth.explain(int(depth.steps.starts[row]) + 3)
+    assert explanation is not None
+    assert sentence(explanation, 1, (1, 0)) == (
+        "Pixel (1, 0) fails: the depths tie, and triangle 0 has the lower number, as it came first."
+    )
+
+
+def test_cuts_that_are_left_out_are_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pixel_cuts, "MOST_NUMBERS", 1)
+    found = trace(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(1, 1)), AREA).stage(
+        "resolve"
+    )
+    explained = found.explain(1)
+    assert explained is not None
+    assert sentence(explained, -1, (0, 0)) == (
+        "Pixel (0, 0): edges cut it into 2 pieces, and triangles cover 0.5 of its area. How they are cut is told of "
+        "one triangle, or of a smaller part of the picture."
+    )
