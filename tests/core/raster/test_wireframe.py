@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, draw_triangles, render
 from core.methods import table
-from core.raster.lines.drawing import draw_lines, wireframe
+from core.raster.lines import wireframe
+from core.raster.lines.drawing import draw_lines
 from core.raster.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from lessons.scenes import make_scene
 from tests.core.drawing import text
