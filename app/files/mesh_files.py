@@ -13,8 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats import READERS, LoadedMeshes, MeshFileError, Report
-from app.files.mesh_formats.reading import check_positions
+from app.files.mesh_formats import EXTENSIONS, LoadedMeshes, MeshFileError, Report, read_file
 from app.files.mesh_process import OpeningCancelledError, read_in_process
 from core.records.arrays import Floats
 from core.scene import Camera, DirectionalLight, Mesh, Scene
@@ -28,11 +27,7 @@ __all__ = [
     "frame_meshes",
     "load_meshes",
     "open_mesh",
-    "read_file",
 ]
-
-EXTENSIONS = tuple(READERS)
-"""Endings of the files that open, in lower case with their dot."""
 
 VIEWED_FROM = (0.35, 0.4, 1.0)
 """Direction from the model to the camera: from the front, a little from the right and from above."""
@@ -103,52 +98,6 @@ def load_meshes(
 
 def ignore_progress(fraction: float | None, doing: str) -> None:
     """Take a report of progress that nobody wants."""
-
-
-def read_file(path: Path, report: Report) -> LoadedMeshes:
-    """Read ``path`` with the reader of its extension and check that there is something to draw."""
-    try:
-        if path.is_dir():
-            raise MeshFileError(f"a mesh is wanted, and {path.name} is a folder, not a file")
-        reader = READERS.get(path.suffix.lower())
-        if reader is None:
-            extension = f"the extension {path.suffix}" if path.suffix else "no extension"
-            known = ", ".join(EXTENSIONS)
-            raise MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
-        if path.exists() and not path.is_file():
-            raise MeshFileError(f"{path.name} is not a file")
-        if path.stat().st_size == 0:
-            raise MeshFileError(f"{path.name} is empty")
-        loaded = reader(path, report)
-        check_meshes(path, loaded.meshes)
-    except MeshFileError:
-        raise
-    except FileNotFoundError as problem:
-        raise MeshFileError(f"there is no file {path}") from problem
-    except PermissionError as problem:
-        raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
-    except OSError as problem:
-        raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
-    except MemoryError as problem:
-        raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
-    except (ValueError, OverflowError) as problem:
-        # The checks of the core on the arrays of a mesh.
-        raise MeshFileError(f"{path.name} cannot be used: {problem}") from problem
-    return loaded
-
-
-def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
-    """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
-    has_area = False
-    for mesh in meshes:
-        check_positions(path, mesh.positions)
-        corners = mesh.positions[mesh.triangles]
-        sides = corners[:, 1:] - corners[:, :1]
-        longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
-        sides = sides / np.where(longest > 0, longest, 1)
-        has_area |= bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())
-    if not has_area:
-        raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
 
 
 def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -> Scene:

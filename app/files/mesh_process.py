@@ -12,7 +12,7 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any, BinaryIO
 
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report
+from app.files.mesh_formats import LoadedMeshes, MeshFileError, Report, read_file
 from core.scene import Texture
 
 POLL_SECONDS = 0.05
@@ -26,7 +26,7 @@ class OpeningCancelledError(Exception):
 
 
 def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]) -> LoadedMeshes:
-    """Read ``path`` as ``app.files.mesh_files.read_file`` does, in another process.
+    """Read ``path`` as ``app.files.mesh_formats.read_file`` does, in another process.
 
     Raises
     ------
@@ -100,8 +100,6 @@ def restored(loaded: LoadedMeshes) -> LoadedMeshes:
 
 def serve() -> None:
     """Read the file that the command line names and say on the standard output what came of it."""
-    from app.files.mesh_files import read_file
-
     # Whatever a library prints must not come between the messages.
     with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as pipe:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())

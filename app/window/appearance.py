@@ -3,7 +3,8 @@
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.basics.theme import DARK, LIGHT, PRESENTER, apply_theme, current_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT, PRESENTER, current_theme
 
 THEMES = {"light": LIGHT, "dark": DARK, "presenter": PRESENTER}
 

@@ -19,7 +19,8 @@ from core.fast_path.workers import BandWorkers
 from core.settings import Settings
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import MessageKind
-from widgets.basics.theme import DARK, LIGHT, Theme, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT, Theme
 
 if TYPE_CHECKING:
     from app.pages.page_filling import PageContent

@@ -9,7 +9,8 @@ from pytestqt.qtbot import QtBot
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
-from widgets.basics.theme import LIGHT, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT
 
 
 @pytest.fixture

@@ -26,7 +26,8 @@ from PySide6.QtWidgets import QApplication
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import make_scene
-from widgets.basics.theme import LIGHT, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT
 application = QApplication(["rasterscope"])
 apply_theme(application, LIGHT)
 window = MainWindow(open_document(make_scene("single-triangle"), "Single triangle"))
@@ -65,7 +66,8 @@ def main() -> int:
     from core.records.steps import Level
     from lessons.scenes import make_scene
     from lessons.shapes import torus
-    from widgets.basics.theme import LIGHT, apply_theme
+    from widgets.basics.style_sheet import apply_theme
+    from widgets.basics.theme import LIGHT
 
     application = QApplication.instance() or QApplication(["rasterscope"])
     assert isinstance(application, QApplication)

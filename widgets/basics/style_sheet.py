@@ -1,11 +1,12 @@
-"""The one style sheet: panels are set apart by space, controls are flat, focus is a clear ring."""
+"""The style sheet and the palette of a theme: space separates panels, controls are flat, focus is a clear ring."""
 
 from pathlib import Path
 from string import Template
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from widgets.basics.theme import Theme
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QApplication
+
+from widgets.basics.theme import Theme, text_font, theme_notifier
 
 _SHEET = Template("""
 QToolTip { background: $raised; color: $text; border: 1px solid $outline; padding: ${u}px; }
@@ -117,7 +118,7 @@ QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 """)
 
 
-def style_sheet(theme: "Theme") -> str:
+def style_sheet(theme: Theme) -> str:
     """Return the application's style sheet for ``theme``.
 
     Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, and buttons
@@ -151,3 +152,48 @@ def style_sheet(theme: "Theme") -> str:
         icons=(Path(__file__).parent / "icons").as_posix(),
         title_px=theme.title_px,
     )
+
+
+def apply_theme(app: QApplication, theme: Theme) -> None:
+    """Give the application the palette, the font and the style sheet of ``theme``, and tell every widget.
+
+    Applying the present theme again changes nothing and tells nobody.
+    """
+    notifier = theme_notifier()
+    sheet = style_sheet(theme)
+    if theme == notifier.theme and app.styleSheet() == sheet:
+        return
+    notifier.theme = theme
+    app.setStyle("Fusion")
+    app.setPalette(palette(theme))
+    app.setFont(text_font(theme))
+    app.setStyleSheet(sheet)
+    notifier.theme_changed.emit(theme)
+
+
+def palette(theme: Theme) -> QPalette:
+    """Return the Qt palette of a theme."""
+    role = QPalette.ColorRole
+    colors = {
+        role.Window: theme.window,
+        role.WindowText: theme.text,
+        role.Base: theme.panel,
+        role.AlternateBase: theme.window,
+        role.Text: theme.text,
+        role.Button: theme.raised,
+        role.ButtonText: theme.text,
+        role.BrightText: theme.text,
+        role.ToolTipBase: theme.raised,
+        role.ToolTipText: theme.text,
+        role.PlaceholderText: theme.muted_text,
+        role.Highlight: theme.selection,
+        role.HighlightedText: theme.text,
+        role.Link: theme.vertex_text[0],
+        role.LinkVisited: theme.vertex_text[0],
+    }
+    result = QPalette()
+    for key, value in colors.items():
+        result.setColor(key, QColor(value))
+    for key in (role.WindowText, role.Text, role.ButtonText):
+        result.setColor(QPalette.ColorGroup.Disabled, key, QColor(theme.outline))
+    return result

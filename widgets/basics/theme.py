@@ -8,10 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QColor, QFont, QPalette
+from PySide6.QtGui import QColor, QFont
 from PySide6.QtWidgets import QApplication
-
-from widgets.basics.style_sheet import style_sheet
 
 VERTEX_COLORS = ("#0072B2", "#E69F00", "#009E73")
 """Colours of vertices, edges and barycentric weights 0, 1, 2 (Okabe and Ito), for lines, fills and marks."""
@@ -201,51 +199,6 @@ def theme_notifier() -> ThemeNotifier:
 def current_theme() -> Theme:
     """Return the theme that widgets paint with now."""
     return theme_notifier().theme
-
-
-def apply_theme(app: QApplication, theme: Theme) -> None:
-    """Give the application the palette, the font and the style sheet of ``theme``, and tell every widget.
-
-    Applying the present theme again changes nothing and tells nobody.
-    """
-    notifier = theme_notifier()
-    sheet = style_sheet(theme)
-    if theme == notifier.theme and app.styleSheet() == sheet:
-        return
-    notifier.theme = theme
-    app.setStyle("Fusion")
-    app.setPalette(palette(theme))
-    app.setFont(text_font(theme))
-    app.setStyleSheet(sheet)
-    notifier.theme_changed.emit(theme)
-
-
-def palette(theme: Theme) -> QPalette:
-    """Return the Qt palette of a theme."""
-    role = QPalette.ColorRole
-    colors = {
-        role.Window: theme.window,
-        role.WindowText: theme.text,
-        role.Base: theme.panel,
-        role.AlternateBase: theme.window,
-        role.Text: theme.text,
-        role.Button: theme.raised,
-        role.ButtonText: theme.text,
-        role.BrightText: theme.text,
-        role.ToolTipBase: theme.raised,
-        role.ToolTipText: theme.text,
-        role.PlaceholderText: theme.muted_text,
-        role.Highlight: theme.selection,
-        role.HighlightedText: theme.text,
-        role.Link: theme.vertex_text[0],
-        role.LinkVisited: theme.vertex_text[0],
-    }
-    result = QPalette()
-    for key, value in colors.items():
-        result.setColor(key, QColor(value))
-    for key in (role.WindowText, role.Text, role.ButtonText):
-        result.setColor(QPalette.ColorGroup.Disabled, key, QColor(theme.outline))
-    return result
 
 
 def text_font(theme: Theme, pixels: int | None = None) -> QFont:

@@ -6,12 +6,17 @@ sort triangles before quads, regroup them by material and leave out what they do
 of triangles (STL, GLB, glTF) go through trimesh.
 """
 
+from pathlib import Path
+
+import numpy as np
+
 from app.files.mesh_formats.gltf import read_gltf
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Reader, Report
+from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Reader, Report, check_positions
 from app.files.mesh_formats.stl import read_stl
+from core.scene import Mesh
 
 READERS: dict[str, Reader] = {
     ".obj": read_obj,
@@ -23,4 +28,53 @@ READERS: dict[str, Reader] = {
 }
 """Reader of every file name extension, in lower case."""
 
-__all__ = ["READERS", "LoadedMeshes", "MeshFileError", "Reader", "Report"]
+EXTENSIONS = tuple(READERS)
+"""Endings of the files that open, in lower case with their dot."""
+
+__all__ = ["EXTENSIONS", "READERS", "LoadedMeshes", "MeshFileError", "Reader", "Report", "read_file"]
+
+
+def read_file(path: Path, report: Report) -> LoadedMeshes:
+    """Read ``path`` with the reader of its extension and check that there is something to draw."""
+    try:
+        if path.is_dir():
+            raise MeshFileError(f"a mesh is wanted, and {path.name} is a folder, not a file")
+        reader = READERS.get(path.suffix.lower())
+        if reader is None:
+            extension = f"the extension {path.suffix}" if path.suffix else "no extension"
+            known = ", ".join(EXTENSIONS)
+            raise MeshFileError(f"the file {path.name} has {extension}; files that open are {known}")
+        if path.exists() and not path.is_file():
+            raise MeshFileError(f"{path.name} is not a file")
+        if path.stat().st_size == 0:
+            raise MeshFileError(f"{path.name} is empty")
+        loaded = reader(path, report)
+        check_meshes(path, loaded.meshes)
+    except MeshFileError:
+        raise
+    except FileNotFoundError as problem:
+        raise MeshFileError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
+    except OSError as problem:
+        raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
+    except MemoryError as problem:
+        raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
+    except (ValueError, OverflowError) as problem:
+        # The checks of the core on the arrays of a mesh.
+        raise MeshFileError(f"{path.name} cannot be used: {problem}") from problem
+    return loaded
+
+
+def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
+    """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
+    has_area = False
+    for mesh in meshes:
+        check_positions(path, mesh.positions)
+        corners = mesh.positions[mesh.triangles]
+        sides = corners[:, 1:] - corners[:, :1]
+        longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
+        sides = sides / np.where(longest > 0, longest, 1)
+        has_area |= bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())
+    if not has_area:
+        raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")

@@ -1,21 +1,19 @@
-"""What the keys of the Step page do, those excepted that ask something over the page or edit the document."""
+"""Keys of the Step page that move the cursor, the pin and the playback."""
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from app.pages.page_bar import Handlers
+from app.pages.step.stepping_presenter import SteppingPresenter
+from app.session.session import Session
 from core.records.frame import STAGES
-
-if TYPE_CHECKING:
-    from app.pages.step.page import StepPage
+from widgets.timeline.transport import Timeline
 
 BOOKMARKS = 10
 """Bookmarks that have a key."""
 
 
-def step_handlers(page: "StepPage") -> Handlers:
+def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timeline) -> Handlers:
     """Return the handlers by the names of ``app.window.keys.ACTIONS``."""
-    session, stepping = page.session, page.stepping
     return {
         **{f"stage_{k}": partial(stepping.choose_stage, k) for k in range(len(STAGES))},
         **{f"bookmark_{k}": partial(stepping.go_to_bookmark, k) for k in range(BOOKMARKS)},
@@ -28,8 +26,8 @@ def step_handlers(page: "StepPage") -> Handlers:
         "go_first": lambda: stepping.go_to_end(-1),
         "go_last": lambda: stepping.go_to_end(1),
         "toggle_play": stepping.toggle_play,
-        "faster": lambda: page.timeline.change_speed(1),
-        "slower": lambda: page.timeline.change_speed(-1),
+        "faster": lambda: timeline.change_speed(1),
+        "slower": lambda: timeline.change_speed(-1),
         "visited_back": session.go_back,
         "visited_forward": session.go_forward,
         "next_at_pin": lambda: stepping.run_to_pin(1),
@@ -46,7 +44,4 @@ def step_handlers(page: "StepPage") -> Handlers:
         "pin_right": lambda: session.nudge_pin(1, 0),
         "pin_up": lambda: session.nudge_pin(0, 1),
         "pin_down": lambda: session.nudge_pin(0, -1),
-        "fit_view": page.grid.fit,
-        "next_view": page.next_view,
-        "compare": page.toggle_compare,
     }

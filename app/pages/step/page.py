@@ -357,7 +357,12 @@ class StepPage(Page):
 
     def handlers(self) -> Handlers:
         """Return what the keys of this page do."""
-        return step_handlers(self)
+        return {
+            **step_handlers(self.session, self.stepping, self.timeline),
+            "fit_view": self.grid.fit,
+            "next_view": self.next_view,
+            "compare": self.toggle_compare,
+        }
 
     def dismiss(self) -> bool:
         """Stop playing, or else take the pin away."""

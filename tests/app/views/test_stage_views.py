@@ -16,7 +16,8 @@ from core import Settings, render
 from core.fast_path.workers import BandWorkers
 from core.geometry.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
-from widgets.basics.theme import DARK, LIGHT, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

@@ -14,7 +14,8 @@ from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
 from core.records.steps import Level
 from lessons.scenes import built_in_scene, scene_names
-from widgets.basics.theme import DARK, LIGHT, PRESENTER, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT, PRESENTER
 
 SIZE = (24, 16)
 

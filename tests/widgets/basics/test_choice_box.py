@@ -5,7 +5,8 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from widgets.basics.choice_box import MOST_SEEN, ChoiceBox
-from widgets.basics.theme import LIGHT, PRESENTER, Theme, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT, PRESENTER, Theme
 
 
 @pytest.mark.parametrize("theme", [LIGHT, PRESENTER], ids=lambda theme: theme.name)

@@ -6,12 +6,12 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QCheckBox
 
+from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import (
     DARK,
     LIGHT,
     THEMES,
     Theme,
-    apply_theme,
     contrast,
     current_theme,
     text_font,

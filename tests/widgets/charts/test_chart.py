@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from widgets.basics.label_places import LabelPlaces
-from widgets.basics.theme import DARK, LIGHT, apply_theme, contrast
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT, contrast
 from widgets.charts.chart import Chart
 from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 from widgets.charts.series_marks import SHAPES, series_color, series_icon, series_shape

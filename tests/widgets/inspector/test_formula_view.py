@@ -13,7 +13,8 @@ from core.explain.latex import (
     without_macros,
 )
 from core.explain.records import Formula
-from widgets.basics.theme import DARK, LIGHT, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import DARK, LIGHT
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 

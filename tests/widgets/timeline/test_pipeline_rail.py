@@ -5,7 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 
-from widgets.basics.theme import LIGHT, apply_theme
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT
 from widgets.timeline.pipeline_rail import PipelineRail, StageEntry, StageState
 
 NAMES = [
