@@ -13,7 +13,8 @@ import sys
 sys.path.insert(0, {root!r})
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-from app import main_window, window_start
+from app.window import main_window
+from app.window import start as window_start
 
 def act():
     window = next(w for w in QApplication.topLevelWidgets() if isinstance(w, main_window.MainWindow))

@@ -214,7 +214,7 @@ def test_a_large_triangle_has_the_same_bytes_where_nothing_overlaps_as_where_som
     whole = draw_picture(scene, SPANS, encoding=encoding)
     part = draw_picture(scene, SPANS, encoding=encoding, region=(0, 0, 400, 150))
     assert [(picture.route.visibility, picture.route.color) for picture in (whole, part)] == [
-        ("words", "bytes"),
+        ("packed-depth", "bytes"),
         ("layer", "bytes"),
     ]
     assert np.array_equal(part.pixels, whole.pixels[:150])

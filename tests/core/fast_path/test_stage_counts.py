@@ -59,7 +59,7 @@ def test_workers_take_multisampled_pictures() -> None:
     assert picture.route.visibility == "multisampled"
 
 
-@pytest.mark.parametrize(("count", "visibility"), [(1, "layer"), (20, "words")])
+@pytest.mark.parametrize(("count", "visibility"), [(1, "layer"), (20, "packed-depth")])
 def test_the_rows_of_large_triangles_take_time_of_the_stage_bin(count: int, visibility: str) -> None:
     corners = np.array([[[-1.0, -1, 0, 1], [1, -1, 0, 1], [0, 1, 0, 1]]] * count)
     scene = ClipScene(corners, np.ones((count, 3, 4)), (500, 500))
