@@ -10,7 +10,7 @@ may stand in it, so that a program which draws one picture does not wait for the
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any, TypeVar
 
@@ -88,6 +88,40 @@ class Method:
     """What must hold of the input: ``positive-w``, ``projected``, ``perspective``, ``float64-edges``."""
 
 
+class ReplacedName(str):
+    """A setting whose method runs another function: it reads as the name of its method, the table returns ``method``.
+
+    Two of them are equal only where the function is the same; see `core.settings.Settings.replaced`.
+    """
+
+    method: Method
+
+    def __new__(cls, method: Method) -> "ReplacedName":
+        """Spell the name of a method that stands in no table."""
+        name = super().__new__(cls, method.name)
+        name.method = method
+        return name
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, ReplacedName):
+            mine, its = self.method, other.method
+            return (mine.family, mine.name, mine.function) == (its.family, its.name, its.function)
+        return str.__eq__(self, other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = str.__hash__
+
+    def __reduce__(self) -> tuple[type["ReplacedName"], tuple[Method]]:
+        return ReplacedName, (self.method,)
+
+
+def is_registered(setting: str, name: str) -> bool:
+    """Tell whether a setting is the method ``name`` with its own function: only then a closed form may replace it."""
+    return setting == name and not isinstance(setting, ReplacedName)
+
+
 class MethodTable:
     """Methods by family, in the order of their files and in these as they are registered.
 
@@ -125,13 +159,30 @@ class MethodTable:
         return tuple(method.name for method in self._all_of(family))
 
     def get(self, family: str, name: str) -> Method:
-        """Return one method, or raise ValueError with the names that there are."""
+        """Return one method, or raise ValueError with the names that there are; a replaced one is not registered."""
+        if isinstance(name, ReplacedName) and name.method.family == family:
+            return name.method
         methods = self._family(family)
         if name not in methods:
             self._import_until(family, name)
         if name not in methods:
             raise ValueError(f"{family} must be one of {', '.join(self.names(family))}, got {name}")
         return methods[name]
+
+    def replaced(self, family: str, name: str, function: Callable[..., Any] | Method) -> ReplacedName:
+        """Return a value for settings that stands for the method ``name`` with another ``function``, or another row.
+
+        Everything else, such as its listing, is that of the method that it replaces; the table does not change.
+        """
+        known = self.get(family, str(name))
+        if not isinstance(function, Method):
+            return ReplacedName(replace(known, function=function, title=f"{known.title} (replaced)"))
+        if (function.family, function.name) != (family, known.name):
+            raise ValueError(
+                f"a method in place of {family} {known.name} must have that family and name, "
+                f"got {function.family} {function.name}"
+            )
+        return ReplacedName(function)
 
     def _family(self, family: str) -> dict[str, Method]:
         """Return the methods of a family that are registered so far."""

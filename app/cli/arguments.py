@@ -63,9 +63,8 @@ def add_settings(parser: argparse.ArgumentParser, what: str = SETTINGS_HELP) -> 
 
 def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Settings:
     """Return ``settings`` with some chosen on the command line, or raise UsageError."""
-    texts = {name: str(getattr(settings, name)) for name in Settings.__dataclass_fields__}
     try:
-        return settings_from_texts(texts | dict(chosen))
+        return settings_from_texts(dict(chosen), settings)
     except ValueError as problem:
         raise UsageError(f"argument --set: {problem}") from problem
 

@@ -19,9 +19,9 @@ from app.files.mesh_formats import Report
 from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
 from app.files.state_scenes import StateFileError, in_field, scene_from_record, scene_record
 from app.session.document import VIEWS, Document, TeachingRaster
-from core import STAGES, Settings
+from core import STAGES
 from core.scene import AnyScene
-from core.settings import settings_from_texts
+from core.settings import settings_from_texts, settings_record
 from core.stages.vertices import check_needs
 
 __all__ = ["EXTENSION", "State", "StateFileError", "load_state", "save_state"]
@@ -64,15 +64,19 @@ def save_state(path: str | Path, state: State) -> None:
     ------
     OSError
         If it cannot be written; what stood there stays. The message is one sentence.
+    StateFileError
+        If a function of the settings was replaced.
     """
     path = Path(path)
     document = state.document
+    with in_field("settings"):
+        settings = settings_record(document.settings)
     record = StateRecord(
         program="rasterscope",
         version=VERSION,
         title=document.title,
         scene=scene_record(document.scene, document.path, path.resolve().parent),
-        settings={name: getattr(document.settings, name) for name in Settings.__dataclass_fields__},
+        settings=settings,
         raster=RasterRecord(
             columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
         ),

@@ -10,7 +10,7 @@ from app.files.file_writing import whole_file
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_files import readable_json
 from app.files.state_models import Count, Record
-from core.settings import Settings, settings_from_texts
+from core.settings import Settings, settings_from_texts, settings_record
 from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, WorkKind
 
 VERSION: Literal[1] = 1
@@ -114,7 +114,7 @@ def study_json(study: Study) -> str:
         work=_work_record(study.work),
         dials=dict(study.dials),
         seed=study.seed,
-        settings=dict(vars(study.settings)),
+        settings=settings_record(study.settings),
         machine=dict(study.machine),
         measures=tuple(MeasureRecord(**vars(measure)) for measure in study.measures),
         points=tuple(_point_record(point) for point in study.points),

@@ -36,7 +36,7 @@ from core.antialiasing.supersampling import bands_of
 from core.fragments.interpolation import Interpolator, plane_value
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import PixelStacks, stack_fragments
-from core.methods import method, table
+from core.methods import is_registered, method, table
 from core.raster.pixel_runs import Raster
 from core.raster.pixel_squares import SquareFragments, touched_squares
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
@@ -224,7 +224,7 @@ class PiecePainter:
         """Return the squares of all pixels that something touches, the background in them."""
         count = len(self.stacks.pixel)
         color = None
-        if self._settings.blend != "opaque":
+        if not is_registered(self._settings.blend, "opaque"):
             color = np.empty((count, 4), np.float32)
             color[:] = self._scene.background
         return DrawnPieces(whole_pixels(np.arange(count)), np.full(count, -1), color)

@@ -22,7 +22,7 @@ from core.records.arrays import Floats, Integers, Singles
 from core.records.frame import STAGES, Frame, Samples, StageCount
 from core.scene import AnyScene
 from core.settings import Settings
-from core.stages.blend_choice import blend_choice
+from core.stages.blend_choice import blend_choice, is_mixed
 from core.stages.vertices import Geometry, process_geometry, timed
 
 
@@ -67,7 +67,7 @@ def _draw_samples(
     # Colours: one for every triangle in a pixel, whichever of its samples it has.
     color = np.empty((len(moved), len(seen[0][2]), 4), np.float32)
     color[:] = scene.background
-    if blend_choice(settings)[0] == "opaque":
+    if not is_mixed(settings):
         source, number = _shade_once(scene, geometry, settings, raster, [s[:2] for s in seen], counts)
         with timed(counts["blend"]):
             for of_sample, (pixel, _, _), of_fragment in zip(color, seen, number, strict=True):

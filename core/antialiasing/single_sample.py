@@ -20,7 +20,7 @@ from core.records.arrays import Integers, Singles, read_only
 from core.records.frame import STAGES, Frame, StageCount
 from core.scene import AnyScene
 from core.settings import Settings
-from core.stages.blend_choice import blend_choice
+from core.stages.blend_choice import blend_choice, is_mixed
 from core.stages.fragment_depth import fragment_depth
 from core.stages.hidden_surfaces import DecidedFragments, decide_fragments
 from core.stages.vertices import Geometry, process_geometry, timed
@@ -56,7 +56,7 @@ def draw_geometry(
     values = interpolate_fragments(geometry, settings, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
-    if found.decided is None or blend_choice(settings)[0] == "opaque":
+    if found.decided is None or not is_mixed(settings):
         color[pixel] = shade_values(scene, geometry, settings, raster, seen, values, counts["shade"])
         counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
     else:
@@ -99,8 +99,8 @@ def find_fragments(
     cover_count = np.zeros(pixel_count, np.int32)
     owner_count = len(geometry.primitives if geometry.outlines is None else geometry.outlines)
     nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
-    blend, counts["blend"].note = blend_choice(settings)
-    keeps_all = geometry.casts_rays or blend != "opaque"
+    _, counts["blend"].note = blend_choice(settings)
+    keeps_all = geometry.casts_rays or is_mixed(settings)
     kept: list[tuple[Fragments, Stored]] = []
     cover_primitives = covered if geometry.outlines is None else outlined
     for fragments in cover_primitives(geometry, settings, raster, counts):

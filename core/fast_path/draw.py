@@ -180,10 +180,11 @@ def _draw_stacks(context: DrawContext) -> tuple[Route, DepthStatistics]:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether spans can draw with these settings: all filled, at centres, in numbers that suit, without rays."""
+    """Tell whether spans can draw with these settings: filled, at centres, in numbers that suit, by the table."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
     suits_spans = number_format(settings.coverage).suits_spans and settings.visibility != "ray-casting"
-    return settings.fill == "spans" and not is_outlined and suits_spans and settings.antialiasing == "none"
+    is_filled = settings.fill == "spans" and not is_outlined and settings.antialiasing == "none"
+    return is_filled and suits_spans and not settings.replacements
 
 
 def _count(

@@ -9,6 +9,7 @@ import numpy as np
 
 from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_painter, sum_areas
 from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
+from core.methods import is_registered
 from core.pixel_history.candidates import whole_geometry
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
@@ -100,7 +101,7 @@ def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | No
         tuple(events),
         1.0 if last is None else _area_of(last, -1),
         read_only(background),
-        settings.blend != "opaque",
+        not is_registered(settings.blend, "opaque"),
         len(geometry.assembled) - len(touching),
     )
 

@@ -4,7 +4,7 @@ The pixels of a line with intensities are mixed with what is there (`core.raster
 nothing, so "over" is inserted in its place, and the pipeline says so.
 """
 
-from core.methods import table
+from core.methods import is_registered, table
 from core.raster.lines.records import BLENDING
 from core.settings import Settings
 
@@ -19,3 +19,8 @@ def blend_choice(settings: Settings) -> tuple[str, str]:
     if needs_mixing and settings.blend == "opaque":
         return INSERTED, settings.line
     return settings.blend, ""
+
+
+def is_mixed(settings: Settings) -> bool:
+    """Tell whether colours are mixed with what is there, so that every fragment that passes is shaded."""
+    return not is_registered(blend_choice(settings)[0], "opaque")

@@ -17,7 +17,7 @@ from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClippi
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.vertex_stage import VertexStage
-from core.methods import table
+from core.methods import is_registered, table
 from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
 from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners
 from core.records.arrays import Flags, Floats, Integers
@@ -178,7 +178,7 @@ class Geometry:
     def outline_clip(self) -> "OutlineClip | None":
         """What line clipping did to the outlines; ``None``: they are drawn as they are."""
         method, whole = self.settings.line_clipping, self.whole_outlines
-        if whole is None or method == "none":
+        if whole is None or is_registered(method, "none"):
             return None
         from core.stages.clipped_outlines import clip_outlines
 

@@ -49,7 +49,7 @@ def light_vertices(
         return _light_corners(scene, settings.shading, corner, behind)
     count = len(vertices.clip)
     side = corner + count * behind if behind.any() else corner
-    if looks_alike_from_everywhere(scene, settings.shading):
+    if looks_alike_from_everywhere(scene, settings.shading) and "shading" not in settings.replacements:
         sides = 2 if behind.any() else 1
         return CornerValues(*_light_all_sides(scene.meshes, scene.lights, settings.shading, sides), side)
     used, index = _used_sides(side, 2 * count)

@@ -13,7 +13,7 @@ from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, 
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
-from core.methods import table
+from core.methods import is_registered, table
 from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
@@ -181,7 +181,7 @@ def corner_values(
         find_values = partial(light_vertices, scene, vertices, settings)
     with timed(count):
         values = find_values(triangle)
-        if settings.interpolation != "flat":
+        if not is_registered(settings.interpolation, "flat"):
             return values
         provoking = table.get("provoking", settings.provoking).function()
         return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])

@@ -1,7 +1,7 @@
 """A | B | difference: the traced picture under the page's settings and under other ones, on the same input."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -130,7 +130,7 @@ class ComparePresenter(QObject):
     def set_differences(self, differences: Mapping[str, str | int]) -> None:
         """Choose what B does otherwise than the page."""
         mine = self._session.document.settings
-        self._differences = {f: value for f, value in differences.items() if value != getattr(mine, f)}
+        self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
         self.refresh()
 
     @Slot(str, str)
@@ -219,9 +219,7 @@ def compare(
 def settings_difference(mine: Settings, other: Settings) -> str:
     """Return in words what ``other`` does otherwise than ``mine``."""
     parts = []
-    for field in fields(Settings):
-        value = getattr(other, field.name)
-        if value != getattr(mine, field.name):
-            text = table.get(field.name, value).title if isinstance(value, str) else str(value)
-            parts.append(f"{family_title(field.name).lower()}: {text}")
+    for name, value in mine.differences(other).items():
+        text = table.get(name, value).title if isinstance(value, str) else str(value)
+        parts.append(f"{family_title(name).lower()}: {text}")
     return ", ".join(parts)

@@ -1,7 +1,7 @@
 """Opening on the Step page what another page shows: one method's run, at the place that matters."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -13,7 +13,7 @@ from app.session.document import Document
 from app.session.session import Session
 from app.session.tracing import trace_now
 from app.window.message_words import sentences
-from core import Settings, Trace
+from core import Trace
 from widgets.basics.message_bar import Message, MessageKind
 
 
@@ -63,7 +63,7 @@ class StepOpening(QObject):
         if opening.pixel is not None and self._session.has_pixel(opening.pixel):
             self._go_to_pixel(opening.stage, opening.pixel, has_other=other is not None)
         if other is not None:
-            self._page.comparing.set_differences(differences(opening.settings, other))
+            self._page.comparing.set_differences(opening.settings.differences(other))
         self._page.show_view("pixels" if other is None else "compare")
         self.opened.emit()
 
@@ -82,9 +82,3 @@ class StepOpening(QObject):
             raise error
         said = sentences(f"It cannot be stepped: {error}", "The open scene stays as it was")
         self.message_sent.emit(Message(MessageKind.WARNING, said))
-
-
-def differences(first: Settings, second: Settings) -> dict[str, str | int]:
-    """Return the families in which two settings differ, with the second's values."""
-    names = (field.name for field in fields(Settings))
-    return {name: getattr(second, name) for name in names if getattr(first, name) != getattr(second, name)}

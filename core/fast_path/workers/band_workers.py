@@ -286,6 +286,8 @@ class BandWorkers:
 def _why_not_divided(order: Order) -> str:
     """Return why bands get no part of it, else an empty text: what does not fit is refused for the whole picture."""
     out, depth_at = order.out, order.depth_at
+    if order.settings.replacements:
+        return "a replaced function stays in this process"
     if out is not None and not (
         out.shape == order.shape and out.dtype == np.uint8 and out.flags.c_contiguous
     ):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.methods import table
+from core.methods import is_registered, table
 from core.raster.lines.bresenham import bresenham_float_listing, bresenham_lecture_listing, bresenham_listing
 from core.raster.lines.dda import dda_float32_listing, dda_listing, midpoint_listing
 from core.raster.lines.diamond_exit import diamond_exit_listing
@@ -97,7 +97,7 @@ def draw_lines(
     """
     checked_segments = check_segments(segments, width, height, pixel_center)
     rule = table.get("line", line).function
-    if line == "bresenham":
+    if is_registered(line, "bresenham"):
         # The same pixels in closed form, without the numbers: those are found when they are asked for.
         ends, bounds = checked_segments.pixel_indices.reshape(-1, 4), (0, 0, width, height)
         column, row, owner = find_line_pixels(ends, bounds, last_pixel)

@@ -109,9 +109,7 @@ class StudyFamily:
 
 def settings_of(base: Settings, method: str) -> Settings:
     """Return ``base`` changed by a `Point.method`: ``family=name``, several joined by a blank."""
-    texts = {name: str(getattr(base, name)) for name in Settings.__dataclass_fields__}
-    changes = dict(part.split("=", 1) for part in method.split())
-    return settings_from_texts(texts | changes)
+    return settings_from_texts(dict(part.split("=", 1) for part in method.split()), base)
 
 
 def chosen_dials(work: WorkKind, given: Mapping[str, float] | None) -> dict[str, float]:

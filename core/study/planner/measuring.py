@@ -11,7 +11,7 @@ from core.framebuffer.display import to_display
 from core.pipeline import render
 from core.records.arrays import Floats, Integers
 from core.scene import AnyScene
-from core.settings import Settings, settings_from_texts
+from core.settings import Settings
 from core.study.accuracy.speed_accuracy import collector_off
 from core.study.planner.planning import plan
 from core.study.planner.progress import Watch, unwatched
@@ -96,8 +96,7 @@ class _Steps:
 
 def with_choices(chosen: Plan, names: tuple[str, ...]) -> Settings:
     """Return everything on but for a plan's choices of the settings ``names``."""
-    texts = {name: str(getattr(chosen.everything, name)) for name in vars(chosen.everything)}
-    return settings_from_texts(texts | {name: str(getattr(chosen.settings, name)) for name in names})
+    return replace(chosen.everything, **{name: getattr(chosen.settings, name) for name in names})
 
 
 def alone_settings(chosen: Plan, decision: Decision) -> tuple[Settings, Settings]:
