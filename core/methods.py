@@ -5,14 +5,20 @@ A method is added by one function in the file of its idea under one decorator::
     @method("fill", "bounding-box", "Bounding box", source="Zwicker 2016, Binning", exact_for="every triangle")
     def bounding_box(edges, raster, block_size): ...
 
-and a new file by a line in ``METHOD_FILES``. A file is imported when the table is first asked for something that
-may stand in it, so that a program which draws one picture does not wait for the methods that it does not use.
+A new file in the folder of its family is found by itself. The files in ``METHOD_FILES`` come first in the menus, and
+one of them is imported when the table is first asked for something that may stand in it; the others when a name stands
+in none of these, or all names are asked for. So a program that draws one picture waits only for the methods it uses.
 """
 
+import pkgutil
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cache
 from importlib import import_module
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from core.records.steps import Operation
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -64,7 +70,7 @@ METHOD_FILES: dict[str, tuple[str, ...]] = {
         "core.raster.number_formats.exact",
     ),
 }
-"""The modules in which each family's methods stand, in the order of the menus."""
+"""The modules of each family's first methods, in the order of the menus; others are found in the first one's folder."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +92,12 @@ class Method:
     """Where it does not; empty: nowhere."""
     needs: tuple[str, ...] = ()
     """What must hold of the input: ``positive-w``, ``projected``, ``perspective``, ``float64-edges``."""
+    listing: Callable[..., Any] | None = None
+    """The algorithm as a short scalar function that a student can read (`core.records.listing`)."""
+    operations: "Mapping[str, tuple[Operation, ...]]" = field(default_factory=dict)
+    """What the rows of its own in a trace do, by their kind."""
+    traits: Any = None
+    """What only methods of its family have: a record of the family's own, as `core.raster.lines.traits.LineTraits`."""
 
 
 class ReplacedName(str):
@@ -140,13 +152,16 @@ class MethodTable:
             yield from self._all_of(family)
 
     def add(self, method: Method) -> None:
-        """Register ``method``; ValueError if its name is taken, or its file is none of its family's."""
+        """Register ``method``; ValueError if its name is taken, or its file is not in its family's folder."""
         methods, file = self._family(method.family), method.function.__module__
         if method.name in methods:
             raise ValueError(f"{method.family} has a method {method.name} already")
-        if file not in self._files[method.family]:
-            known = ", ".join(self._files[method.family])
-            raise ValueError(f"methods of {method.family} must stand in {known}, got {method.name} in {file}")
+        files = self._files[method.family]
+        if file not in files and package_of(file) != package_of(files[0]):
+            folder = package_of(files[0])
+            raise ValueError(
+                f"methods of {method.family} must stand in {folder}, got {method.name} in {file}"
+            )
         methods[method.name] = method
 
     @property
@@ -196,13 +211,27 @@ class MethodTable:
             import_module(file)
             if name in self._registered[family]:
                 return
+        self._all_of(family)
 
     def _all_of(self, family: str) -> list[Method]:
         """Return all methods of a family; a file may have been imported before one that stands further up."""
         methods, files = self._family(family), self._files[family]
+        files = (*files, *(file for file in modules_in(package_of(files[0])) if file not in files))
         for file in files:
             import_module(file)
         return sorted(methods.values(), key=lambda method: files.index(method.function.__module__))
+
+
+def package_of(module: str) -> str:
+    """Return the folder that a module stands in, as ``core.raster.lines``."""
+    return module.rpartition(".")[0]
+
+
+@cache
+def modules_in(package: str) -> tuple[str, ...]:
+    """Return the modules that stand in a folder itself, by name."""
+    found = pkgutil.iter_modules(import_module(package).__path__, f"{package}.")
+    return tuple(sorted(module.name for module in found if not module.ispkg))
 
 
 table = MethodTable(METHOD_FILES)
@@ -218,11 +247,15 @@ def method(
     exact_for: str,
     breaks_where: str = "",
     needs: tuple[str, ...] = (),
+    listing: Callable[..., Any] | None = None,
+    operations: "Mapping[str, tuple[Operation, ...]] | None" = None,
+    traits: Any = None,
 ) -> Callable[[Function], Function]:
     """Register the decorated function in the table."""
 
     def register(function: Function) -> Function:
-        table.add(Method(family, name, title, function, source, exact_for, breaks_where, needs))
+        accounts = (title, function, source, exact_for, breaks_where, needs)
+        table.add(Method(family, name, *accounts, listing, operations or {}, traits))
         return function
 
     return register

@@ -5,7 +5,7 @@ nothing, so "over" is inserted in its place, and the pipeline says so.
 """
 
 from core.methods import is_registered, table
-from core.raster.lines.records import BLENDING
+from core.raster.lines.traits import has_intensities
 from core.settings import Settings
 
 INSERTED = "over"
@@ -15,7 +15,7 @@ INSERTED = "over"
 def blend_choice(settings: Settings) -> tuple[str, str]:
     """Return the blend method that runs, and the line method that asked for it where the settings did not."""
     is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    needs_mixing = is_outlined and BLENDING in table.get("line", settings.line).needs
+    needs_mixing = is_outlined and has_intensities(settings.line)
     if needs_mixing and settings.blend == "opaque":
         return INSERTED, settings.line
     return settings.blend, ""

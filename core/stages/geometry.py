@@ -191,8 +191,8 @@ class Geometry:
         """The edges before line clipping; ``None``: triangles are filled."""
         if not table.get("polygon_mode", self.settings.polygon_mode).function():
             return None
-        from core.raster.lines.drawing import has_intensities
         from core.raster.lines.intensities import run_rightwards
+        from core.raster.lines.traits import has_intensities
         from core.raster.lines.wireframe import set_up_outlines
 
         with timed(self.count):

@@ -2,22 +2,17 @@
 
 import numpy as np
 
-from core.raster.lines.dda import line_coefficients
-from core.raster.lines.drawing import LISTINGS
-from core.raster.lines.records import Segments, check_segments, major_first
-from core.raster.lines.rectangle import SUBPIXELS, snapped_ends
-from core.raster.lines.smooth import FILTER_TABLE, filter_entry, line_cosine
+from core.methods import table
+from core.raster.lines.records import check_segments
+from core.raster.lines.traits import line_set_up, line_traits
 from core.raster.lines.wireframe import line_parameter
-from core.records.arrays import Flags, Floats
+from core.records.arrays import Floats
 from core.records.listing import listing
 from core.records.steps import Steps, ends_of
 from core.trace.line_clipping import with_line_clipping
-from core.trace.raster_rows import FILL_OPERATIONS, line_kinds, overdraw_track
+from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
-
-PIXEL_METHODS = ("bresenham", "bresenham-lecture", "bresenham-float")
-"""Methods that move the ends to pixels; the others take them as they are."""
 
 
 def trace_lines(source: TraceSource) -> StageTrace:
@@ -45,9 +40,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "t": line_parameter(outlines, fragments, raster.center),
         "previous": _previous(steps.decision, segment),
     }
-    if line == "gupta-sproull":
-        columns["entry"] = filter_entry(steps.line_distance)
-        columns["filtered"] = FILTER_TABLE.take(columns["entry"])
+    columns |= line_traits(line).columns(steps)
     segments = check_segments(
         outlines.drawn, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
     )
@@ -57,11 +50,12 @@ def trace_lines(source: TraceSource) -> StageTrace:
     columns["major"] = np.where(is_steep, pixel[:, 1], pixel[:, 0])
     columns["minor"] = np.where(is_steep, pixel[:, 0], pixel[:, 1])
 
-    operations = line_kinds(line)
+    method = table.get("line", line)
+    operations = method.operations
     kinds = (*FILL_OPERATIONS, *operations)
     triangle = geometry.primitives.triangle[fragments.primitive]
-    source_text = LISTINGS.get(line)
-    listings = {} if source_text is None else dict.fromkeys(operations, listing(source_text))
+    assert method.listing is not None, f"{line} has no listing"
+    listings = dict.fromkeys(operations, listing(method.listing))
     every, place = np.arange(count), source.place
     unknown = np.full(raster.shape, np.nan)
     found = StageTrace(
@@ -70,7 +64,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         steps=Steps(
             kinds=kinds,
             kind=np.where(steps.index == 0, len(kinds) - 2, len(kinds) - 1),
-            operations=FILL_OPERATIONS | operations,
+            operations={**FILL_OPERATIONS, **operations},
             triangle_ends=ends_of(triangle),
             group_ends=ends_of(segment),
         ),
@@ -103,48 +97,6 @@ def trace_lines(source: TraceSource) -> StageTrace:
         constants={"center": raster.center},
     )
     return with_line_clipping(found, source)
-
-
-def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
-    """Return what a line method works out once for each of L segments.
-
-    Returns
-    -------
-    dict
-        ``first_end``, ``second_end`` (L, 2): what the listing is called with; pixels, or positions where centres
-        are whole. ``is_steep`` (L,): the longer axis is y. ``run``, ``rise`` (L,): lengths along the longer
-        (major) and the other (minor) axis. ``slope``, ``intercept`` (L,): the minor coordinate is slope times the major
-        one plus intercept, NaN where the method has none. ``cosine`` (L,): by what a distance along the minor axis
-        shrinks to that from the line. ``length`` (L,): of the segment, in pixels.
-    """
-    by_pixels = line in PIXEL_METHODS
-    ends: Floats = segments.pixel_indices.astype(float) if by_pixels else segments.centered_ends
-    if line == "rectangle":
-        ends = snapped_ends(segments) / SUBPIXELS
-    length = ends[:, 1] - ends[:, 0]
-    size = np.abs(length)
-    is_steep: Flags = size[:, 1] > size[:, 0]
-    if line == "bresenham-lecture":
-        is_steep = size[:, 1] >= size[:, 0]
-    run, rise = np.where(is_steep[:, None], size[:, ::-1], size).T
-    slope, intercept = np.full((2, len(ends)), np.nan)
-    if line == "bresenham-float":
-        slope = rise / np.maximum(run, 1)
-    elif not by_pixels:
-        slope, intercept = line_coefficients(major_first(ends, is_steep))
-    if line == "dda-float32":
-        slope = slope.astype(np.float32).astype(float)
-    return {
-        "first_end": ends[:, 0],
-        "second_end": ends[:, 1],
-        "is_steep": is_steep,
-        "run": run,
-        "rise": rise,
-        "slope": slope,
-        "intercept": intercept,
-        "cosine": line_cosine(slope),
-        "length": np.hypot(run, rise),
-    }
 
 
 def _previous(decision: Floats, segment: np.ndarray) -> Floats:

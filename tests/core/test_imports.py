@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import core
-from core.methods import METHOD_FILES, table
+from core.methods import table
 from core.settings import Settings, families
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -80,13 +80,20 @@ def test_what_is_not_imported_is_there(name: str) -> None:
     assert path.with_suffix(".py").is_file() or (path / "__init__.py").is_file()
 
 
-def test_every_file_with_methods_stands_in_the_table() -> None:
+def test_every_method_in_a_file_is_found() -> None:
     found = {
-        (family, ".".join(path.relative_to(ROOT).with_suffix("").parts))
+        row
         for path in (ROOT / "core").rglob("*.py")
-        for family in re.findall(r'^@method\(\s*"(\w+)"', path.read_text(encoding="utf-8"), re.MULTILINE)
+        for row in re.findall(r'^@method\(\s*"(\w+)",\s*"([\w.-]+)"', path.read_text(encoding="utf-8"), re.M)
     }
-    assert found == {(family, file) for family, files in METHOD_FILES.items() for file in files}
+    assert found == {(row.family, row.name) for row in table}
+
+
+def test_a_new_file_in_the_folder_of_a_family_is_found_after_the_first_ones() -> None:
+    code = "import core.raster.lines.ideal as new; from core.methods import METHOD_FILES, method, table\n"
+    code += "def drawn(): ...\ndrawn.__module__ = new.__name__\n"
+    code += "method('line', 'new', 'New', source='here', exact_for='nothing')(drawn)\n"
+    assert run_fresh(code + "print(*table.names('line'))") == [" ".join((*table.names("line"), "new"))]
 
 
 def test_chosen_methods_are_imported_before_stages_are_timed() -> None:

@@ -7,7 +7,7 @@ from core.explain.sentences.pixel import attribute
 from core.explain.sentences.raster import pixel_name
 from core.explain.sentences.smooth_lines import GUPTA_SPROULL, RECTANGLE, WU, line_cosine, rectangle_length
 from core.explain.step_values import StepValues
-from core.trace.lines import PIXEL_METHODS
+from core.raster.lines.traits import line_traits
 
 
 def line_method(step: StepValues) -> str:
@@ -47,7 +47,7 @@ def octant(step: StepValues) -> str:
     """Where an edge runs, and along which axis it is longer."""
     major, _ = axes(step)
     first, second = vector_text(step.vector("window_start")), vector_text(step.vector("window_end"))
-    if line_method(step) in PIXEL_METHODS:
+    if line_traits(line_method(step)).takes_pixels:
         first, second = (f"pixel {vector_text(step.vector(name))}" for name in ("first_end", "second_end"))
     text = f"Edge {step.whole('edge')} of triangle {step.triangle} runs from {first} to {second}"
     if step.number("run") == 0:

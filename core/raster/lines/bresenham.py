@@ -1,4 +1,4 @@
-"""Bresenham's line in three versions: integers, integers as the lecture prints it, and a float error.
+"""Bresenham's line in three versions: integers, integers as printed (LMU), and a float error.
 
 After i steps along the major axis the line has climbed ``i dv / du``; the pixel is the nearest one. The
 decision value D = 2 du (climb at the next step - pixels climbed - 1/2) needs no fraction, and tells by its
@@ -27,10 +27,31 @@ from core.raster.lines.records import (
     major_first,
     visible_range,
 )
+from core.raster.lines.traits import OCTANT, PLOT, Coefficients, LineTraits, line_rows
+from core.raster.spans.lines import find_line_pixels
 from core.records.arrays import Flags, Floats, Integers
+from core.records.steps import Operation
 
 Listed = list[tuple[int, int, float]]
 """Column, row and decision of each pixel, from a listing."""
+
+_LENGTHS = Operation("lengths", "lengths", ("run", "rise"))
+_TESTED = (
+    Operation("test", "test", ("decision", "is_tie")),
+    Operation("step", "step", ("has_stepped",)),
+    PLOT,
+)
+
+
+def no_coefficients(ends: Floats) -> Coefficients:
+    """Return NaN (L,) twice: the integer versions have no slope. ``ends`` (L, 2, 2), the major axis first."""
+    return np.full(len(ends), nan), np.full(len(ends), nan)
+
+
+def error_slope(ends: Floats) -> Coefficients:
+    """Return the slope (L,) that is added to the error, between 0 and 1, of ends (L, 2, 2) u, v; no intercept."""
+    run, rise = np.abs(ends[:, 1] - ends[:, 0]).T
+    return rise / np.maximum(run, 1), np.full(len(ends), nan)
 
 
 def climb(i: Integers, du: Integers, dv: Integers) -> Integers:
@@ -79,6 +100,26 @@ def _integer_run(
     )
 
 
+def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham`` between two pixels."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
+    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
+    pixels = []
+    for _ in range(dx + last_pixel):
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = D
+        if D >= 0:  #: test
+            y += y_step  #: step
+            D -= 2 * dx  #: correct
+        D += 2 * dy  #: advance
+        x += x_step  #: next
+    return pixels
+
+
 @method(
     "line",
     "bresenham",
@@ -86,6 +127,9 @@ def _integer_run(
     source="J. E. Bresenham, Algorithm for computer control of a digital plotter, 1965",
     exact_for="ends on pixel centres: always the nearest pixel; a tie steps",
     breaks_where="other ends are moved to the pixel they lie in; drawn backwards, a tie takes the other one",
+    listing=bresenham_listing,
+    operations=line_rows("bresenham", (OCTANT, _LENGTHS, PLOT), _TESTED),
+    traits=LineTraits(takes_pixels=True, coefficients=no_coefficients, find_pixels=find_line_pixels),
 )
 def bresenham(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw from the first end to the second, stepping where D >= 0; ``decision`` is D."""
@@ -95,15 +139,41 @@ def bresenham(segments: Segments, last_pixel: bool) -> LineRun:
     return _integer_run(major_first(pixels, is_steep), is_steep, segments, last_pixel, steps_at_tie=True)
 
 
+def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham-lecture`` between two pixels; the last one is always drawn."""
+    is_steep = not abs(y1 - y0) < abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    if x0 > x1:  #: order
+        x0, y0, x1, y1 = x1, y1, x0, y0  #: swap-ends
+    dx, dy, y_step = x1 - x0, y1 - y0, 1  #: lengths
+    if dy < 0:
+        y_step, dy = -1, -dy  #: directions
+    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
+    pixels = []
+    while x <= x1:
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = D
+        if D > 0:  #: test
+            y += y_step  #: step
+            D -= 2 * dx  #: correct
+        D += 2 * dy  #: advance
+        x += 1  #: next
+    return pixels
+
+
 @method(
     "line",
     "bresenham-lecture",
-    "Bresenham, as the lecture prints it",
+    "Bresenham, as printed (LMU)",
     source="LMU, Computer Graphics 1, Task 1 g) Bresenham (complete version)",
     exact_for="ends on pixel centres: always a nearest pixel, the same in both directions",
     breaks_where="not symmetric: ends are swapped to run left to right or bottom to top and a tie stays "
     "(D > 0), so a mirrored line is not the mirror image; the last pixel is always drawn, so lines that "
     "share an end draw it twice",
+    listing=bresenham_lecture_listing,
+    operations=line_rows("bresenham-lecture", (OCTANT, _LENGTHS, PLOT), _TESTED),
+    traits=LineTraits(takes_pixels=True, is_diagonal_steep=True, coefficients=no_coefficients),
 )
 def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw from left to right (steep: bottom to top), stepping where D > 0; ``decision`` is D.
@@ -119,6 +189,27 @@ def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:
     return _integer_run(pixels, is_steep, segments, last_pixel=True, steps_at_tie=False)
 
 
+def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
+    """List the pixels of ``bresenham-float`` between two pixels."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
+    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    m = dy / max(dx, 1)  #: slope
+    x, y, e, chosen_by = x0, y0, 0.0, nan  #: start
+    pixels = []
+    for _ in range(dx + last_pixel):
+        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
+        chosen_by = e + m
+        if e + m > 0.5:  #: test
+            y += y_step  #: step
+            e -= 1  #: correct
+        e += m  #: advance
+        x += x_step  #: next
+    return pixels
+
+
 @method(
     "line",
     "bresenham-float",
@@ -127,6 +218,11 @@ def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:
     exact_for="ends on pixel centres: a nearest pixel, up to the rounding of e; a tie stays",
     breaks_where="e gathers rounding errors, so at ties it may fall either way; other ends are moved to the "
     f"pixel they lie in; more than {STEP_LIMIT} steps are refused",
+    listing=bresenham_float_listing,
+    operations=line_rows(
+        "bresenham-float", (OCTANT, Operation("slope", "slope", ("run", "rise", "slope")), PLOT), _TESTED
+    ),
+    traits=LineTraits(takes_pixels=True, coefficients=error_slope),
 )
 def bresenham_float(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw from the first end to the second, stepping where e + m > 0.5; ``decision`` is e + m.
@@ -186,67 +282,3 @@ def _float_errors(first: Integers, last: Integers, slope: Floats, longest: int) 
         climbed[:n] += has_stepped
         error[:n] = (error[:n] - has_stepped) + slope[:n]
     return climbed_at, decision_at
-
-
-def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
-    """List the pixels of ``bresenham`` between two pixels."""
-    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
-    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
-    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
-    pixels = []
-    for _ in range(dx + last_pixel):
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = D
-        if D >= 0:  #: test
-            y += y_step  #: step
-            D -= 2 * dx  #: correct
-        D += 2 * dy  #: advance
-        x += x_step  #: next
-    return pixels
-
-
-def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
-    """List the pixels of ``bresenham-lecture`` between two pixels; the last one is always drawn."""
-    is_steep = not abs(y1 - y0) < abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    if x0 > x1:  #: order
-        x0, y0, x1, y1 = x1, y1, x0, y0  #: swap-ends
-    dx, dy, y_step = x1 - x0, y1 - y0, 1  #: lengths
-    if dy < 0:
-        y_step, dy = -1, -dy  #: directions
-    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
-    pixels = []
-    while x <= x1:
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = D
-        if D > 0:  #: test
-            y += y_step  #: step
-            D -= 2 * dx  #: correct
-        D += 2 * dy  #: advance
-        x += 1  #: next
-    return pixels
-
-
-def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> Listed:
-    """List the pixels of ``bresenham-float`` between two pixels."""
-    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
-    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
-    m = dy / max(dx, 1)  #: slope
-    x, y, e, chosen_by = x0, y0, 0.0, nan  #: start
-    pixels = []
-    for _ in range(dx + last_pixel):
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = e + m
-        if e + m > 0.5:  #: test
-            y += y_step  #: step
-            e -= 1  #: correct
-        e += m  #: advance
-        x += x_step  #: next
-    return pixels

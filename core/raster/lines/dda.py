@@ -27,13 +27,27 @@ from core.raster.lines.records import (
     round_half_up,
     visible_range,
 )
+from core.raster.lines.traits import (
+    EVALUATE,
+    OCTANT,
+    PLOT,
+    ROUND,
+    SLOPE,
+    Coefficients,
+    LineTraits,
+    line_coefficients,
+    line_rows,
+)
 from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.steps import Operation
 
 BATCH = 2**20
 """Sums held at one time while the DDA runs along lines that begin far outside the raster."""
 
 Listed = list[tuple[int, int, float]]
 """Column, row and minor coordinate of each pixel, from a listing."""
+
+_ADVANCED = (Operation("advance", "advance", ("decision",)), ROUND, PLOT)
 
 
 FLOAT32_ROUNDING = 2.0**-23
@@ -74,14 +88,6 @@ def _columns(segments: Segments, last_pixel: bool) -> _Columns:
     return _Columns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
 
 
-def line_coefficients(ends: Floats) -> tuple[Floats, Floats]:
-    """Return m and b (L,) of v = m u + b through the ends (L, 2, 2) u, v; m is 0 where they coincide."""
-    u, v, u_end, v_end = ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1]
-    du = u_end - u
-    slope = (v_end - v) / np.where(du == 0, 1.0, du)
-    return slope, v - slope * u
-
-
 def _run(columns: _Columns, owner: Integers, k: Integers, v: Floats, v_before: Floats) -> LineRun:
     """Round the minor coordinates (P,) of steps k and k - 1 to pixels."""
     minor, minor_before = round_half_up(v), round_half_up(v_before)
@@ -96,6 +102,24 @@ def line_equation(u: Integers, slope: Floats, intercept: Floats) -> Floats:
     return slope * u + intercept
 
 
+def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``midpoint`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        y = m * x + b  #: evaluate
+        row = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
+        x += x_step  #: next
+    return pixels
+
+
 @method(
     "line",
     "midpoint",
@@ -104,6 +128,8 @@ def line_equation(u: Integers, slope: Floats, intercept: Floats) -> Floats:
     exact_for="any ends: the pixel nearest to the line in every column, up to the rounding of m x + b",
     breaks_where="a tie always goes up (steep: right), so a mirrored line is not the mirror image; far from "
     "the origin m x + b loses digits",
+    listing=midpoint_listing,
+    operations=line_rows("midpoint", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), (EVALUATE, ROUND, PLOT)),
 )
 def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
     """Evaluate m x + b in every column and round it; ``decision`` is this coordinate (centres whole)."""
@@ -126,6 +152,25 @@ def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
     )
 
 
+def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``dda`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    y = m * x + b  #: evaluate
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        row = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
+        y += m * x_step  #: advance
+        x += x_step  #: next
+    return pixels
+
+
 @method(
     "line",
     "dda",
@@ -134,6 +179,8 @@ def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
     exact_for="any ends whose slope is a short binary fraction: then equal to midpoint",
     breaks_where="the rounding errors of the sums grow along the line: at ties, and on long lines near them, "
     "the neighbour is drawn",
+    listing=dda_listing,
+    operations=line_rows("dda", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
 )
 def dda(segments: Segments, last_pixel: bool) -> LineRun:
     """Add the slope from column to column and round; ``decision`` is the sum so far (centres whole).
@@ -154,6 +201,31 @@ def dda(segments: Segments, last_pixel: bool) -> LineRun:
     return _run(columns, owner, k, sums, sums_before)
 
 
+def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``dda-float32`` on one segment; pixel centres are whole numbers."""
+    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
+    if is_steep:
+        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
+    b = y0 - m * x0  #: intercept
+    x_step = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    y, y_step = np.float32(m * x + b), np.float32(m * x_step)  #: evaluate
+    pixels = []
+    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+        row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
+        pixels.append((row, x, float(y)) if is_steep else (x, row, float(y)))  #: draw
+        y = np.float32(y + y_step)  #: advance
+        x += x_step  #: next
+    return pixels
+
+
+def float32_coefficients(ends: Floats) -> Coefficients:
+    """Return the slope (L,) rounded to float32 and the intercept (L,) of ends (L, 2, 2) u, v."""
+    slope, intercept = line_coefficients(ends)
+    return slope.astype(np.float32).astype(float), intercept
+
+
 @method(
     "line",
     "dda-float32",
@@ -162,6 +234,9 @@ def dda(segments: Segments, last_pixel: bool) -> LineRun:
     exact_for="short lines near the origin, but for ties",
     breaks_where="long lines: all sums of one binade are rounded alike, so the line drifts by whole pixels over "
     f"thousands of columns, and the more the farther it is from the origin; more than {STEP_LIMIT} steps are refused",
+    listing=dda_float32_listing,
+    operations=line_rows("dda-float32", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
+    traits=LineTraits(coefficients=float32_coefficients),
 )
 def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
     """Add the slope in float32 and round; ``decision`` is the sum so far (centres whole).
@@ -225,59 +300,3 @@ def _running_sums(
         sums[at] = table[line, k]
         sums_before[at] = table[line, np.maximum(k - 1, 0)]
     return sums, sums_before
-
-
-def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
-    """List the pixels of ``midpoint`` on one segment; pixel centres are whole numbers."""
-    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
-    b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
-    pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
-        y = m * x + b  #: evaluate
-        row = floor(y) + (y - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
-        x += x_step  #: next
-    return pixels
-
-
-def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
-    """List the pixels of ``dda`` on one segment; pixel centres are whole numbers."""
-    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
-    b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
-    y = m * x + b  #: evaluate
-    pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
-        row = floor(y) + (y - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
-        y += m * x_step  #: advance
-        x += x_step  #: next
-    return pixels
-
-
-def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
-    """List the pixels of ``dda-float32`` on one segment; pixel centres are whole numbers."""
-    is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
-    if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
-    b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
-    y, y_step = np.float32(m * x + b), np.float32(m * x_step)  #: evaluate
-    pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
-        row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, float(y)) if is_steep else (x, row, float(y)))  #: draw
-        y = np.float32(y + y_step)  #: advance
-        x += x_step  #: next
-    return pixels

@@ -23,7 +23,9 @@ import numpy as np
 
 from core.methods import method
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
+from core.raster.lines.traits import OCTANT, PLOT, line_rows
 from core.records.arrays import Flags, Floats, Integers
+from core.records.steps import Operation
 
 SUBPIXELS = 256
 """Steps of the lattice that the line's ends are snapped to, in one pixel."""
@@ -32,6 +34,12 @@ END_SUBPIXELS = 2**32
 
 Listed = list[tuple[int, int, float]]
 """Column, row, and the line's height above the pixel's centre, from a listing."""
+
+_EXIT = (
+    Operation("round", "round", ("decision", "is_tie", "has_stepped")),
+    Operation("leaves", "leaves", ("exit_start", "exit_end")),
+    PLOT,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,53 +158,6 @@ def _judge(course: _Course, owner: Integers, k: Integers, last_pixel: bool) -> _
     return _Verdict(minor, is_drawn, offset, is_tie | is_edge.any(axis=1), exits[:, 0], exits[:, 1])
 
 
-@method(
-    "line",
-    "diamond-exit",
-    "Diamond exit (OpenGL)",
-    source="OpenGL 4.6, 14.5.1 Basic Line Segment Rasterization",
-    exact_for="any ends: OpenGL's rule for the line through the ends snapped to 1/256 pixel; both directions "
-    "take the same pixel at a tie",
-    breaks_where="ties follow the window's axes, so a mirrored line is not the mirror image; segments of "
-    "a few 1/256 pixel may be turned by the snapping and lost",
-)
-def diamond_exit(segments: Segments, last_pixel: bool) -> LineRun:
-    """Draw the pixels whose diamond the segment leaves; ``decision`` is the line's height above the centre.
-
-    With ``last_pixel`` also the pixel whose diamond it ends in.
-    """
-    course = _course(segments)
-    slope = course.rise / course.run
-    distance = course.step * (course.start - course.snapped[:, 0] / SUBPIXELS)
-    v = course.snapped[:, 1] / SUBPIXELS + distance * slope
-    first, last = visible_range(segments, course.is_steep, course.start, course.step, v, slope, course.count)
-    owner, k = enumerate_steps(first, last)
-    verdict = _judge(course, owner, k, last_pixel)
-
-    # The line's first pixel is in its first column or in the next; pixels are counted from it.
-    everyone = np.arange(len(course.start))
-    begins_late = ~_judge(course, everyone, np.zeros_like(everyone), last_pixel).is_drawn
-    index = k - begins_late[owner]
-    step, is_steep = course.step[owner], course.is_steep[owner]
-    major = course.start[owner] + step * k
-    before, _, _ = nearest_minor(
-        major - step, course.snapped[owner], course.run[owner], course.rise[owner], step, is_steep
-    )
-    column, row = np.where(is_steep, verdict.minor, major), np.where(is_steep, major, verdict.minor)
-    drawn = verdict.is_drawn
-    return LineRun(
-        owner[drawn],
-        index[drawn],
-        column[drawn],
-        row[drawn],
-        verdict.offset[drawn],
-        ((verdict.minor != before) & (index > 0))[drawn],
-        verdict.is_tie[drawn],
-        verdict.exit_start[drawn],
-        verdict.exit_end[drawn],
-    )
-
-
 def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """List the pixels of ``diamond-exit`` on one segment, exactly; pixel centres are whole numbers."""
     ends = (x0, y0, x1, y1)
@@ -233,3 +194,52 @@ def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel:
         if leaves or ends_here:
             pixels.append((y, x, float(height - y)) if is_steep else (x, y, float(height - y)))  #: draw
     return pixels
+
+
+@method(
+    "line",
+    "diamond-exit",
+    "Diamond exit (OpenGL)",
+    source="OpenGL 4.6, 14.5.1 Basic Line Segment Rasterization",
+    exact_for="any ends: OpenGL's rule for the line through the ends snapped to 1/256 pixel; both directions "
+    "take the same pixel at a tie",
+    breaks_where="ties follow the window's axes, so a mirrored line is not the mirror image; segments of "
+    "a few 1/256 pixel may be turned by the snapping and lost",
+    listing=diamond_exit_listing,
+    operations=line_rows("diamond-exit", (OCTANT, *_EXIT), _EXIT),
+)
+def diamond_exit(segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw the pixels whose diamond the segment leaves; ``decision`` is the line's height above the centre.
+
+    With ``last_pixel`` also the pixel whose diamond it ends in.
+    """
+    course = _course(segments)
+    slope = course.rise / course.run
+    distance = course.step * (course.start - course.snapped[:, 0] / SUBPIXELS)
+    v = course.snapped[:, 1] / SUBPIXELS + distance * slope
+    first, last = visible_range(segments, course.is_steep, course.start, course.step, v, slope, course.count)
+    owner, k = enumerate_steps(first, last)
+    verdict = _judge(course, owner, k, last_pixel)
+
+    # The line's first pixel is in its first column or in the next; pixels are counted from it.
+    everyone = np.arange(len(course.start))
+    begins_late = ~_judge(course, everyone, np.zeros_like(everyone), last_pixel).is_drawn
+    index = k - begins_late[owner]
+    step, is_steep = course.step[owner], course.is_steep[owner]
+    major = course.start[owner] + step * k
+    before, _, _ = nearest_minor(
+        major - step, course.snapped[owner], course.run[owner], course.rise[owner], step, is_steep
+    )
+    column, row = np.where(is_steep, verdict.minor, major), np.where(is_steep, major, verdict.minor)
+    drawn = verdict.is_drawn
+    return LineRun(
+        owner[drawn],
+        index[drawn],
+        column[drawn],
+        row[drawn],
+        verdict.offset[drawn],
+        ((verdict.minor != before) & (index > 0))[drawn],
+        verdict.is_tie[drawn],
+        verdict.exit_start[drawn],
+        verdict.exit_end[drawn],
+    )

@@ -7,40 +7,14 @@ project the centre onto the segment at a right angle, which gives other values o
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.methods import is_registered, table
-from core.raster.lines.bresenham import bresenham_float_listing, bresenham_lecture_listing, bresenham_listing
-from core.raster.lines.dda import dda_float32_listing, dda_listing, midpoint_listing
-from core.raster.lines.diamond_exit import diamond_exit_listing
-from core.raster.lines.records import BLENDING, LinePixels, LineRun, LineSteps, Segments, check_segments
-from core.raster.lines.rectangle import rectangle_listing
-from core.raster.lines.smooth import gupta_sproull_listing, wu_listing
-from core.raster.spans.lines import find_line_pixels
+from core.methods import ReplacedName, table
+from core.raster.lines.records import LinePixels, LineRun, LineSteps, Segments, check_segments
+from core.raster.lines.traits import line_traits
 from core.records.arrays import Floats, Integers, checked, read_only
-
-LISTINGS: dict[str, Callable[..., Any]] = {
-    "bresenham": bresenham_listing,
-    "bresenham-lecture": bresenham_lecture_listing,
-    "bresenham-float": bresenham_float_listing,
-    "midpoint": midpoint_listing,
-    "dda": dda_listing,
-    "diamond-exit": diamond_exit_listing,
-    "dda-float32": dda_float32_listing,
-    "rectangle": rectangle_listing,
-    "wu": wu_listing,
-    "gupta-sproull": gupta_sproull_listing,
-}
-"""The scalar listing of each method. Bresenham's take pixels, the others positions with centres on whole
-numbers. Each pixel is its column, row and decision, and of methods with intensities its intensity."""
-
-
-def has_intensities(line: str) -> bool:
-    """Tell whether a method of the family ``line`` gives its pixels shares of the line's colour."""
-    return BLENDING in table.get("line", line).needs
 
 
 def draw_lines(
@@ -96,11 +70,11 @@ def draw_lines(
     |##....|
     """
     checked_segments = check_segments(segments, width, height, pixel_center)
-    rule = table.get("line", line).function
-    if is_registered(line, "bresenham"):
-        # The same pixels in closed form, without the numbers: those are found when they are asked for.
+    rule, find_pixels = table.get("line", line).function, line_traits(line).find_pixels
+    if find_pixels is not None and not isinstance(line, ReplacedName):
+        # The numbers that chose the pixels are found when they are asked for.
         ends, bounds = checked_segments.pixel_indices.reshape(-1, 4), (0, 0, width, height)
-        column, row, owner = find_line_pixels(ends, bounds, last_pixel)
+        column, row, owner = find_pixels(ends, bounds, last_pixel)
         find_steps = partial(_run_steps, rule, checked_segments, last_pixel)
         intensities = None
     else:

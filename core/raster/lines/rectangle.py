@@ -25,7 +25,9 @@ import numpy as np
 
 from core.methods import method
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
+from core.raster.lines.traits import OCTANT, PLOT, LineTraits, line_rows
 from core.records.arrays import Flags, Floats, Integers
+from core.records.steps import Operation
 
 SUBPIXELS = 256
 """Steps of the lattice that the ends are snapped to, in one pixel."""
@@ -38,6 +40,12 @@ FIRST_COLUMNS = 4
 
 Listed = list[tuple[int, int, float]]
 """Column, row and distance across the line, from a listing."""
+
+_INSIDE = (
+    Operation("across", "inside", ("decision", "is_tie", "has_stepped")),
+    Operation("along", "along", ("along",)),
+    PLOT,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,6 +198,42 @@ def _judge(rectangles: _Rectangles, owner: Integers, k: Integers, last_pixel: bo
     return _Verdict(owner, k, column, row, is_inside, cross / pixel, dot / pixel, is_side)
 
 
+def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
+    """List the pixels of ``rectangle`` on one segment, exactly; pixel centres are whole numbers."""
+    a, b, c, d = (round(end * SUBPIXELS) for end in (x0, y0, x1, y1))  #: snap
+    dx, dy = c - a, d - b  #: directions
+    squared = dx * dx + dy * dy
+    if squared == 0:
+        dx = 1
+    half_squared = (SUBPIXELS // 2) ** 2 * (dx * dx + dy * dy)
+    half = isqrt(half_squared)  #: width
+    pixel = SUBPIXELS * sqrt(dx * dx + dy * dy)
+    is_below = dy < 0 or (dy == 0 and dx > 0)
+
+    is_steep = abs(dy) > abs(dx)  #: octant
+    low, high = (min(b, d), max(b, d)) if is_steep else (min(a, c), max(a, c))
+    columns = range(ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5) + 1)  #: columns
+    du, dv, u0, v0 = (dy, dx, b, a) if is_steep else (dx, dy, a, b)
+
+    pixels = []
+    for u in columns[::-1] if du < 0 else columns:
+        nearest = floor((v0 + (SUBPIXELS * u - u0) * dv / du) / SUBPIXELS + 0.5)
+        for v in (nearest - 1, nearest, nearest + 1):
+            column, row = (v, u) if is_steep else (u, v)
+            x, y = SUBPIXELS * column - a, SUBPIXELS * row - b
+            cross, dot = dx * y - dy * x, dx * x + dy * y  #: across
+            is_side = cross * cross == half_squared
+            beside = abs(cross) <= half and (not is_side or (cross < 0) == is_below)  #: inside
+            between = 0 <= dot < squared or (dot == squared and last_pixel)  #: along
+            if beside and between:
+                pixels.append((column, row, cross / pixel))  #: draw
+    return pixels
+
+
+def _ends_in_pixels(segments: Segments) -> Floats:
+    return snapped_ends(segments) / SUBPIXELS
+
+
 @method(
     "line",
     "rectangle",
@@ -199,6 +243,11 @@ def _judge(rectangles: _Rectangles, owner: Integers, k: Integers, last_pixel: bo
     "whose centre it contains",
     breaks_where="its thickness changes with the angle: sloping lines have two pixels in some columns; lines that meet "
     "at a corner leave a notch; many inside tests",
+    listing=rectangle_listing,
+    operations=line_rows(
+        "rectangle", (OCTANT, Operation("length", "width", ("run", "rise", "length")), *_INSIDE), _INSIDE
+    ),
+    traits=LineTraits(ends=_ends_in_pixels),
 )
 def rectangle(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw the pixels whose centre lies in the rectangle; ``decision`` is the centre's distance across the line.
@@ -245,35 +294,3 @@ def _first_drawn(rectangles: _Rectangles, last_pixel: bool) -> Integers:
     verdict = _judge(rectangles, owner, k, last_pixel)
     drawn = verdict.is_inside.reshape(count, FIRST_COLUMNS, CANDIDATES).any(axis=2)
     return np.asarray(drawn.argmax(axis=1))
-
-
-def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
-    """List the pixels of ``rectangle`` on one segment, exactly; pixel centres are whole numbers."""
-    a, b, c, d = (round(end * SUBPIXELS) for end in (x0, y0, x1, y1))  #: snap
-    dx, dy = c - a, d - b  #: directions
-    squared = dx * dx + dy * dy
-    if squared == 0:
-        dx = 1
-    half_squared = (SUBPIXELS // 2) ** 2 * (dx * dx + dy * dy)
-    half = isqrt(half_squared)  #: width
-    pixel = SUBPIXELS * sqrt(dx * dx + dy * dy)
-    is_below = dy < 0 or (dy == 0 and dx > 0)
-
-    is_steep = abs(dy) > abs(dx)  #: octant
-    low, high = (min(b, d), max(b, d)) if is_steep else (min(a, c), max(a, c))
-    columns = range(ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5) + 1)  #: columns
-    du, dv, u0, v0 = (dy, dx, b, a) if is_steep else (dx, dy, a, b)
-
-    pixels = []
-    for u in columns[::-1] if du < 0 else columns:
-        nearest = floor((v0 + (SUBPIXELS * u - u0) * dv / du) / SUBPIXELS + 0.5)
-        for v in (nearest - 1, nearest, nearest + 1):
-            column, row = (v, u) if is_steep else (u, v)
-            x, y = SUBPIXELS * column - a, SUBPIXELS * row - b
-            cross, dot = dx * y - dy * x, dx * x + dy * y  #: across
-            is_side = cross * cross == half_squared
-            beside = abs(cross) <= half and (not is_side or (cross < 0) == is_below)  #: inside
-            between = 0 <= dot < squared or (dot == squared and last_pixel)  #: along
-            if beside and between:
-                pixels.append((column, row, cross / pixel))  #: draw
-    return pixels

@@ -23,17 +23,30 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from core.methods import method
-from core.raster.lines.dda import line_coefficients, line_equation
+from core.raster.lines.dda import line_equation
 from core.raster.lines.records import (
     BLENDING,
     LineRun,
+    LineSteps,
     Segments,
     enumerate_steps,
     major_first,
     round_half_up,
     visible_range,
 )
+from core.raster.lines.traits import (
+    EVALUATE,
+    OCTANT,
+    PLOT,
+    SHARE,
+    SLOPE,
+    LineTraits,
+    line_coefficients,
+    line_cosine,
+    line_rows,
+)
 from core.records.arrays import Flags, Floats, Integers, read_only
+from core.records.steps import Operation
 
 TABLE_STEPS = 16
 """Entries of the filter table in one pixel of distance, as in the paper."""
@@ -42,6 +55,20 @@ FILTER_REACH = 1.5
 
 Listed = list[tuple[int, int, float, float]]
 """Column, row, minor coordinate of the line and intensity of each pixel, from a listing."""
+
+_DIVIDED = (
+    EVALUATE,
+    SHARE,
+    Operation("divide", "intensity", ("fraction", "intensity", "is_tie", "has_stepped")),
+    PLOT,
+)
+_FILTERED = (
+    EVALUATE,
+    SHARE,
+    Operation("distance", "distance", ("line_distance", "is_tie", "has_stepped")),
+    Operation("filter", "intensity", ("entry", "filtered", "intensity")),
+    PLOT,
+)
 
 
 def cone_intensity(distance: Floats) -> Floats:
@@ -182,85 +209,6 @@ def _run(
     )
 
 
-@method(
-    "line",
-    "wu",
-    "Xiaolin Wu, two intensities",
-    source="X. Wu, An efficient antialiasing technique, 1991; LMU, Computer Graphics 1, Task 1 h)",
-    exact_for="the sum: 1 in every column, and in part of a column as much as the segment spans of it; level, upright "
-    "and diagonal lines between pixel centres are crisp",
-    breaks_where="the sum is 1 at every angle, so diagonals, longer for each column, look paler and thinner; level "
-    "lines look sharp or blurred by where they lie between the pixels",
-    needs=(BLENDING,),
-)
-def wu(segments: Segments, last_pixel: bool) -> LineRun:
-    """Divide the line between the two pixels of a column; ``decision`` is its minor coordinate (centres whole).
-
-    ``last_pixel`` has no influence: see the notes on ends above.
-    """
-    del last_pixel
-    reach = _reach(segments)
-    passage = _pass_columns(reach, segments, 2)
-    below = np.floor(passage.v)
-    fraction = passage.v - below
-    part = np.where(passage.which == 0, 1 - fraction, fraction)
-    return _run(
-        reach,
-        passage,
-        below.astype(np.int64) + passage.which,
-        part * passage.share,
-        below != np.floor(passage.v_before),
-        fraction == 0.5,
-        n=2,
-    )
-
-
-@method(
-    "line",
-    "gupta-sproull",
-    "Gupta-Sproull, cone filter",
-    source="S. Gupta and R. F. Sproull, Filtering edges for gray-scale displays, 1981",
-    exact_for="the cone filter of a line one pixel wide, at distances that are whole sixteenths of a pixel; at every "
-    "angle equally bright within 3 %",
-    breaks_where="distances between are moved to the nearest sixteenth; sloping lines have a fourth pixel within reach "
-    "that is left out; ends are cut along the axis",
-    needs=(BLENDING,),
-)
-def gupta_sproull(segments: Segments, last_pixel: bool) -> LineRun:
-    """Look up the distances of the three nearest pixels of a column; ``decision`` is the line's minor coordinate.
-
-    ``last_pixel`` has no influence: see the notes on ends above.
-    """
-    del last_pixel
-    reach = _reach(segments)
-    passage = _pass_columns(reach, segments, 3)
-    nearest = round_half_up(passage.v)
-    # The nearest first, then the one above it and the one below.
-    minor = nearest + np.array([0, 1, -1])[passage.which]
-    cosine = line_cosine(reach.slope)[passage.owner]
-    distance = np.abs(minor - passage.v) * cosine
-    return _run(
-        reach,
-        passage,
-        minor,
-        FILTER_TABLE.take(filter_entry(distance)) * passage.share,
-        nearest != round_half_up(passage.v_before),
-        passage.v - np.floor(passage.v) == 0.5,
-        n=3,
-        distance=distance,
-    )
-
-
-def filter_entry(distance: Floats) -> Integers:
-    """Return (P,) int64, which entry of `FILTER_TABLE` is nearest to a distance (P,) in pixels."""
-    return np.floor(distance * TABLE_STEPS + 0.5).astype(np.int64)
-
-
-def line_cosine(slope: Floats) -> Floats:
-    """Return (L,) float64 by what a distance along the minor axis shrinks to that from the line."""
-    return np.asarray(1 / np.sqrt(1 + slope * slope))
-
-
 def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """List the pixels of ``wu`` on one segment; pixel centres are whole numbers."""
     del last_pixel
@@ -282,6 +230,41 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
             if intensity > 0:
                 pixels.append((row, x, y, intensity) if is_steep else (x, row, y, intensity))  #: draw
     return pixels
+
+
+@method(
+    "line",
+    "wu",
+    "Xiaolin Wu, two intensities",
+    source="X. Wu, An efficient antialiasing technique, 1991; LMU, Computer Graphics 1, Task 1 h)",
+    exact_for="the sum: 1 in every column, and in part of a column as much as the segment spans of it; level, upright "
+    "and diagonal lines between pixel centres are crisp",
+    breaks_where="the sum is 1 at every angle, so diagonals, longer for each column, look paler and thinner; level "
+    "lines look sharp or blurred by where they lie between the pixels",
+    needs=(BLENDING,),
+    listing=wu_listing,
+    operations=line_rows("wu", (OCTANT, SLOPE, *_DIVIDED), _DIVIDED),
+)
+def wu(segments: Segments, last_pixel: bool) -> LineRun:
+    """Divide the line between the two pixels of a column; ``decision`` is its minor coordinate (centres whole).
+
+    ``last_pixel`` has no influence: see the notes on ends above.
+    """
+    del last_pixel
+    reach = _reach(segments)
+    passage = _pass_columns(reach, segments, 2)
+    below = np.floor(passage.v)
+    fraction = passage.v - below
+    part = np.where(passage.which == 0, 1 - fraction, fraction)
+    return _run(
+        reach,
+        passage,
+        below.astype(np.int64) + passage.which,
+        part * passage.share,
+        below != np.floor(passage.v_before),
+        fraction == 0.5,
+        n=2,
+    )
 
 
 def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
@@ -308,3 +291,54 @@ def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel
             if intensity > 0:
                 pixels.append((row, x, y, intensity) if is_steep else (x, row, y, intensity))  #: draw
     return pixels
+
+
+def filter_entry(distance: Floats) -> Integers:
+    """Return (P,) int64, which entry of `FILTER_TABLE` is nearest to a distance (P,) in pixels."""
+    return np.floor(distance * TABLE_STEPS + 0.5).astype(np.int64)
+
+
+def _filter_columns(steps: LineSteps) -> dict[str, Floats | Integers]:
+    entry = filter_entry(steps.line_distance)
+    return {"entry": entry, "filtered": FILTER_TABLE.take(entry)}
+
+
+@method(
+    "line",
+    "gupta-sproull",
+    "Gupta-Sproull, cone filter",
+    source="S. Gupta and R. F. Sproull, Filtering edges for gray-scale displays, 1981",
+    exact_for="the cone filter of a line one pixel wide, at distances that are whole sixteenths of a pixel; at every "
+    "angle equally bright within 3 %",
+    breaks_where="distances between are moved to the nearest sixteenth; sloping lines have a fourth pixel within reach "
+    "that is left out; ends are cut along the axis",
+    needs=(BLENDING,),
+    listing=gupta_sproull_listing,
+    operations=line_rows(
+        "gupta-sproull", (OCTANT, SLOPE, Operation("cosine", "cosine", ("cosine",)), *_FILTERED), _FILTERED
+    ),
+    traits=LineTraits(columns=_filter_columns),
+)
+def gupta_sproull(segments: Segments, last_pixel: bool) -> LineRun:
+    """Look up the distances of the three nearest pixels of a column; ``decision`` is the line's minor coordinate.
+
+    ``last_pixel`` has no influence: see the notes on ends above.
+    """
+    del last_pixel
+    reach = _reach(segments)
+    passage = _pass_columns(reach, segments, 3)
+    nearest = round_half_up(passage.v)
+    # The nearest first, then the one above it and the one below.
+    minor = nearest + np.array([0, 1, -1])[passage.which]
+    cosine = line_cosine(reach.slope)[passage.owner]
+    distance = np.abs(minor - passage.v) * cosine
+    return _run(
+        reach,
+        passage,
+        minor,
+        FILTER_TABLE.take(filter_entry(distance)) * passage.share,
+        nearest != round_half_up(passage.v_before),
+        passage.v - np.floor(passage.v) == 0.5,
+        n=3,
+        distance=distance,
+    )

@@ -6,32 +6,19 @@ run as it is, but with names that mean counting loops, roots and tables. What ad
 
 from collections import Counter
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from math import isqrt, sqrt
 from types import FunctionType, SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from core.raster.lines.drawing import LISTINGS
+from core.methods import table
 from core.raster.lines.records import check_segments
-from core.raster.lines.smooth import FILTER_TABLE
+from core.raster.lines.traits import line_set_up, line_traits
 from core.records.arrays import Floats
 from core.settings import Settings
 from core.study.accuracy.counted_numbers import CountedNumber, plain
-from core.trace.lines import PIXEL_METHODS, line_set_up
-
-COUNTED = (
-    "bresenham",
-    "bresenham-lecture",
-    "bresenham-float",
-    "midpoint",
-    "dda",
-    "dda-float32",
-    "rectangle",
-    "wu",
-    "gupta-sproull",
-)
-"""Line methods whose listings are plain arithmetic; not ``diamond-exit``: a fraction costs what no number does."""
 
 
 class CountedRange:
@@ -58,7 +45,26 @@ class CountedTable:
         return CountedNumber(float(self._entries[plain(entry)]), self._tally)
 
 
-def counting_listing(listing: Callable[..., Any], tally: Counter[str]) -> Callable[..., Any]:
+def line_listing(line: str) -> FunctionType:
+    """Return the listing of a line method."""
+    listing = table.get("line", line).listing
+    assert isinstance(listing, FunctionType), f"{line} has no listing"
+    return listing
+
+
+def used_names(listing: FunctionType) -> dict[str, Any]:
+    """Return what the names mean that a listing takes from its module."""
+    return {
+        name: listing.__globals__[name] for name in listing.__code__.co_names if name in listing.__globals__
+    }
+
+
+def is_counted(line: str) -> bool:
+    """Tell whether the listing of a line method is plain arithmetic: a fraction costs what no number does."""
+    return not any(value is Fraction for value in used_names(line_listing(line)).values())
+
+
+def counting_listing(listing: FunctionType, tally: Counter[str]) -> Callable[..., Any]:
     """Return the same listing with loops, square roots and tables that make counted numbers."""
 
     def counted(name: str, rule: Callable[[Any], Any]) -> Callable[[Any], CountedNumber]:
@@ -76,10 +82,13 @@ def counting_listing(listing: Callable[..., Any], tally: Counter[str]) -> Callab
         "sqrt": counted("float square roots", sqrt),
         "isqrt": counted("integer square roots", isqrt),
         "np": SimpleNamespace(float32=counted("roundings to float32", np.float32)),
-        "FILTER_TABLE": CountedTable(FILTER_TABLE, tally),
     }
-    assert isinstance(listing, FunctionType)
-    return FunctionType(listing.__code__, {**listing.__globals__, **names})
+    tables = {
+        name: CountedTable(value, tally)
+        for name, value in used_names(listing).items()
+        if isinstance(value, np.ndarray)
+    }
+    return FunctionType(listing.__code__, {**listing.__globals__, **names, **tables})
 
 
 def count_line_operations(segments: Floats, size: tuple[int, int], settings: Settings) -> dict[str, int]:
@@ -91,11 +100,13 @@ def count_line_operations(segments: Floats, size: tuple[int, int], settings: Set
         Window x and y in pixels.
     size : (width, height)
     settings : Settings
-        Their ``line`` is one of `COUNTED`.
+        Their ``line`` `is_counted`.
     """
     tally: Counter[str] = Counter()
     for ends in listing_ends(segments, size, settings):
-        counting_listing(LISTINGS[settings.line], tally)(*(CountedNumber(end, tally) for end in ends), False)
+        counting_listing(line_listing(settings.line), tally)(
+            *(CountedNumber(end, tally) for end in ends), False
+        )
     return dict(sorted(tally.items()))
 
 
@@ -107,4 +118,5 @@ def listing_ends(
     set_up = line_set_up(checked, settings.line)
     ends = np.column_stack([set_up["first_end"], set_up["second_end"]])
     listed: list[list[int] | list[float]] = ends.tolist()
-    return [[int(end) for end in each] for each in listed] if settings.line in PIXEL_METHODS else listed
+    takes_pixels = line_traits(settings.line).takes_pixels
+    return [[int(end) for end in each] for each in listed] if takes_pixels else listed

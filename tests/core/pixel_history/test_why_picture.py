@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from core import ClipScene, Scene, Settings, render, trace
 from core.methods import table
 from core.pixel_history import PixelHistory, why
-from core.raster.lines.drawing import has_intensities
+from core.raster.lines.traits import has_intensities
 from core.settings import families
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene

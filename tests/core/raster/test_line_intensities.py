@@ -9,8 +9,9 @@ from core.framebuffer.display import to_display
 from core.framebuffer.packed_keys import rounded_depth_test
 from core.methods import table
 from core.pixel_history import why
-from core.raster.lines.drawing import draw_lines, has_intensities
+from core.raster.lines.drawing import draw_lines
 from core.raster.lines.intensities import WRITTEN_INTENSITY, run_rightwards
+from core.raster.lines.traits import has_intensities
 from core.stages.blend_choice import blend_choice
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene

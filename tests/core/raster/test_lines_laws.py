@@ -7,7 +7,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from core.raster.lines.drawing import LISTINGS, draw_lines, has_intensities
+from core.methods import table
+from core.raster.lines.drawing import draw_lines
+from core.raster.lines.traits import has_intensities
 from core.records.listing import listing
 
 ON_PIXELS = ["bresenham", "bresenham-lecture", "bresenham-float"]
@@ -61,7 +63,7 @@ def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
     for segment, (x0, y0, x1, y1) in enumerate((segments + SHIFT).reshape(-1, 4).tolist()):
         if line in ON_PIXELS:
             x0, y0, x1, y1 = (int(np.floor(end)) + (end - np.floor(end) >= 0.5) for end in (x0, y0, x1, y1))
-        listed = LISTINGS[line](x0, y0, x1, y1, last_pixel)
+        listed = table.get("line", line).listing(x0, y0, x1, y1, last_pixel)
         mine = drawn.owner == segment
         assert [pixel[:2] for pixel in listed] == list(map(tuple, drawn.pixels[mine].tolist()))
         np.testing.assert_array_equal([pixel[2] for pixel in listed], drawn.steps.decision[mine])
@@ -73,7 +75,7 @@ def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
 
 @pytest.mark.parametrize("line", METHODS + SEVERAL)
 def test_every_listing_names_the_line_that_draws(line):
-    assert {"octant", "draw"} <= listing(LISTINGS[line]).lines.keys()
+    assert {"octant", "draw"} <= listing(table.get("line", line).listing).lines.keys()
 
 
 @pytest.mark.parametrize("line", METHODS + SEVERAL)

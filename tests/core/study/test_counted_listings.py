@@ -5,21 +5,22 @@ from collections import Counter
 import pytest
 
 from core.methods import table
-from core.raster.lines.drawing import LISTINGS
+from core.raster.lines.traits import line_traits
 from core.settings import Settings
 from core.study.accuracy.counted_listings import (
-    COUNTED,
     count_line_operations,
     counting_listing,
+    is_counted,
+    line_listing,
     listing_ends,
 )
 from core.study.accuracy.counted_numbers import CountedNumber, plain
 from core.study.accuracy.workloads import random_lines
-from core.trace.lines import PIXEL_METHODS
 
 SIZE = (64, 64)
 SEGMENTS = random_lines(SIZE, 12, 24.0, 3, False)
-FLOATING = [name for name in COUNTED if name not in PIXEL_METHODS]
+COUNTED = [name for name in table.names("line") if is_counted(name)]
+FLOATING = [name for name in COUNTED if not line_traits(name).takes_pixels]
 
 
 def level_line(line: str, length: int) -> dict[str, int]:
@@ -34,7 +35,7 @@ def test_every_line_method_is_counted_but_the_one_with_fractions() -> None:
 
 @pytest.mark.parametrize("line", COUNTED)
 def test_counting_changes_no_pixel(line: str) -> None:
-    listing, tally = LISTINGS[line], Counter[str]()
+    listing, tally = line_listing(line), Counter[str]()
     for ends in listing_ends(SEGMENTS, SIZE, Settings(line=line)):
         found = counting_listing(listing, tally)(*(CountedNumber(end, tally) for end in ends), False)
         assert repr([tuple(map(plain, row)) for row in found]) == repr(listing(*ends, False))

@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
 from core.methods import table
-from core.raster.lines.drawing import LISTINGS as LINE_LISTINGS
+from core.raster.lines.traits import line_traits
 from core.records.steps import Level
 from core.trace import StageTrace
 from core.trace.line_clipping import CLIP_OPERATIONS, LISTINGS
-from core.trace.lines import PIXEL_METHODS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.test_line_trace import check_fold, check_values
 from tests.core.trace.trace_cases import SCENES, settings_of, small_region
@@ -113,8 +112,8 @@ def check_pixels(found: StageTrace, own: np.ndarray, lines, segment: int, source
     if not len(pixels):
         return
     ends = [*c["first_end"][pixels[0]], *c["second_end"][pixels[0]]]
-    ends = [int(end) for end in ends] if line in PIXEL_METHODS else ends
-    chosen = LINE_LISTINGS[line](*ends, bool(lines.cut_by[segment, 1] >= 0))
+    ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
+    chosen = table.get("line", line).listing(*ends, bool(lines.cut_by[segment, 1] >= 0))
     left, bottom, right, top = source.raster.bounds
     inside = [(x, y) for x, y, _ in chosen if left <= x < right and bottom <= y < top]
     assert inside == list(zip(c["column"][pixels], c["row"][pixels], strict=True))

@@ -10,13 +10,11 @@ from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.methods import table
-from core.raster.lines.drawing import LISTINGS, has_intensities
 from core.raster.lines.smooth import FILTER_TABLE
+from core.raster.lines.traits import has_intensities, line_traits
 from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.records.steps import Level
 from core.trace import StageTrace
-from core.trace.lines import PIXEL_METHODS
-from core.trace.raster_rows import LINE_OPERATIONS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.trace_cases import SCENES, settings_of, small_region
 
@@ -80,10 +78,10 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
     for segment in np.unique(c["segment"]).tolist():
         rows = np.flatnonzero(c["segment"] == segment)
         ends = [*c["first_end"][rows[0]], *c["second_end"][rows[0]]]
-        ends = [int(end) for end in ends] if line in PIXEL_METHODS else ends
+        ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
         if max(np.abs(ends)) > 2000:
             continue
-        listed = LISTINGS[line](*ends, False)
+        listed = table.get("line", line).listing(*ends, False)
         inside = [left <= x < right and bottom <= y < top for x, y, *_ in listed]
         index = np.flatnonzero(inside)
         listed = [listed[k] for k in index]
@@ -253,9 +251,10 @@ def test_every_step_names_a_line_of_the_listing_and_numbers_that_there_are(line)
         numbers = [np.asarray(explanation.values[name], float) for name in explanation.changed]
         assert all(np.isfinite(number).all() for number in numbers), explanation.key
         seen.add(explanation.key)
-    first, others = LINE_OPERATIONS[line]
-    wanted = {f"raster.{line}-start.{operation.name}" for operation in first}
-    assert seen == wanted | {f"raster.{line}.{operation.name}" for operation in others}
+    operations = table.get("line", line).operations
+    assert seen == {
+        f"raster.{kind}.{operation.name}" for kind in operations for operation in operations[kind]
+    }
 
 
 @pytest.mark.parametrize("choice", CHOICES, ids=str)

@@ -1,0 +1,111 @@
+"""What a line method has beside its rule: how its trace is set up, what its rows do, how it is found faster."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.methods import table
+from core.raster.lines.records import BLENDING, LineSteps, Segments, major_first
+from core.records.arrays import Floats, Integers
+from core.records.steps import Operation
+
+OCTANT = Operation("octant", "octant", ("first_end", "second_end", "is_steep"))
+SLOPE = Operation("slope", "slope", ("slope", "intercept"))
+EVALUATE = Operation("evaluate", "evaluate", ("decision",))
+ROUND = Operation("round", "round", ("is_tie", "has_stepped"))
+SHARE = Operation("share", "share", ("share",))
+PLOT = Operation("plot", "draw", ("covered", "t"))
+
+Coefficients = tuple[Floats, Floats]
+"""Slope m and intercept b (L,) of v = m u + b, NaN where a method has none."""
+LineFinder = Callable[[Integers, tuple[int, int, int, int], bool], tuple[Integers, Integers, Integers]]
+"""From pixels of the ends (L, 4), bounds and ``last_pixel`` to columns, rows and segments (P,)."""
+
+
+def line_coefficients(ends: Floats) -> Coefficients:
+    """Return m and b (L,) of v = m u + b through the ends (L, 2, 2) u, v; m is 0 where they coincide."""
+    u, v, u_end, v_end = ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1]
+    du = u_end - u
+    slope = (v_end - v) / np.where(du == 0, 1.0, du)
+    return slope, v - slope * u
+
+
+def line_cosine(slope: Floats) -> Floats:
+    """Return (L,) float64 by what a distance along the minor axis shrinks to that from the line."""
+    return np.asarray(1 / np.sqrt(1 + slope * slope))
+
+
+def _centered_ends(segments: Segments) -> Floats:
+    return segments.centered_ends
+
+
+def _no_columns(_: LineSteps) -> dict[str, Floats | Integers]:
+    return {}
+
+
+@dataclass(frozen=True, eq=False)
+class LineTraits:
+    """How a line method differs from evaluating the line's equation between any two ends."""
+
+    takes_pixels: bool = False
+    """Whether it moves the ends to pixels first."""
+    ends: Callable[[Segments], Floats] = _centered_ends
+    """Ends (L, 2, 2) that the others take, with pixel centres on whole numbers."""
+    is_diagonal_steep: bool = False
+    """Whether a segment that is as long in x as in y runs along y."""
+    coefficients: Callable[[Floats], Coefficients] = line_coefficients
+    """Slope and intercept that it uses, of ends (L, 2, 2), the major axis first."""
+    columns: Callable[[LineSteps], dict[str, Floats | Integers]] = _no_columns
+    """Further columns (P,) of its trace."""
+    find_pixels: LineFinder | None = None
+    """Finds the same pixels faster, without the numbers that chose them."""
+
+
+def line_rows(
+    line: str, first: tuple[Operation, ...], later: tuple[Operation, ...]
+) -> Mapping[str, tuple[Operation, ...]]:
+    """Return the two kinds of rows of a line method: ``<line>-start`` for a line's first pixel, ``<line>``."""
+    return {f"{line}-start": first, line: later}
+
+
+def line_traits(line: str) -> LineTraits:
+    """Return how a method of the family ``line`` differs."""
+    traits = table.get("line", line).traits
+    return traits if isinstance(traits, LineTraits) else LineTraits()
+
+
+def has_intensities(line: str) -> bool:
+    """Tell whether a method of the family ``line`` gives its pixels shares of the line's colour."""
+    return BLENDING in table.get("line", line).needs
+
+
+def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
+    """Return what a line method works out once for each of L segments.
+
+    Returns
+    -------
+    dict
+        ``first_end``, ``second_end`` (L, 2): what the listing is called with; pixels, or positions where centres
+        are whole. ``is_steep`` (L,): the longer axis is y. ``run``, ``rise`` (L,): lengths along the longer
+        (major) and the other (minor) axis. ``slope``, ``intercept`` (L,): the minor coordinate is slope times the major
+        one plus intercept, NaN where the method has none. ``cosine`` (L,): by what a distance along the minor axis
+        shrinks to that from the line. ``length`` (L,): of the segment, in pixels.
+    """
+    traits = line_traits(line)
+    ends = segments.pixel_indices.astype(float) if traits.takes_pixels else traits.ends(segments)
+    size = np.abs(ends[:, 1] - ends[:, 0])
+    is_steep = size[:, 1] >= size[:, 0] if traits.is_diagonal_steep else size[:, 1] > size[:, 0]
+    run, rise = np.where(is_steep[:, None], size[:, ::-1], size).T
+    slope, intercept = traits.coefficients(major_first(ends, is_steep))
+    return {
+        "first_end": ends[:, 0],
+        "second_end": ends[:, 1],
+        "is_steep": is_steep,
+        "run": run,
+        "rise": rise,
+        "slope": slope,
+        "intercept": intercept,
+        "cosine": line_cosine(slope),
+        "length": np.hypot(run, rise),
+    }
