@@ -1,20 +1,69 @@
-"""What every test stands on: Qt without a display, reproducible hypothesis runs, and an orderly end."""
+"""What every test stands on: Qt without a display, one font, reproducible examples, and an orderly end."""
 
+import importlib.util
 import os
+import random
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
 ROOT = Path(__file__).resolve().parent.parent
+FONTS_CONF = """<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "fonts.dtd">
+<fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
+"""
 
 # Windows that nobody watches; QT_QPA_PLATFORM=xcb (or wayland, cocoa, windows) shows them.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-settings.register_profile("local", deadline=None)
-settings.register_profile("ci", deadline=None, derandomize=True, database=None, print_blob=True)
-settings.load_profile("ci" if os.environ.get("CI") else "local")
+if "PYTEST_XDIST_WORKER" not in os.environ:  # a worker has it from the process that starts it
+    # The only font of the tests, and of the programs that they start, is the one that ziafont brings along.
+    font_folder = tempfile.TemporaryDirectory(prefix="rasterscope-fonts-")
+    ziafont = importlib.util.find_spec("ziafont")
+    assert ziafont is not None
+    assert ziafont.origin is not None
+    fonts_conf = Path(font_folder.name, "fonts.conf")
+    fonts_conf.write_text(
+        FONTS_CONF.format(fonts=Path(ziafont.origin).with_name("fonts"), cache=font_folder.name)
+    )
+    os.environ["FONTCONFIG_FILE"] = str(fonts_conf)
+
+# Every day the same few examples; with --all many, from a seed that is printed. None is remembered: a
+# counterexample is pinned by name in its test.
+settings.register_profile("everyday", max_examples=25, derandomize=True, deadline=None, database=None)
+settings.register_profile("all", max_examples=300, deadline=None, database=None, print_blob=True)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add --all."""
+    parser.addoption(
+        "--all", action="store_true", help="every combination, slow tests too, and many random examples"
+    )
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Choose how many examples are drawn, before a test file is imported that asks."""
+    settings.load_profile("all" if config.getoption("--all") else "everyday")
+    if config.getoption("--all") and config.getoption("--hypothesis-seed") is None:
+        config.option.hypothesis_seed = str(random.SystemRandom().getrandbits(32))
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave slow tests to --all."""
+    if not config.getoption("--all"):
+        slow = [item for item in items if item.get_closest_marker("slow")]
+        config.hook.pytest_deselected(items=slow)
+        items[:] = [item for item in items if not item.get_closest_marker("slow")]
+
+
+def pytest_terminal_summary(config: pytest.Config) -> None:
+    """Say how random examples can be drawn again."""
+    if config.getoption("--all"):
+        seed = config.getoption("--hypothesis-seed")
+        print(f"\nDraw these random examples again with: --all --hypothesis-seed={seed}")
 
 
 @pytest.fixture(scope="session")

@@ -385,7 +385,7 @@ def test_no_beginning_of_a_file_loads_as_less(tmp_path, name):
 
 @pytest.mark.parametrize("name", SAMPLES)
 @given(data=st.data())
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_a_damaged_file_loads_or_is_refused(tmp_path, name, data):
     content = bytearray(SAMPLES[name])
     for _ in range(data.draw(st.integers(1, 4))):

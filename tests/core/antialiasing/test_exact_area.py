@@ -6,7 +6,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
@@ -40,7 +39,6 @@ def exact_area(corners, column: int, row: int) -> Fraction:
     return area(polygon) / 65536
 
 
-@effort(max_examples=150)
 @given(CORNERS)
 def test_one_triangle_covers_its_exact_area(corners):
     color = render(ClipScene([triangle(corners)], size=SIZE), Settings(antialiasing="area")).color
@@ -50,7 +48,6 @@ def test_one_triangle_covers_its_exact_area(corners):
             assert abs(color[row, column, 3] - wanted) <= 1e-7
 
 
-@effort(max_examples=60)
 @given(CORNERS, CORNERS, st.booleans())
 def test_what_a_nearer_triangle_leaves(near, far, near_first):
     """Two layers: the nearer has its area, the farther its own less the overlap, in either order."""

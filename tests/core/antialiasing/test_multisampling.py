@@ -6,11 +6,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 
 from core import ClipScene, Settings, render
 from core.framebuffer.sample_positions import ROTATED_GRID
 from core.methods import table
+from tests.core.covering import in_turn
 from tests.core.exact_reference import edge_signs, facing
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
@@ -27,7 +27,6 @@ def exact_sample(lines, x: Fraction, y: Fraction) -> bool:
     return True
 
 
-@effort(max_examples=40)
 @given(ANY_TRIANGLES)
 def test_coverage_of_every_sample_is_the_rational_one(drawn):
     clip, (width, height) = drawn
@@ -58,8 +57,9 @@ def test_every_fill_draws_the_same_samples(name, fill):
         assert np.array_equal(getattr(frame.samples, buffer), getattr(usual.samples, buffer))
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "orthographic"])
+@pytest.mark.parametrize(
+    ("name", "choice"), in_turn(["clip", "lit", "orthographic"], [*CHOICES, *MIXES]), ids=name_of
+)
 def test_a_pixel_that_one_triangle_fills_looks_as_without(name, choice):
     scene = SCENES[name]
     settings = settings_of(choice | {"antialiasing": "msaa-4"}, scene)

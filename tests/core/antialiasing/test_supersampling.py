@@ -11,13 +11,17 @@ from core.framebuffer.display import to_display
 from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
+from tests.core.covering import in_turn
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
 
 SIDES = {"ssaa-4": 2, "ssaa-16": 4, "ssaa-n": 3}
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "orthographic"])
+@pytest.mark.parametrize(
+    ("name", "choice"),
+    in_turn(["clip", "lit", "textured-clip", "orthographic"], [*CHOICES, *MIXES]),
+    ids=name_of,
+)
 def test_samples_are_the_pixels_of_the_larger_picture(name, choice):
     scene = SCENES[name]
     settings = settings_of(choice | {"antialiasing": "ssaa-4"}, scene)

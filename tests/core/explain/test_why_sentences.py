@@ -5,7 +5,6 @@ import re
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings
@@ -148,7 +147,6 @@ def check_texts(texts: list[str]) -> None:
 ANY_SETTINGS = st.builds(Settings, **{family: st.sampled_from(table.names(family)) for family in families()})
 
 
-@effort(max_examples=100)
 @given(ANY_TRIANGLES, ANY_SETTINGS, st.data())
 def test_every_history_can_be_told(case, settings, data):
     clip, size = case

@@ -1,7 +1,7 @@
 """Memory that is used again does not show: not in the next picture, and not in one that was returned before."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Settings, draw_picture
@@ -20,7 +20,6 @@ PICTURES = st.tuples(
 )
 
 
-@settings(max_examples=20)
 @given(st.lists(PICTURES, min_size=2, max_size=4))
 def test_pictures_in_turn_are_those_of_fresh_memory(wanted) -> None:
     shared, returned = ScratchBuffers(), []

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, Texture, draw_picture
@@ -21,7 +21,6 @@ def by_spans(chosen: Settings) -> Settings:
     return Settings(**{**vars(chosen), "fill": "spans"})
 
 
-@settings(max_examples=40)
 @given(
     SEEDS,
     st.sampled_from([0, 1, 3, 60]),
@@ -65,7 +64,6 @@ def test_regions_without_pixels(region: tuple[int, int, int, int], blend: str) -
     assert picture.pixels.size == 0
 
 
-@settings(max_examples=40)
 @given(
     SEEDS,
     st.sampled_from([1, 2, 12]),

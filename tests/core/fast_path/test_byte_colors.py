@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Material, Picture, Settings, draw_picture, render
@@ -41,7 +41,6 @@ def linear_of_bytes(levels: np.ndarray, encoding: str) -> np.ndarray:
     return np.concatenate([encoded, np.ones((*levels.shape[:-1], 1))], axis=-1)
 
 
-@settings(max_examples=40)
 @given(
     SEEDS,
     st.sampled_from([(1, 1), (61, 97), (200, 150), (600, 40)]),
@@ -87,7 +86,6 @@ def test_long_ramps_from_black_and_from_white(shift: int, turned: bool, extent: 
         assert_within_a_byte(scene, Settings(), "linear")
 
 
-@settings(max_examples=40)
 @given(SEEDS, st.sampled_from([3, 40, 255]), ENCODINGS)
 def test_thin_triangles_have_colours_between_those_of_their_corners(
     seed: int, spread: int, encoding: str
@@ -113,7 +111,6 @@ def test_any_ratio_of_w_is_drawn(w: float) -> None:
         assert_within_a_byte(scene, Settings(), encoding)
 
 
-@settings(max_examples=40)
 @given(SEEDS, st.sampled_from([0.01, 0.1, 2.0]), ENCODINGS)
 def test_light_brighter_than_1_is_cut_off_after_interpolation(
     seed: int, beyond: float, encoding: str
@@ -150,7 +147,6 @@ def shares(count: int) -> np.ndarray:
     return np.stack([first, second, 1 - first - second], axis=1)
 
 
-@settings(max_examples=60)
 @given(SEEDS, st.floats(1, 1e6))
 def test_perspective_error_is_never_below_the_true_one(seed: int, ratio: float) -> None:
     generator = np.random.default_rng(seed)
@@ -165,7 +161,6 @@ def test_perspective_error_is_never_below_the_true_one(seed: int, ratio: float) 
     assert np.abs(exact - over_window @ values).max() <= bound[0] + 1e-9
 
 
-@settings(max_examples=60)
 @given(SEEDS, st.sampled_from([0.01, 0.2, 1.0]), ENCODINGS)
 def test_product_error_is_never_below_the_true_one(seed: int, spread: float, encoding: str) -> None:
     generator = np.random.default_rng(seed)

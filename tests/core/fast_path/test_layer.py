@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Settings, draw_picture, render
@@ -68,7 +68,6 @@ def test_what_is_as_far_as_the_cleared_buffer_is_not_drawn(depth: str, visibilit
         picture_of(clip, depth=depth, visibility=visibility)
 
 
-@settings(max_examples=60)
 @given(
     SEEDS, st.sampled_from([1, 4, 16]), st.booleans(), st.floats(0, 6), st.sampled_from(table.names("depth"))
 )
@@ -83,7 +82,6 @@ def test_thin_triangles_near_the_far_plane(
     assert_same(clip_of_window(corners, SIZE, 1.0, z), SIZE, Settings(depth=depth))
 
 
-@settings(max_examples=30)
 @given(SEEDS, st.integers(1, 16))
 def test_few_triangles_anywhere(seed: int, count: int) -> None:
     generator = np.random.default_rng(seed)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
@@ -112,7 +112,6 @@ def test_every_mesh_is_lit_as_in_the_buffers(name: str, cull: str, encoding: str
     assert_close(scene_of(MESHES[name]), encoding, replace(PHONG, cull=cull))
 
 
-@settings(max_examples=15)
 @given(st.sampled_from(list(MESHES)), st.floats(-3, 3), st.floats(-0.5, 3), st.floats(2.2, 6))
 def test_any_view(name: str, x: float, y: float, z: float) -> None:
     assert_close(scene_of(MESHES[name], camera=Camera(np.array([x, y, z]), np.zeros(3))), "srgb")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, draw_picture
@@ -49,7 +49,6 @@ def test_any_number_of_lights_white_or_coloured(lights, specular: float) -> None
     assert_close(scene_of(mesh, lights=lights), "srgb")
 
 
-@settings(max_examples=15)
 @given(
     st.floats(-3, 3),
     st.floats(-3, 3),
@@ -76,7 +75,6 @@ def test_highlights_that_end_abruptly(grazing: float, shininess: float) -> None:
     assert_close(scene_of(mesh, Camera(np.array([0.2, 0.1, 6.0]), np.zeros(3)), lights), "srgb")
 
 
-@settings(max_examples=15)
 @given(st.integers(0, 999), st.sampled_from([1.0, 5.0, 32.0, 200.0]), st.sampled_from(["srgb", "linear"]))
 def test_light_that_comes_from_beyond(seed: int, shininess: float, encoding: str) -> None:
     generator = np.random.default_rng(seed)

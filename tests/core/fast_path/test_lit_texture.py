@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
@@ -76,7 +76,6 @@ def test_one_colour_times_the_texture(color, channels: int, lights) -> None:
     assert_close(scene_of(replace(mesh, colors=colors), noise(channels=channels), lights=lights))
 
 
-@settings(max_examples=25)
 @given(
     st.floats(-3, 3),
     st.floats(-3, 3),

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_picture, render
@@ -14,6 +13,7 @@ from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
 from core.raster.number_formats.number_format import number_format
 from lessons.scenes import make_scene
+from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
 
@@ -28,8 +28,11 @@ def is_like_the_plain_one(scene, settings, encoding="srgb") -> bool:
 
 
 @pytest.mark.parametrize("resolve_filter", ["box", "tent"])
-@pytest.mark.parametrize("choice", SAMPLED, ids=name_of)
-@pytest.mark.parametrize("name", ["lit", "clip", "orthographic", "textured-clip", "intersecting"])
+@pytest.mark.parametrize(
+    ("name", "choice"),
+    in_turn(["lit", "clip", "orthographic", "textured-clip", "intersecting"], SAMPLED),
+    ids=name_of,
+)
 def test_every_choice_has_the_bytes_of_the_plain_way(name, choice, resolve_filter):
     scene = SCENES[name]
     settings = settings_of(choice | {"antialiasing": "msaa-4", "resolve_filter": resolve_filter}, scene)
@@ -53,7 +56,6 @@ def test_meshes_have_the_bytes_of_the_plain_way(name, shading, encoding):
     assert is_like_the_plain_one(scene, Settings(antialiasing="msaa-4", shading=shading), encoding)
 
 
-@effort(max_examples=80)
 @given(
     ANY_TRIANGLES,
     st.sampled_from(table.names("depth")),

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from core import Settings
@@ -27,7 +27,6 @@ def in_view(generator: np.random.Generator, count: int, size: tuple[int, int]) -
     return clip_of_window(corners, size, generator.choice([0.5, 1.0, 3.0], (count, 3)), z)
 
 
-@settings(max_examples=80)
 @example(901, (3, 257), 40, True, "z-float32", "ray-casting", "none", "homogeneous", "shared-edge", "half")
 @given(
     SEEDS,
@@ -65,7 +64,6 @@ def test_picture_shows_what_the_buffers_hold(
     assert_same(clip, size, chosen)
 
 
-@settings(max_examples=30)
 @given(
     SEEDS,
     st.tuples(st.integers(0, 99), st.integers(0, 62)),
@@ -81,7 +79,6 @@ def test_a_region_is_cut_out_of_the_whole_picture(
     assert_same(clip, (100, 63), Settings(depth=depth, visibility=visibility), (*corner, *extent))
 
 
-@settings(max_examples=10)
 @given(SEEDS, DEPTHS)
 def test_the_order_of_triangles_changes_nothing_where_no_depths_tie(seed: int, depth: str) -> None:
     generator, size, count = np.random.default_rng(seed), (90, 70), 300
@@ -139,7 +136,6 @@ def test_triangles_just_below_and_above_the_area_of_bands(depth: str, area: floa
     assert_same(clip[:1], size, chosen)
 
 
-@settings(max_examples=12)
 @given(SEEDS, DEPTHS, st.booleans())
 def test_large_ragged_triangles(seed: int, depth: str, has_region: bool) -> None:
     # Larger than the area of bands and often less than a pixel wide: rows without pixels in between.

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Mesh, Picture, Settings, draw_picture, render
@@ -49,7 +49,6 @@ def assert_each_as_it_allows(
     return picture
 
 
-@settings(max_examples=40)
 @given(
     st.integers(0, 2**32 - 1),
     st.sampled_from([(61, 97), (200, 150)]),

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, render
@@ -22,7 +22,6 @@ def with_fill(clip, size: tuple[int, int], fill: str, depth: str = "fixed-38") -
     return render(ClipScene(clip, size=size), Settings(depth=depth, fill=fill))
 
 
-@settings(max_examples=12)
 @given(SEEDS, st.sampled_from([(8, 6), (61, 97), (3, 257)]))
 def test_every_fill_stores_the_same(seed: int, size: tuple[int, int]) -> None:
     clip = mixed(np.random.default_rng(seed), 24, size)
@@ -76,7 +75,6 @@ def assert_within_the_bound(corners: np.ndarray, depth: np.ndarray, size: tuple[
     return int(planes.is_linear.sum())
 
 
-@settings(max_examples=20)
 @given(SEEDS, st.sampled_from(list(PROJECTED)), st.booleans())
 def test_error_stays_within_the_bound(seed: int, family: str, is_level: bool) -> None:
     generator, size = np.random.default_rng(seed), (700, 500)
@@ -115,7 +113,6 @@ def test_level_depths_are_rounded_once(level: float) -> None:
     assert (depth == np.rint(level * SCALE)).all()
 
 
-@settings(max_examples=10)
 @given(SEEDS)
 def test_order_of_a_closed_mesh_changes_nothing_but_at_ties(seed: int) -> None:
     generator, size = np.random.default_rng(seed), (80, 64)

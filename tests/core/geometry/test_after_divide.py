@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_triangles, render, trace
@@ -37,7 +36,6 @@ def clipped(clip, values=None, planes=ALL_PLANES):
     return clip_divided(primitives, plane_distances(clip), planes)
 
 
-@effort(max_examples=60)
 @given(perspective_triangles(2), st.sampled_from(DIVIDING))
 def test_in_front_of_the_eye_it_draws_what_the_others_draw(case, clipping) -> None:
     clip, size = case
@@ -94,7 +92,6 @@ def test_a_w_that_cannot_be_divided_by_leaves_the_triangle_out(clipping: str, w:
     assert [found.kind_of(row) for row in range(found.steps.row_count)] == ["undefined"] * 3
 
 
-@effort(max_examples=80)
 @given(ANY_TRIANGLES, st.sampled_from(DIVIDING), st.sampled_from(["fill", "wireframe"]))
 def test_any_signs_of_w_never_crash(case, clipping, mode) -> None:
     clip, size = case

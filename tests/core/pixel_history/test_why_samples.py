@@ -6,6 +6,7 @@ import pytest
 from core import Settings, render
 from core.pixel_history import why
 from core.trace.source import TraceSource
+from tests.core.covering import in_turn
 from tests.core.trace.trace_cases import SCENES, name_of
 
 CHOICES = [
@@ -19,8 +20,9 @@ CHOICES = [
 ]
 
 
-@pytest.mark.parametrize("choice", CHOICES, ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "intersecting"])
+@pytest.mark.parametrize(
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip", "intersecting"], CHOICES), ids=name_of
+)
 def test_the_history_of_a_sample_ends_in_the_picture(name, choice):
     scene, settings = SCENES[name], Settings(**choice)
     samples, source = render(scene, settings).samples, TraceSource(scene, settings)

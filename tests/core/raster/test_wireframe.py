@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, draw_triangles, render
@@ -318,7 +317,6 @@ def test_degenerate_triangles_and_points_draw_nothing_and_do_no_harm(line):
     assert outlined([touches_eye], line=line).primitive.max() <= 0
 
 
-@effort(max_examples=150)
 @given(ANY_TRIANGLES, st.sampled_from(LINES), st.sampled_from([1.0, 1e4, 1e9, 1e30]), st.booleans())
 def test_any_triangles_have_outlines_with_values_of_their_corners(case, line, scale, is_affine):
     clip, size = case

@@ -6,7 +6,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
@@ -17,7 +16,7 @@ from core.trace import StageTrace
 from core.trace.line_clipping import CLIP_OPERATIONS, LISTINGS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.test_line_trace import check_fold, check_values
-from tests.core.trace.trace_cases import SCENES, settings_of, small_region
+from tests.core.trace.trace_cases import SCENES, small_region
 
 CLIPPERS = table.names("line_clipping")[1:]
 SIZE = (12, 9)
@@ -33,17 +32,6 @@ def is_clip_row(found: StageTrace) -> np.ndarray:
     return np.isin(np.array(found.steps.kinds)[found.steps.kind], list(CLIP_OPERATIONS))
 
 
-@pytest.mark.parametrize("line", table.names("line"))
-@pytest.mark.parametrize("clipper", CLIPPERS)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "orthographic", "near-plane"])
-def test_all_rows_give_the_picture(name, clipper, line):
-    scene = SCENES[name]
-    settings = settings_of({"polygon_mode": "wireframe", "line_clipping": clipper, "line": line}, scene)
-    check_fold(trace(scene, settings), 0, 0, *scene.size)
-    check_fold(trace(scene, settings, region=small_region(scene)), *small_region(scene))
-
-
-@effort(max_examples=60)
 @given(
     ANY_TRIANGLES,
     st.sampled_from(CLIPPERS),

@@ -5,7 +5,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
@@ -16,7 +15,7 @@ from core.raster.lines.wireframe import interpolate_affine_along, interpolate_al
 from core.records.steps import Level
 from core.trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
-from tests.core.trace.trace_cases import SCENES, settings_of, small_region
+from tests.core.trace.trace_cases import SCENES, settings_of
 
 LINES = list(table.names("line"))
 SEVERAL = ("rectangle", "wu", "gupta-sproull")
@@ -45,17 +44,6 @@ def check_fold(traced: Trace, column: int, row: int, columns: int, rows: int) ->
     assert np.array_equal(raster.state(raster.steps.count)["overdraw"], frame.cover_count[crop])
 
 
-@pytest.mark.parametrize("choice", CHOICES, ids=str)
-@pytest.mark.parametrize("line", LINES)
-@pytest.mark.parametrize("name", list(SCENES))
-def test_all_rows_give_the_picture(name, line, choice):
-    scene = SCENES[name]
-    settings = settings_of({"polygon_mode": "wireframe", "line": line, **choice}, scene)
-    check_fold(trace(scene, settings), 0, 0, *scene.size)
-    check_fold(trace(scene, settings, region=small_region(scene)), *small_region(scene))
-
-
-@effort(max_examples=60)
 @given(ANY_TRIANGLES, st.sampled_from(LINES), st.sampled_from(CHOICES), st.sampled_from([1.0, 1e5]))
 def test_any_triangles(case, line, choice, scale):
     clip, size = case

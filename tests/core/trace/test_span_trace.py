@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
@@ -78,7 +77,6 @@ def test_the_first_pass_draws_the_longest_spans_first():
     assert c["place"][empty].tolist() == [-1]
 
 
-@effort(max_examples=80)
 @given(
     ANY_TRIANGLES,
     REGIONS,
@@ -120,7 +118,6 @@ def test_lanes_stand_tallest_first(name):
         assert c["level"][own].tolist() == list(range(c["row_count"][lane]))
 
 
-@effort(max_examples=80)
 @given(ANY_TRIANGLES)
 def test_the_fractions_are_those_of_the_engine(case):
     clip, size = case

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, render, trace
@@ -15,6 +14,7 @@ from core.trace import Trace
 from core.trace.source import TraceSource
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import (
+    CASES,
     CHOICES,
     MIXES,
     SCENES,
@@ -68,31 +68,15 @@ def crop_of(region: tuple[int, int, int, int]) -> tuple[slice, slice]:
     return slice(row, row + rows), slice(column, column + columns)
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", list(SCENES))
-def test_all_rows_give_the_crop_of_the_picture(name, choice):
+@pytest.mark.parametrize(("name", "choice"), CASES, ids=name_of)
+def test_all_rows_give_the_picture_and_its_crop(name, choice):
     scene = SCENES[name]
     settings = settings_of(choice, scene)
-    region = small_region(scene)
-    check_frame(trace(scene, settings, region=region), render(scene, settings), crop_of(region))
-
-
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "intersecting"])
-def test_all_rows_give_the_whole_picture(name):
-    scene = SCENES[name]
-    settings = Settings(blend="over", fill="scanline")
-    check_frame(trace(scene, settings), render(scene, settings))
-
-
-@pytest.mark.parametrize("choice", [{}, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", list(SCENES))
-def test_overdraw_counts_what_the_picture_counts(name, choice):
-    scene = SCENES[name]
-    settings, region = settings_of(choice, scene), small_region(scene)
-    wanted = render(scene, settings).cover_count[crop_of(region)]
-    assert same_bits(
-        folded(trace(scene, settings, region=region), "raster", "overdraw"), np.ascontiguousarray(wanted)
-    )
+    frame = render(scene, settings)
+    for region in ((0, 0, *scene.size), small_region(scene)):
+        traced, crop = trace(scene, settings, region=region), crop_of(region)
+        check_frame(traced, frame, crop)
+        assert same_bits(folded(traced, "raster", "overdraw"), np.ascontiguousarray(frame.cover_count[crop]))
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "knot"])
@@ -166,19 +150,16 @@ def any_clip_scene(draw) -> ClipScene:
     return ClipScene(clip, np.reshape(values, (len(clip), 3, 4)), size)
 
 
-@effort(max_examples=120)
 @given(any_clip_scene(), ANY_SETTINGS)
 def test_any_triangles_under_any_settings(scene, settings):
     check_frame(trace(scene, settings), render(scene, settings))
 
 
-@effort(max_examples=60)
 @given(any_clip_scene(), ANY_SETTINGS, st.data())
 def test_any_triangle_alone(scene, settings, data):
     check_one_triangle(scene, settings, data.draw(st.integers(0, len(scene.clip) - 1)))
 
 
-@effort(max_examples=60)
 @given(any_clip_scene(), ANY_SETTINGS, st.data())
 def test_there_and_back_again(scene, settings, data):
     traced = trace(scene, settings)
@@ -192,7 +173,6 @@ def test_there_and_back_again(scene, settings, data):
             assert not buffer.flags.writeable
 
 
-@effort(max_examples=40)
 @given(any_clip_scene(), ANY_SETTINGS, st.data())
 def test_a_state_is_the_rows_written_one_by_one(scene, settings, data):
     traced = trace(scene, settings)
@@ -210,7 +190,6 @@ def test_a_state_is_the_rows_written_one_by_one(scene, settings, data):
             assert same_bits(track.at(done), buffer), (stage, track.name)
 
 
-@effort(max_examples=60)
 @given(any_clip_scene(), ANY_SETTINGS)
 def test_overdraw_of_any_triangles(scene, settings):
     traced = trace(scene, settings)

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
@@ -19,6 +18,7 @@ from core.methods import table
 from core.trace import StageTrace, Trace, TraceSource
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.tracers import TRACERS
+from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.depth_listings import check_blend, check_depth
 from tests.core.trace.executed_rows import equal, rows_of_kind
@@ -114,8 +114,11 @@ def check_all(traced: Trace) -> None:
             check(OnePart(part))
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "orthographic", "textured-clip"])
+@pytest.mark.parametrize(
+    ("name", "choice"),
+    in_turn(["clip", "lit", "orthographic", "textured-clip"], [*CHOICES, *MIXES]),
+    ids=name_of,
+)
 def test_listings_of_all_stages(name, choice):
     scene = SCENES[name]
     traced = trace(scene, settings_of(choice, scene), region=small_region(scene))
@@ -133,7 +136,6 @@ def test_listings_on_the_built_in_scenes(name, fill):
 FILLS = st.sampled_from(["hierarchy", "blocks", "scanline", "scanline-lecture", "spans", "incremental"])
 
 
-@effort(max_examples=60)
 @given(
     ANY_TRIANGLES,
     FILLS,

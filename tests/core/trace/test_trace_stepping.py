@@ -5,7 +5,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as effort
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, trace
@@ -13,6 +12,7 @@ from core.methods import table
 from core.records.steps import Level, Operation, Steps, ends_of
 from core.trace import StageTrace
 from core.trace.stage_trace import MARKS
+from tests.core.covering import in_turn
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
 
 LEVELS = list(Level)
@@ -71,8 +71,11 @@ def check_rows(steps: Steps, position: int) -> None:
     assert steps.rows_done(position) == row + is_whole
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip", "near-plane"])
+@pytest.mark.parametrize(
+    ("name", "choice"),
+    in_turn(["clip", "lit", "textured-clip", "near-plane"], [*CHOICES, *MIXES]),
+    ids=name_of,
+)
 def test_every_stage_steps_both_ways(name, choice):
     for found in traces_of(name, choice):
         check_ends(found.steps)
@@ -137,8 +140,9 @@ def test_positions_of_a_small_case():
     assert steps.back(3, Level.GROUP) == 1
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip"])
+@pytest.mark.parametrize(
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], [*CHOICES, *MIXES]), ids=name_of
+)
 def test_explanations_name_known_variables_and_lines_that_exist(name, choice):
     for found in traces_of(name, choice):
         kinds_seen = np.unique(found.steps.kind, return_index=True)[1]
@@ -275,7 +279,6 @@ def test_a_scene_without_triangles_has_traces_without_rows():
         assert found.steps.forward(0, Level.TRIANGLE) == 0
 
 
-@effort(max_examples=30)
 @given(st.sampled_from(sorted(SCENES)), st.sampled_from(STAGES), st.data())
 def test_what_is_known_grows_within_a_row(name, stage, data):
     scene = SCENES[name]

@@ -1,5 +1,6 @@
 """Scenes and settings that the laws of the traces are tested on: every built-in scene, every method."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight
 from core.methods import table
 from core.settings import families
 from lessons.scenes import make_scene, scene_names
+from tests.core.covering import covering, in_turn, is_everything
 
 Region = tuple[int, int, int, int]
 
@@ -142,6 +144,37 @@ MIXES = [
     {"fill": "spans", "coverage": "int64", "depth": "fixed-38", "clipping": "sutherland-hodgman"},
 ]
 """Choices that meet each other."""
+
+
+Choice = dict[str, str | int]
+
+
+def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) -> list[tuple[str, Choice]]:
+    """Return cases of a scene's name and a choice in which every two methods of some families meet."""
+    methods = {family: table.names(family) for family in table.families if family in families}
+    return [(case.pop("scene"), case) for case in covering({"scene": scenes, **methods, **numbers})]
+
+
+_OF_OUTLINES = {"line", "line_clipping"}
+_OF_FILLS = {"fill", "fill_rule", "coverage", "pixel_center"}
+
+FILLED = _met(
+    set(table.families) - _OF_OUTLINES - {"polygon_mode"},
+    list(SCENES),
+    block_size=(8, 1, 3),
+    correction_interval=(16, 3),
+    samples_across=(3, 1),
+)
+"""Filled triangles: in some case any two methods of different families meet, and each meets each scene."""
+
+OUTLINED = [
+    (name, {"polygon_mode": "wireframe", **choice})
+    for name, choice in _met(set(table.families) - _OF_FILLS - {"polygon_mode"}, list(SCENES))
+]
+"""Wireframes, likewise."""
+
+CASES = [*FILLED, *OUTLINED, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everything() else ())]
+"""Scenes and choices for a law that holds of every picture."""
 
 
 def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:

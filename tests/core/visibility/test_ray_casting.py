@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, render, trace
@@ -71,7 +71,6 @@ def in_range(clip: np.ndarray) -> np.ndarray:
     return clip[((w > 0) & (np.abs(z) <= w)).all(axis=1)]
 
 
-@settings(max_examples=40)
 @given(st.one_of(perspective_triangles(4), lattice_triangles(4)))
 def test_pictures_are_those_of_rational_arithmetic(case) -> None:
     clip, size = case
@@ -79,7 +78,6 @@ def test_pictures_are_those_of_rational_arithmetic(case) -> None:
     assert np.array_equal(render(ClipScene(clip, size=size), RAYS).primitive, reference(clip, size))
 
 
-@settings(max_examples=25)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 1e-17, 1e-15, 1e-13]))
 def test_planes_a_few_units_of_the_last_place_apart(seed: int, gap: float) -> None:
     # One plane, cut into other triangles and moved by rounding errors: float64 alone cannot tell them apart.
@@ -179,7 +177,6 @@ def scattered(seed: int, projection: str) -> Scene:
     return Scene((mesh,), camera, size=(32, 24))
 
 
-@settings(max_examples=10)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["perspective", "orthographic"]))
 def test_scenes_agree_with_the_finest_depth_buffer_but_at_ties(seed: int, projection: str) -> None:
     scene = scattered(seed, projection)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
@@ -24,7 +24,6 @@ RULES = table.names("fill_rule")
 CENTERS = {"half": 1, "integer": 0}
 
 
-@settings(max_examples=60)
 @given(
     SEEDS,
     st.sampled_from(list(PROJECTED)),
@@ -39,7 +38,6 @@ def test_pixels_are_those_of_whole_numbers(seed: int, family: str, size, rule: s
     assert np.array_equal(found, expected)
 
 
-@settings(max_examples=60)
 @given(SEEDS, st.sampled_from(SIZES), st.sampled_from(RULES), st.sampled_from(list(CENTERS)), st.booleans())
 def test_any_sign_of_w_is_drawn_as_by_the_other_fills(
     seed: int, size, rule: str, center: str, has_region: bool
@@ -54,7 +52,6 @@ def test_any_sign_of_w_is_drawn_as_by_the_other_fills(
         assert np.array_equal(found, drawn(clip, size, "brute-force", **rules))
 
 
-@settings(max_examples=40)
 @given(homogeneous_triangles(12), st.sampled_from(RULES))
 def test_many_homogeneous_triangles_at_once_are_exact(case, rule: str) -> None:
     clip, size = case

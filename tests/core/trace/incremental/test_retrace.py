@@ -17,6 +17,7 @@ from core.scene import AnyScene
 from core.settings import families
 from core.trace import Trace, source
 from core.trace.incremental.retrace import Retrace
+from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
 
@@ -125,7 +126,7 @@ LOOKED_AT = st.lists(st.sampled_from(STAGES), min_size=1, max_size=4, unique=Tru
 
 
 @given(ANY_TRIANGLES, any_settings(), st.sampled_from(list(EDITS)), LOOKED_AT, st.integers(0, 1 << 20))
-@effort(max_examples=150, suppress_health_check=[HealthCheck.too_slow])
+@effort(suppress_health_check=[HealthCheck.too_slow])
 def test_any_edit_of_any_triangles_gives_the_trace_made_from_nothing(drawn, choice, edit, looked_at, seed):
     clip, size = drawn
     generator = np.random.default_rng(seed)
@@ -139,7 +140,7 @@ def test_any_edit_of_any_triangles_gives_the_trace_made_from_nothing(drawn, choi
 @given(
     st.sampled_from(MIXED), any_settings(), st.sampled_from(list(EDITS)), LOOKED_AT, st.integers(0, 1 << 20)
 )
-@effort(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@effort(suppress_health_check=[HealthCheck.too_slow])
 def test_any_edit_of_a_scene_gives_the_trace_made_from_nothing(scene, choice, edit, looked_at, seed):
     earlier = prepared(scene, choice, looked_at, region=small_region(scene))
     edited = EDITS[edit](scene, np.random.default_rng(seed))
@@ -149,8 +150,9 @@ def test_any_edit_of_a_scene_gives_the_trace_made_from_nothing(scene, choice, ed
     )
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip"])
+@pytest.mark.parametrize(
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], [*CHOICES, *MIXES]), ids=name_of
+)
 def test_a_moved_corner_with_every_method(name, choice):
     scene = SCENES[name]
     region = small_region(scene)
@@ -163,7 +165,6 @@ def test_a_moved_corner_with_every_method(name, choice):
 
 
 @given(any_settings(), any_settings(), st.sampled_from([None, 0, 1]), st.sampled_from([None, (1, 1, 5, 4)]))
-@effort(max_examples=40)
 def test_other_settings_another_focus_or_raster_give_the_trace_made_from_nothing(
     first, second, triangle, region
 ):
