@@ -1,7 +1,7 @@
 """Set Rasterscope up and start it, or run the whole check.
 
     python3 bootstrap.py run [arguments of the program]
-    python3 bootstrap.py test [arguments of pytest]
+    python3 bootstrap.py test [--all] [arguments of pytest]
     python3 bootstrap.py bench [arguments of rasterscope bench]
 
 All make the environment .venv beside this file when it is missing, and install the pinned packages into it.
@@ -43,6 +43,7 @@ import os
 import shutil
 import socket
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -50,18 +51,19 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 SYSTEM: str = sys.platform
 UNIX_SOCKETS: int = getattr(socket, "AF_UNIX", 0)  # Windows has none, and is not asked for a display
-RUN_PINS = ("requirements.txt",)
-TEST_PINS = ("requirements.txt", "requirements-gpu.txt", "requirements-test.txt")
-BENCH_PINS = ("requirements.txt", "requirements-gpu.txt", "requirements-bench.txt")
+RUN_PINS = ("requirements/run.txt",)
+TEST_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/test.txt")
+BENCH_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/bench.txt")
 HEADLESS_COMMANDS = ("render", "trace", "methods", "scenes", "screenshot", "opengl-check", "bench")
 QT_COMMANDS = ("screenshot", "bench")
 ANSWERING_OPTIONS = ("-h", "--help", "--version")
 USAGE = """usage: python3 bootstrap.py run [FILE | arguments of the program]
-       python3 bootstrap.py test [arguments of pytest]
+       python3 bootstrap.py test [--all] [arguments of pytest]
        python3 bootstrap.py bench [--quick] [--workload NAME ...] [--rounds N] [-o DIR]
 
 run    starts Rasterscope (run --help lists what it can do)
-test   runs the whole check: format, lint, types, import contracts, tests
+test   checks format, lint, types and import contracts and runs the tests in a few minutes;
+       with --all every combination, the slow tests and many random examples (an hour or so)
 bench  measures Rasterscope against other libraries, which it installs
 """
 
@@ -108,8 +110,13 @@ def venv_python(root: Path) -> Path:
 
 def is_stamped(root: Path, pins: str) -> bool:
     """Return whether the packages of a pins file were installed, all of them, with these very pins."""
-    stamp = root / ".venv" / (pins + ".sha256")
+    stamp = stamp_of(root, pins)
     return stamp.is_file() and stamp.read_text() == hashlib.sha256((root / pins).read_bytes()).hexdigest()
+
+
+def stamp_of(root: Path, pins: str) -> Path:
+    """Return the file that says which pins of a pins file were installed."""
+    return root / ".venv" / (Path(pins).stem + ".sha256")
 
 
 def has_environment(root: Path) -> bool:
@@ -201,7 +208,7 @@ def install(root: Path, pins_files: Sequence[str]) -> None:
         )
     for pins in pins_files:
         digest = hashlib.sha256((root / pins).read_bytes()).hexdigest()
-        (root / ".venv" / (pins + ".sha256")).write_text(digest)
+        stamp_of(root, pins).write_text(digest)
 
 
 def last_line(text: str) -> str:
@@ -245,7 +252,7 @@ def has_font() -> bool:
 
 def packages_for(root: Path, libraries: Sequence[str], font: bool) -> list[str]:
     """Return the Debian packages that hold these libraries, and a font where there is none."""
-    lines = (root / "requirements-debian.txt").read_text(encoding="utf-8").splitlines()
+    lines = (root / "requirements" / "debian.txt").read_text(encoding="utf-8").splitlines()
     table = dict(line.split() for line in lines if line and not line.startswith("#"))
     packages = {table[library] for library in libraries if library in table}
     return sorted(packages | (set() if font else {FONT_PACKAGE}))
@@ -400,24 +407,41 @@ def checks(root: Path, arguments: Sequence[str]) -> list[tuple[str, list[str]]]:
     return [
         ("format", [python, "-m", "ruff", "format", "--check", "."]),
         ("lint", [python, "-m", "ruff", "check", "."]),
-        ("types", [python, "-m", "mypy", "--strict", "bootstrap.py", "core", "widgets", "lessons", "app"]),
         ("import contracts", [python, "-c", contracts, "--no-logo"]),
         ("tests", [python, "-m", "pytest", "-q", "-n", workers, *arguments]),
+        ("types", [python, "-m", "mypy", "--strict", "bootstrap.py", "core", "widgets", "lessons", "app"]),
     ]
 
 
 def test(root: Path, arguments: Sequence[str]) -> int:
-    """Run every part of the check, one after the other, and say which failed."""
+    """Run every part of the check and say which failed.
+
+    The types are checked beside the rest: mypy keeps one core busy for as long as half of the tests do.
+    """
     prepare(root, TEST_PINS, needs_qt=True)
     environment = clean_environment(root)
+    *parts, (beside, command) = checks(root, arguments)
     failed = []
-    for name, command in checks(root, arguments):
-        print("--- %s" % name, flush=True)
-        start = time.monotonic()
-        status = subprocess.call(command, cwd=root, env=environment, stdin=subprocess.DEVNULL)
-        outcome = "failed" if status else "passed"
-        print("--- %s %s in %.1f s" % (name, outcome, time.monotonic() - start), flush=True)
-        failed += [name] if status else []
+    with tempfile.TemporaryFile() as report:
+        process = subprocess.Popen(
+            command, cwd=root, env=environment, stdin=subprocess.DEVNULL, stdout=report, stderr=report
+        )
+        try:
+            for name, part in parts:
+                print("--- %s" % name, flush=True)
+                start = time.monotonic()
+                status = subprocess.call(part, cwd=root, env=environment, stdin=subprocess.DEVNULL)
+                outcome = "failed" if status else "passed"
+                print("--- %s %s in %.1f s" % (name, outcome, time.monotonic() - start), flush=True)
+                failed += [name] if status else []
+            print("--- %s" % beside, flush=True)
+            status = process.wait()
+        finally:
+            process.kill()
+        report.seek(0)
+        print(report.read().decode("utf-8", "replace"), end="")
+        print("--- %s %s" % (beside, "failed" if status else "passed"), flush=True)
+        failed += [beside] if status else []
     if failed:
         print("The check failed: %s" % ", ".join(failed), file=sys.stderr)
         return Exit.CHECK_FAILED

@@ -27,9 +27,10 @@ def make_clone(folder: Path) -> Path:
     clone, wheels = folder / "clone", folder / "wheels"
     (clone / "app").mkdir(parents=True)
     wheels.mkdir()
-    for name in ("bootstrap.py", "requirements-debian.txt"):
-        shutil.copy(bootstrap.ROOT / name, clone)
-    (clone / "requirements.txt").write_text("# one toy\ntoy==1.0\n")
+    (clone / "requirements").mkdir()
+    for name in ("bootstrap.py", "requirements/debian.txt"):
+        shutil.copy(bootstrap.ROOT / name, clone / name)
+    (clone / "requirements" / "run.txt").write_text("# one toy\ntoy==1.0\n")
     (clone / "app" / "__main__.py").write_text(TOY_PROGRAM)
     with zipfile.ZipFile(wheels / "toy-1.0-py3-none-any.whl", "w") as wheel:
         wheel.writestr("toy.py", "NAME = 'toy'\n")

@@ -10,7 +10,7 @@ import bootstrap
 
 def test_check_has_all_parts() -> None:
     parts = dict(bootstrap.checks(Path("/x"), ["-k", "edge"]))
-    assert list(parts) == ["format", "lint", "types", "import contracts", "tests"]
+    assert list(parts) == ["format", "lint", "import contracts", "tests", "types"]
     assert {"core", "widgets", "lessons", "app", "--strict"} <= set(parts["types"])
     assert parts["tests"][-2:] == ["-k", "edge"]
 
@@ -32,11 +32,8 @@ def test_every_part_runs_and_failures_are_named(
     monkeypatch.setattr(bootstrap, "checks", parts)
     assert bootstrap.main(["test"], tmp_path) == (bootstrap.Exit.CHECK_FAILED if failing else 0)
     output = capfd.readouterr()
-    assert [line for line in output.out.splitlines() if line.startswith("ran")] == [
-        "ran format",
-        "ran lint",
-        "ran tests",
-    ]
+    ran = [line for line in output.out.splitlines() if line.startswith("ran")]
+    assert ran == ["ran format", "ran lint", "ran tests"]
     assert output.err == (f"The check failed: {', '.join(failing)}\n" if failing else "")
     assert prepared == [bootstrap.TEST_PINS]
 

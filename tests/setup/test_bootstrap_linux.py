@@ -148,7 +148,7 @@ def test_every_library_that_qt_asks_for_has_its_package() -> None:
     report = done.stdout + done.stderr
     needs = set(re.findall(rf"file=(\S+) \[0\];\s+needed by {re.escape(str(folder.parent))}/", report))
     wanted = {name for name in needs if not name.startswith(("libQt6", "libicu", "libpyside", "libshiboken"))}
-    lines = (bootstrap.ROOT / "requirements-debian.txt").read_text().splitlines()
+    lines = (bootstrap.ROOT / "requirements" / "debian.txt").read_text().splitlines()
     table = dict(line.split() for line in lines if not line.startswith("#"))
     assert len(wanted) > 20
     assert wanted - set(table) - LIBC - LOADER == set()

@@ -54,7 +54,7 @@ def test_a_folder_named_core_where_the_user_stands_is_not_ours(used_clone: Path,
 
 
 def test_changed_pins_are_installed_again(used_clone: Path, start: Start) -> None:
-    pins = used_clone / "requirements.txt"
+    pins = used_clone / "requirements" / "run.txt"
     before = pins.read_text()
     pins.write_text(before + "absent-toy==2.0\n")
     done = start(used_clone, "run", "--version", PIP_NO_INDEX="1")
@@ -88,7 +88,7 @@ def test_no_network(new_clone: Path, start: Start) -> None:
     done = start(new_clone, "run", "--version", **NO_INDEX)
     assert_one_sentence(done, bootstrap.Exit.NO_NETWORK, "network", "install.log")
     assert "toy==1.0" in (new_clone / ".venv" / "install.log").read_text()
-    assert not bootstrap.is_stamped(new_clone, "requirements.txt")
+    assert not bootstrap.is_stamped(new_clone, "requirements/run.txt")
 
 
 @pytest.mark.parametrize("module", ["venv", "ensurepip"])

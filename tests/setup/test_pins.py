@@ -24,7 +24,7 @@ DISTRIBUTIONS = {
     "skimage": "scikit-image",
     "vtkmodules": "vtk",
 }
-EXTRAS = {"gpu": ("requirements-gpu.txt",), "bench": ("requirements-gpu.txt", "requirements-bench.txt")}
+EXTRAS = {"gpu": ("requirements/gpu.txt",), "bench": ("requirements/gpu.txt", "requirements/bench.txt")}
 
 
 def read_pins(name: str) -> dict[str, str]:
@@ -64,7 +64,7 @@ def test_pins_are_exact_and_installed(name: str) -> None:
 def test_pins_lie_in_the_declared_ranges() -> None:
     declared, extras = read_declared()
     assert set(extras) == set(EXTRAS)
-    wanted = [(declared, ("requirements.txt",)), *((extras[name], EXTRAS[name]) for name in EXTRAS)]
+    wanted = [(declared, ("requirements/run.txt",)), *((extras[name], EXTRAS[name]) for name in EXTRAS)]
     for requirements, files in wanted:
         pins = {name: version for file in files for name, version in read_pins(file).items()}
         for requirement in requirements:
@@ -80,7 +80,7 @@ def test_pins_of_the_same_distribution_agree() -> None:
     assert {name: versions for name, versions in found.items() if len(versions) > 1} == {}
 
 
-@pytest.mark.parametrize("names", [("requirements.txt",), ("requirements-gpu.txt",), bootstrap.TEST_PINS])
+@pytest.mark.parametrize("names", [("requirements/run.txt",), ("requirements/gpu.txt",), bootstrap.TEST_PINS])
 def test_pins_are_complete(names: tuple[str, ...]) -> None:
     """Whatever a pinned distribution needs on this system is pinned too."""
     pins = {name for each in names for name in read_pins(each)}

@@ -69,5 +69,5 @@ def test_bootstrap_installs_the_libraries_and_starts_the_command(
 
 
 def test_the_check_does_not_need_the_libraries() -> None:
-    assert "requirements-bench.txt" not in bootstrap.TEST_PINS
+    assert "requirements/bench.txt" not in bootstrap.TEST_PINS
     assert not bootstrap.needs_window(["bench", "--quick"])
