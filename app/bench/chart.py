@@ -3,15 +3,18 @@
 It is written as plain SVG. A bar begins at 1: to the right the core is faster, to the left the other library.
 """
 
+import os
 from dataclasses import dataclass
 from math import ceil, floor, log10
+from typing import BinaryIO
+from xml.sax.saxutils import escape
 
 from app.bench.goals import goal_of
 from app.bench.harness import Entry, Result
 from app.bench.machine import Machine
 from app.bench.report import ratio_to
-from app.export.svg_shapes import QUIET, TEXT, line, text
 
+TEXT, QUIET = "#202020", "#606060"
 WIDTH, MARGIN, GAP = 1000, 24, 36
 HEAD, FOOT = 92, 46
 TITLE_HEIGHT, ROW, GROUP_GAP = 36, 16, 28
@@ -19,6 +22,8 @@ NAME_WIDTH, FIGURE_WIDTH = 84, 48
 COLUMN_WIDTH = (WIDTH - 2 * MARGIN - GAP) / 2
 FASTER, SLOWER, LINE = "#0072B2", "#D55E00", "#D8D8D8"
 """Colours that colour-blind people tell apart; the side of the line tells the same."""
+SCALE = 2
+"""Pixels of a PNG file for one of the chart, so that it stays sharp on dense screens."""
 
 
 @dataclass(frozen=True)
@@ -197,3 +202,48 @@ def figure(ratio: float) -> str:
     """Return a ratio with two digits or more."""
     places = min(max(1 - floor(log10(ratio)), 0), 4)
     return f"{ratio:.{places}f}×"
+
+
+def text(
+    x: float,
+    y: float,
+    words: str,
+    *,
+    size: int,
+    color: str = TEXT,
+    weight: int = 400,
+    anchor: str = "start",
+) -> str:
+    """Return a line of text whose foot is at ``y``."""
+    return (
+        f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" font-weight="{weight}" fill="{color}" '
+        f'text-anchor="{anchor}">{escape(words)}</text>'
+    )
+
+
+def line(x1: float, y1: float, x2: float, y2: float, color: str, width: float) -> str:
+    """Return a straight line."""
+    return (
+        f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{color}" '
+        f'stroke-width="{width:g}"/>'
+    )
+
+
+def write_png(file: BinaryIO, svg: str) -> None:
+    """Draw an SVG text and write it as PNG."""
+    # Qt draws it, without a display; the benchmark itself needs no Qt.
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    from PySide6.QtCore import QByteArray
+    from PySide6.QtGui import QGuiApplication, QImage, QPainter
+    from PySide6.QtSvg import QSvgRenderer
+
+    from app.export.views import png_bytes
+
+    application = QGuiApplication.instance() or QGuiApplication(["rasterscope"])
+    renderer = QSvgRenderer(QByteArray(svg.encode("utf-8")))
+    image = QImage(renderer.defaultSize() * SCALE, QImage.Format.Format_RGB32)
+    painter = QPainter(image)
+    renderer.render(painter)
+    painter.end()
+    file.write(png_bytes(image))
+    del application

@@ -4,8 +4,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from app.bench.chart import chart_svg
-from app.bench.chart_png import write_png
+from app.bench.chart import chart_svg, write_png
 from app.bench.harness import Result, run_workload
 from app.bench.libraries import LIBRARIES
 from app.bench.machine import Machine, this_machine

@@ -9,7 +9,7 @@ from app import __version__
 from app.cli.arguments import show_progress
 from app.cli.commands import UsageError
 from app.cli.study import seed_from_text
-from app.export.atlas import export_atlas
+from app.cli.window import load_qt
 from app.export.atlas_text import atlas_text
 from app.files.shrunk_files import export_shrunk
 from core.study import machine
@@ -54,6 +54,8 @@ def run(options: argparse.Namespace) -> int:
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")
+    if folder is not None and options.shrink is None:
+        load_qt()
     try:
         experiment = experiments.get(options.experiment)
         if options.shrink is not None:
@@ -69,6 +71,8 @@ def run(options: argparse.Namespace) -> int:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     print("\n".join(atlas_text(atlas)))
     if folder is not None:
+        from app.export.atlas import export_atlas  # Maps need Qt, their text does not.
+
         for path in export_atlas(atlas, folder):
             print(f"wrote {path}")
     return 0

@@ -7,7 +7,7 @@ from pathlib import Path
 from app import __version__
 from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, rounds_from_text, show_progress
 from app.cli.commands import UsageError
-from app.export.study import export_study
+from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.compare.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
 from core import Settings
@@ -88,6 +88,8 @@ def run(options: argparse.Namespace) -> int:
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")
+    if folder is not None:
+        load_qt()
     dials = dict(options.dial)
     try:
         family = study_family(options.family)
@@ -126,6 +128,8 @@ def run(options: argparse.Namespace) -> int:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     print("\n".join(table_text(study)))
     if folder is not None:
+        from app.export.study import export_study  # Charts need Qt, numbers do not.
+
         for path in export_study(study, folder, options.error):
             print(f"wrote {path}")
     return 0

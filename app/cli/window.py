@@ -45,4 +45,4 @@ def load_qt() -> None:
         import PySide6.QtSvg
         import PySide6.QtWidgets  # noqa: F401
     except ImportError as problem:
-        raise ValueError(f"the window needs Qt, which cannot be loaded: {problem}") from problem
+        raise ValueError(f"the window and its charts need Qt, which cannot be loaded: {problem}") from problem

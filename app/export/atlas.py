@@ -1,18 +1,22 @@
 """A stability experiment as files: every cell as CSV, all of it as JSON, the maps as SVG and PNG."""
 
 import csv
-from io import BytesIO, StringIO
+from io import StringIO
 from math import isnan
 from pathlib import Path
 
-from app.bench.chart_png import write_png
-from app.export.atlas_svg import atlas_svg
+from app.export.sheet import MARGIN, WIDTH, Sheet, sheet_bytes
 from app.files.file_writing import whole_file
 from app.files.state_files import readable_json
+from app.pages.compare.words import machine_words
+from app.pages.stability.records import atlas_record, cells_of, method_titles
+from app.pages.stability.severity_curves import has_curves, severity_chart
 from core.study.stability import Atlas, Outcome
+from widgets.atlas.view import AtlasView
 
 ENDINGS = (".csv", ".json", ".svg", ".png")
 """Of the files that an atlas is written to."""
+CURVES_HEIGHT = 300
 
 
 def atlas_csv(atlas: Atlas) -> str:
@@ -69,13 +73,23 @@ def atlas_content(atlas: Atlas, ending: str) -> bytes | None:
         return atlas_csv(atlas).encode()
     if ending == ".json":
         return atlas_json(atlas).encode() + b"\n"
-    if ending == ".svg":
-        return atlas_svg(atlas).encode()
-    if ending != ".png":
-        return None
-    picture = BytesIO()
-    write_png(picture, atlas_svg(atlas))
-    return picture.getvalue()
+    return sheet_bytes(lambda: atlas_sheet(atlas), ending) if ending in ENDINGS else None
+
+
+def atlas_sheet(atlas: Atlas) -> Sheet:
+    """Return the maps as the Stability page draws them, with curves where there is one axis, claim and machine."""
+    info = atlas.experiment
+    sheet = Sheet(info.title, info.question)
+    maps = AtlasView(sheet)
+    maps.show_atlas(atlas_record(info, cells_of(atlas.maps)))
+    maps.show_whole(WIDTH - 2 * MARGIN)
+    sheet.add(maps)
+    if has_curves(info):
+        titles = method_titles(info.methods)
+        lines = {each.method: each.severity[0] for each in atlas.maps}
+        sheet.draw(severity_chart(info.axes[0], lines, titles), CURVES_HEIGHT)
+    sheet.write([info.claim, f"Seed {atlas.seed}. {machine_words(atlas.machine)}"])
+    return sheet
 
 
 def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:

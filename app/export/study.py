@@ -1,18 +1,24 @@
 """A study as files: numbers as CSV and JSON, charts as SVG and PNG; with the machine, versions, date and settings."""
 
 import csv
-from io import BytesIO, StringIO
+from io import StringIO
 from math import isnan
 from pathlib import Path
 
-from app.bench.chart_png import write_png
-from app.export.study_chart import study_svg
+from app.export.sheet import Sheet, sheet_bytes
 from app.files.file_writing import whole_file
 from app.files.study_files import EXTENSION, study_json
-from core.study.accuracy.record import Point, Study, pareto_front
+from app.pages.compare.charts import TIME, growth_of, numbers_of, scatter_of, title_of
+from app.pages.compare.words import machine_sentence, settings_sentence, work_sentence
+from core.study.accuracy.record import ErrorMeasure, Point, Study, pareto_front
 
 ENDINGS = (".svg", ".png", ".csv", EXTENSION)
 """Of the files that a study is written to."""
+CHART_HEIGHT = 460
+EXPLANATION = (
+    "A bar runs from the lower to the upper quartile. The dashed line is the Pareto front: no other method beats a "
+    "method on it in both."
+)
 FIXED = ("method", "title", "rounds", "unit", "units")
 TIMES = ("median_seconds_per_unit", "lower_quartile", "upper_quartile")
 
@@ -67,10 +73,10 @@ def point_cells(study: Study, point: Point) -> dict[str, object]:
     return cells
 
 
-def study_content(study: Study, measure: str | None, ending: str) -> bytes | None:
+def study_content(study: Study, measure: str | None, ending: str, cost: str = TIME) -> bytes | None:
     """Return the content of a file with one of `ENDINGS`; ``None``: there is no such kind of file.
 
-    ``measure`` is the error of the chart, as in `export_study`.
+    ``measure`` is the error of the chart, as in `export_study`, and ``cost`` what it is drawn against.
     """
     if ending == ".csv":
         return study_csv(study).encode()
@@ -78,12 +84,32 @@ def study_content(study: Study, measure: str | None, ending: str) -> bytes | Non
         return study_json(study).encode()
     if ending not in ENDINGS:
         return None
-    svg = study_svg(study, measure)
-    if ending == ".svg":
-        return svg.encode()
-    picture = BytesIO()
-    write_png(picture, svg)
-    return picture.getvalue()
+    return sheet_bytes(lambda: study_sheet(study, chosen_measure(study, measure), cost), ending)
+
+
+def chosen_measure(study: Study, name: str | None) -> ErrorMeasure:
+    """Return the error of a name, or the first; ValueError for one that the study does not have."""
+    for measure in study.measures:
+        if name in (None, measure.name):
+            return measure
+    known = ", ".join(measure.name for measure in study.measures)
+    raise ValueError(f"error of {study.family} must be one of {known}, got {name}")
+
+
+def study_sheet(study: Study, measure: ErrorMeasure, cost: str = TIME) -> Sheet:
+    """Return both charts as the Compare page draws them, with what is left out and where it was measured."""
+    sheet = Sheet(f"{study.title}: accuracy against cost", f"{work_sentence(study)}.")
+    numbers = numbers_of(study.points)
+    sheet.draw(scatter_of(study, measure.name, cost, numbers), CHART_HEIGHT)
+    if len(study.growth) > 1:
+        sheet.draw(growth_of(study, cost, numbers), CHART_HEIGHT)
+    names = [point.method for point in study.points]
+    for point in study.points:
+        reason = point.refused or point.reasons.get(measure.name, "")
+        if reason:
+            sheet.write([f"Not shown: {title_of(point, names)}. {reason}"])
+    sheet.write([EXPLANATION, f"{settings_sentence(study)}.", machine_sentence(study)])
+    return sheet
 
 
 def export_study(study: Study, folder: Path, measure: str | None = None) -> list[Path]:

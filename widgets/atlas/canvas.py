@@ -2,12 +2,21 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QColor, QFocusEvent, QFontMetrics, QKeyEvent, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QFontMetrics,
+    QKeyEvent,
+    QMouseEvent,
+    QPaintEngine,
+    QPainter,
+    QPaintEvent,
+)
 from PySide6.QtWidgets import QWidget
 
 from widgets.atlas.layout import AtlasLayout, AtlasMetrics, lay_out_maps
-from widgets.atlas.paint import cell_pixmap, paint_ring
+from widgets.atlas.paint import cell_pixmap, paint_cell, paint_ring
 from widgets.atlas.records import UNKNOWN, AtlasMap, AtlasRecord, CellPlace
 from widgets.basics.caption_paint import paint_empty
 from widgets.basics.theme import current_theme, text_font, theme_notifier
@@ -233,7 +242,9 @@ class AtlasCanvas(QWidget):
     def _paint_map(
         self, painter: QPainter, record: AtlasRecord, each: AtlasMap, area: QRect, cell: int
     ) -> None:
-        theme, ratio = current_theme(), self.devicePixelRatioF()
+        theme = current_theme()
+        is_vector = painter.paintEngine().type() != QPaintEngine.Type.Raster
+        ratio = painter.deviceTransform().m11()
         painter.setFont(text_font(theme))
         painter.setPen(QColor(theme.text))
         metrics = QFontMetrics(painter.font())
@@ -243,7 +254,11 @@ class AtlasCanvas(QWidget):
             y = area.top() + (record.rows - 1 - row) * cell
             for column, kind in enumerate(kinds):
                 look = None if kind == UNKNOWN else record.kinds[kind]
-                painter.drawPixmap(left + column * cell, y, cell_pixmap(look, cell, theme, ratio))
+                x = left + column * cell
+                if is_vector:
+                    paint_cell(painter, QRectF(x, y, cell, cell), look, theme)
+                else:
+                    painter.drawPixmap(x, y, cell_pixmap(look, cell, theme, ratio))
         self._paint_ticks(painter, record, area)
 
     def _paint_ticks(self, painter: QPainter, record: AtlasRecord, area: QRect) -> None:

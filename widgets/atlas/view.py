@@ -156,6 +156,11 @@ class AtlasView(QWidget):
         self.canvas.show_atlas(record)
         self.legend.show_counts(record)
 
+    def show_whole(self, width: int) -> None:
+        """Be as high as all maps need in this width, so that none has to be scrolled to."""
+        self.canvas.set_room(QSize(width - self.pane.verticalScrollBar().sizeHint().width(), 1))
+        self.pane.setFixedHeight(self.canvas.height())
+
     def show_chosen(self, place: CellPlace | None) -> None:
         """Mark the chosen cell."""
         self.canvas.show_chosen(place)

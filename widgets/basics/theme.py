@@ -4,6 +4,8 @@ One colour means one thing. Vertices, edges and weights 0, 1, 2 are blue, orange
 palette in every theme; the accent marks the step just done and nothing else; focus and selection are neutral.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -199,6 +201,17 @@ def theme_notifier() -> ThemeNotifier:
 def current_theme() -> Theme:
     """Return the theme that widgets paint with now."""
     return theme_notifier().theme
+
+
+@contextmanager
+def paint_as(theme: Theme) -> Iterator[None]:
+    """Let widgets that are made and painted meanwhile use ``theme``; those on the screen stay as they are."""
+    notifier = theme_notifier()
+    before, notifier.theme = notifier.theme, theme
+    try:
+        yield
+    finally:
+        notifier.theme = before
 
 
 def text_font(theme: Theme, pixels: int | None = None) -> QFont:

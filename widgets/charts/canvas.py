@@ -1,28 +1,25 @@
 """The ground of a chart: two logarithmic axes, series of marks and lines, all in the colours of the theme."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
-from math import lcm
 
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, Qt, Slot
-from PySide6.QtGui import QColor, QFontMetricsF, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QWidget
 
 from core.records.arrays import Floats
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.charts.records import ChartPicture, ChartSeries
 from widgets.charts.scale import ChartScale, scale_of
-from widgets.charts.series_marks import LIGHT_COLORS, series_color, series_growth, series_shape
+from widgets.charts.series_marks import paint_mark, series_color
 
 pg.setConfigOptions(imageAxisOrder="row-major", antialias=True)
 
 MARK_SIZE = 0.95
 """Width of a mark, in heights of the text."""
 _DASHES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine, Qt.PenStyle.DashDotLine)
-LOOKS = lcm(len(LIGHT_COLORS), len(_DASHES))
-"""Numbers of series that colour and dashes tell apart; those of later ones come again."""
 
 
 class ChartCanvas(pg.GraphicsView):
@@ -34,10 +31,8 @@ class ChartCanvas(pg.GraphicsView):
         self._scales: tuple[ChartScale, ChartScale] | None = None
         self._fitted: list[list[float]] = []
         """The ranges that show everything; others are the user's."""
-        self._items: list[pg.GraphicsObject] = []
         self._places: dict[str, Floats] = {}
-        self._front = np.empty((0, 2))
-        """(C, 2) positions of the corners of the line of the front."""
+        """(N, 2) positions of the points of every series."""
         self.view = pg.ViewBox(enableMenu=False)
         self.axes = (pg.AxisItem("bottom"), pg.AxisItem("left"))
         layout = pg.GraphicsLayout()
@@ -46,6 +41,7 @@ class ChartCanvas(pg.GraphicsView):
         layout.addItem(self.view, 0, 1)
         layout.addItem(self.axes[0], 1, 1)
         self.setCentralItem(layout)
+        self.setCacheMode(pg.GraphicsView.CacheModeFlag.CacheNone)  # The ground is one colour, also in files.
         for axis in self.axes:
             axis.linkToView(self.view)
             axis.enableAutoSIPrefix(False)
@@ -79,7 +75,7 @@ class ChartCanvas(pg.GraphicsView):
         places = self._places.get(key)
         if places is None or not np.isfinite(places[index]).all():
             return None
-        return QPointF(self.view.mapViewToScene(QPointF(*places[index].tolist())))
+        return self._in_widget(places[index : index + 1 or None])[0]
 
     def places(self) -> list[tuple[str, QPointF]]:
         """Return the key and the place in the widget of every point that can be seen."""
@@ -100,19 +96,26 @@ class ChartCanvas(pg.GraphicsView):
         """Return the rectangles in the widget that bars take."""
         found = []
         for series in () if self._picture is None else self._picture.series:
-            for ends in self._bar_ends(series).tolist():
-                start, stop = (QPointF(self.view.mapViewToScene(QPointF(*end))) for end in ends)
+            for ends in self._bar_ends(series):
+                start, stop = self._in_widget(ends)
                 found.append(QRectF(start, stop).normalized().adjusted(-1, -2, 1, 2))
         return found
 
     def front_lines(self) -> list[QRectF]:
         """Return the rectangles in the widget that the parts of the front take."""
-        corners = [self.view.mapViewToScene(QPointF(*corner)) for corner in self._front.tolist()]
-        return [QRectF(start, stop).normalized().adjusted(-1, -1, 1, 1) for start, stop in pairwise(corners)]
+        corners = pairwise(self._in_widget(self._front()))
+        return [QRectF(start, stop).normalized().adjusted(-1, -1, 1, 1) for start, stop in corners]
 
     def plot_area(self) -> QRectF:
         """Return the rectangle between the axes, in the widget."""
         return QRectF(self.view.sceneBoundingRect())
+
+    def _in_widget(self, positions: Floats) -> list[QPointF]:
+        """Return where (N, 2) positions on the axes are in the widget."""
+        area, (across, up) = self.plot_area(), self.view.viewRange()
+        x = area.left() + (positions[:, 0] - across[0]) * (area.width() / (across[1] - across[0]))
+        y = area.bottom() - (positions[:, 1] - up[0]) * (area.height() / (up[1] - up[0]))
+        return [QPointF(*at) for at in zip(x.tolist(), y.tolist(), strict=True)]
 
     def mark_size(self) -> float:
         """Return the width of a mark in pixels."""
@@ -124,11 +127,7 @@ class ChartCanvas(pg.GraphicsView):
         return self._scales is not None and self.view.viewRange() != self._fitted
 
     def _rebuild(self) -> None:
-        for item in self._items:
-            self.view.removeItem(item)
-        self._items.clear()
         self._places.clear()
-        self._front = np.empty((0, 2))
         picture = self._picture
         for axis in self.axes:
             axis.setVisible(picture is not None)
@@ -137,55 +136,21 @@ class ChartCanvas(pg.GraphicsView):
             self.viewport().update()
             return
         self._scales = _scales(picture.series)
-        self._add_separators()
-        self._add_front(picture)
         across, up = self._scales
         for series in picture.series:
             self._places[series.key] = np.column_stack([across.positions(series.x), up.positions(series.y)])
-        self._add_lines(picture.series)
-        self._add_bars(picture.series)
-        self._add_marks(picture.series)
         self._show_ticks()
         self.viewport().update()
 
-    def _add_separators(self) -> None:
-        assert self._scales is not None
-        pen = _cosmetic(QPen(QColor(current_theme().outline), 1.0, Qt.PenStyle.DotLine))
-        for scale, angle in zip(self._scales, (90, 0), strict=True):
-            for position in scale.separators:
-                self._add(pg.InfiniteLine(position, angle=angle, pen=pen))
-
-    def _add_front(self, picture: ChartPicture) -> None:
-        """Draw the front as a step line: right of it and above it some other method is better in both."""
-        assert self._scales is not None
-        by_key = {series.key: series for series in picture.series}
-        if not picture.front:
-            return
-        across, up = self._scales
-        x = across.positions(np.array([by_key[key].x[0] for key in picture.front]))
-        y = up.positions(np.array([by_key[key].y[0] for key in picture.front]))
-        steps_x = np.repeat(np.append(x, across.stop), 2)[:-1]
-        steps_y = np.append(up.stop, np.repeat(y, 2))
-        self._front = np.column_stack([steps_x, steps_y])
-        pen = QPen(QColor(current_theme().muted_text), 1.5, Qt.PenStyle.DashLine)
-        self._add(pg.PlotCurveItem(steps_x, steps_y, pen=_cosmetic(pen)))
-
-    def _add_lines(self, series: Sequence[ChartSeries]) -> None:
-        """Draw the lines of series of several points, those that look alike as one item: items are what takes time."""
-        for number, alike in _by_look(one for one in series if len(one.x) > 1).items():
-            pen = QPen(QColor(series_color(number)), 1.5, _DASHES[number % len(_DASHES)])
-            gap = np.full((1, 2), np.nan)
-            joined = np.concatenate([part for one in alike for part in (self._places[one.key], gap)])
-            self._add(pg.PlotCurveItem(joined[:, 0], joined[:, 1], pen=_cosmetic(pen), connect="finite"))
-
-    def _add_bars(self, series: Sequence[ChartSeries]) -> None:
-        """Draw the bars from quartile to quartile, all of one colour as one item."""
-        for number, alike in _by_look(series).items():
-            ends = [found for one in alike if len(found := self._bar_ends(one))]
-            if ends:
-                joined = np.concatenate(ends).reshape(-1, 2)
-                pen = _cosmetic(QPen(QColor(series_color(number)), 1.5))
-                self._add(pg.PlotCurveItem(joined[:, 0], joined[:, 1], pen=pen, connect="pairs"))
+    def _front(self) -> Floats:
+        """Return (C, 2) corners of the front: right of this line and above it some other method is better in both."""
+        picture, scales = self._picture, self._scales
+        if picture is None or scales is None or not picture.front:
+            return np.empty((0, 2))
+        across, up = scales
+        ends = np.concatenate([self._places[key][:1] for key in picture.front])
+        steps_x = np.repeat(np.append(ends[:, 0], across.stop), 2)[:-1]
+        return np.column_stack([steps_x, np.append(up.stop, np.repeat(ends[:, 1], 2))])
 
     def _bar_ends(self, series: ChartSeries) -> Floats:
         """Return the (B, 2, 2) positions of both ends of every bar that can be seen."""
@@ -200,25 +165,47 @@ class ChartCanvas(pg.GraphicsView):
             found.append(ends[np.isfinite(ends).all(axis=(1, 2))])
         return np.concatenate(found)
 
-    def _add_marks(self, series: Sequence[ChartSeries]) -> None:
-        """Draw the marks of all series as one item."""
-        spots = [
-            {"pos": place, "symbol": series_shape(one.number), "size": self._size_of(one), "brush": brush}
-            for one in series
-            for brush in [pg.mkBrush(series_color(one.number))]
-            for place in self._places[one.key]
-            if np.isfinite(place).all()
-        ]
-        # Without its cache every mark is drawn as a path: sharp in every size, and in files.
-        self._add(pg.ScatterPlotItem(spots, pen=pg.mkPen(None), useCache=False))
+    # Painting. In pixels of the widget, not in decades of the view: pens keep their width in files too.
 
-    def _size_of(self, series: ChartSeries) -> float:
-        """Return the width in pixels of the marks of a series; those along a line are smaller."""
-        return self.mark_size() * series_growth(series.number) * (1.0 if len(series.x) == 1 else 0.7)
+    def paint_series(self, painter: QPainter, picture: ChartPicture) -> None:
+        """Draw the separators, the front, and the lines, bars and marks of all series."""
+        theme = current_theme()
+        painter.save()
+        painter.setClipRect(self.plot_area())
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(QColor(theme.outline), 1.0, Qt.PenStyle.DotLine))
+        self._paint_separators(painter)
+        painter.setPen(QPen(QColor(theme.muted_text), 1.5, Qt.PenStyle.DashLine))
+        painter.drawPolyline(QPolygonF(self._in_widget(self._front())))
+        for series in picture.series:
+            color = QColor(series_color(series.number))
+            painter.setPen(QPen(color, 1.5, _DASHES[series.number % len(_DASHES)]))
+            self.paint_line(painter, series)
+            painter.setPen(QPen(color, 1.5))
+            for ends in self._bar_ends(series):
+                painter.drawLine(*self._in_widget(ends))
+        for series in picture.series:
+            # Marks along a line are smaller.
+            size = self.mark_size() * (1.0 if len(series.x) == 1 else 0.7)
+            places = self._places[series.key]
+            for at in self._in_widget(places[np.isfinite(places).all(axis=1)]):
+                paint_mark(painter, at, series.number, size)
+        painter.restore()
 
-    def _add(self, item: pg.GraphicsObject) -> None:
-        self._items.append(item)
-        self.view.addItem(item, ignoreBounds=True)
+    def paint_line(self, painter: QPainter, series: ChartSeries) -> None:
+        """Draw the line of a series of several points, with a gap where a value has no place."""
+        places = self._places[series.key]
+        gaps = np.flatnonzero(~np.isfinite(places).all(axis=1))
+        for part in np.split(places, gaps) if len(places) > 1 else ():
+            painter.drawPolyline(QPolygonF(self._in_widget(part[np.isfinite(part).all(axis=1)])))
+
+    def _paint_separators(self, painter: QPainter) -> None:
+        assert self._scales is not None
+        area, (across, up) = self.plot_area(), self._scales
+        for at in self._in_widget(np.array([[x, up.low] for x in across.separators]).reshape(-1, 2)):
+            painter.drawLine(QPointF(at.x(), area.top()), QPointF(at.x(), area.bottom()))
+        for at in self._in_widget(np.array([[across.low, y] for y in up.separators]).reshape(-1, 2)):
+            painter.drawLine(QPointF(area.left(), at.y()), QPointF(area.right(), at.y()))
 
     @Slot()
     def _show_ticks(self) -> None:
@@ -254,14 +241,6 @@ class ChartCanvas(pg.GraphicsView):
         self._rebuild()
 
 
-def _by_look(series: Iterable[ChartSeries]) -> dict[int, list[ChartSeries]]:
-    """Return series by the number of the first that has their colour and dashes."""
-    found: dict[int, list[ChartSeries]] = {}
-    for one in series:
-        found.setdefault(one.number % LOOKS, []).append(one)
-    return found
-
-
 def _scales(series: Sequence[ChartSeries]) -> tuple[ChartScale, ChartScale]:
     """Return the scales that hold all points and bars."""
     found = []
@@ -274,9 +253,3 @@ def _scales(series: Sequence[ChartSeries]) -> tuple[ChartScale, ChartScale]:
                 values.append(spread.ravel())
         found.append(scale_of(np.concatenate(values)))
     return found[0], found[1]
-
-
-def _cosmetic(pen: QPen) -> QPen:
-    """Return a pen whose width is in pixels, whatever the scale."""
-    pen.setCosmetic(True)
-    return pen

@@ -185,6 +185,7 @@ class Chart(ChartCanvas):
         if self.picture is None:
             paint_empty(painter, area.toRect(), self._empty.text, theme)
         else:
+            self.paint_series(painter, self.picture)
             self._paint_titles(painter, self.picture)
             self._paint_pointed_line(painter, self.picture)
             self._paint_rings(painter, self.picture)
@@ -214,12 +215,11 @@ class Chart(ChartCanvas):
     def _paint_pointed_line(self, painter: QPainter, picture: ChartPicture) -> None:
         """Draw the line that is pointed at once more, bold: it stands out among many."""
         for series in picture.series:
-            if series.key == self._pointed and len(series.x) > 1:
-                places = [self.place_of(series.key, index) for index in range(len(series.x))]
+            if series.key == self._pointed:
                 painter.setPen(QPen(QColor(series_color(series.number)), 3.5))
                 painter.save()
                 painter.setClipRect(self.plot_area())
-                painter.drawPolyline([at for at in places if at is not None])
+                self.paint_line(painter, series)
                 painter.restore()
 
     def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:

@@ -1,12 +1,12 @@
 """The series of a crowded chart as a list: the mark and the whole name of each, linked with the marks in the chart."""
 
-from PySide6.QtCore import QEvent, QModelIndex, Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtCore import QEvent, QModelIndex, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QIcon, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.charts.records import ChartMark, ChartSeries
-from widgets.charts.series_marks import series_icon
+from widgets.charts.series_marks import SeriesIcon
 
 _ADDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
@@ -55,12 +55,13 @@ class ChartLegend(QListWidget):
     @Slot()
     def _refresh(self) -> None:
         side = current_theme().text_px
+        self.setIconSize(QSize(side, side))
         for row, series in enumerate(self._series):
             item, letter = self.item(row), self._marks.get(series.key, "")
             is_strong = series.key in self._strong
             item.setText(f"{letter}: {series.title}" if letter else series.title)
             item.setToolTip(f"{series.title}\nNo other is better in both." if is_strong else series.title)
-            item.setIcon(series_icon(series.number, side, self.devicePixelRatioF()))
+            item.setIcon(QIcon(SeriesIcon(series.number)))
             font = self.font()
             font.setBold(is_strong)
             item.setFont(font)

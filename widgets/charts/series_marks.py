@@ -5,8 +5,8 @@ green of vertices, the accent of the present step.
 """
 
 from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QColor, QIcon, QIconEngine, QPainter
 
 from widgets.basics.theme import Theme, current_theme
 
@@ -27,22 +27,31 @@ def series_shape(number: int) -> str:
     return SHAPES[number % len(SHAPES)]
 
 
-def series_growth(number: int) -> float:
-    """Return how much larger than others a shape is drawn: thin ones would look small."""
-    return 1.35 if series_shape(number) in THIN_SHAPES else 1.0
+def paint_mark(painter: QPainter, at: QPointF, number: int, size: float) -> None:
+    """Draw the mark of a series; shapes that are thin are drawn larger than others, or they would look small."""
+    shape = series_shape(number)
+    size *= 1.35 if shape in THIN_SHAPES else 1.0
+    painter.save()
+    painter.translate(at)
+    painter.scale(size, size)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(series_color(number)))
+    painter.drawPath(Symbols[shape])
+    painter.restore()
 
 
-def series_icon(number: int, side: int, ratio: float = 1.0) -> QIcon:
-    """Return the mark of a series as an icon."""
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    with QPainter(pixmap) as painter:
+class SeriesIcon(QIconEngine):
+    """The mark of a series as an icon, sharp in every size and in files."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self._number = number
+
+    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
+        """Draw the mark in the middle of a rectangle."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.translate(QPointF(side / 2, side / 2))
-        size = 0.72 * side * series_growth(number)
-        painter.scale(size, size)
-        painter.setPen(QPen(Qt.PenStyle.NoPen))
-        painter.setBrush(QColor(series_color(number)))
-        painter.drawPath(Symbols[series_shape(number)])
-    return QIcon(pixmap)
+        paint_mark(painter, QRectF(rect).center(), self._number, 0.72 * rect.height())
+
+    def clone(self) -> QIconEngine:
+        """Return the same."""
+        return SeriesIcon(self._number)

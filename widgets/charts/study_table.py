@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
+from PySide6.QtCore import QModelIndex, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QGuiApplication,
+    QIcon,
     QKeyEvent,
     QKeySequence,
     QPainter,
@@ -16,7 +17,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidge
 
 from widgets.basics.caption_paint import paint_empty
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.charts.series_marks import series_icon
+from widgets.charts.series_marks import SeriesIcon
 
 EMPTY = "The numbers of every method stand here as soon as they are measured."
 _FULL = int(Qt.ItemDataRole.UserRole)
@@ -114,11 +115,12 @@ class StudyTable(QTableView):
     def _rebuild(self) -> None:
         record = self._record
         side = current_theme().text_px + 3
+        self.setIconSize(QSize(side, side))
         self._items.clear()
         self._items.setHorizontalHeaderLabels(list(record.head))
         for number in self._row_order():
             items = [_item(cell, record.keys[number]) for cell in record.rows[number]]
-            items[0].setIcon(series_icon(number, side, self.devicePixelRatioF()))
+            items[0].setIcon(QIcon(SeriesIcon(number)))
             self._items.appendRow(items)
         self.verticalHeader().setDefaultSectionSize(side + 10)
         self.horizontalHeader().resizeSections(QHeaderView.ResizeMode.ResizeToContents)

@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, Q
 from app.export.study import study_content
 from app.files.kept_results import KeptResults
 from app.files.study_files import EXTENSION, load_study, study_json
-from app.pages.compare.charts import TIME
 from app.pages.compare.jobs import StudyJobs, StudyResult
 from app.pages.compare.pictures_presenter import StudyPicturesPresenter
 from app.pages.compare.presenter import StudyPresenter
@@ -198,12 +197,10 @@ class ComparePage(FilePage):
         return "" if study is None else f"study-{study.family}-{study.work.name}"
 
     def file_content(self, ending: str) -> bytes | None:
-        """Return the study in a file; pictures are of time, those of another cost are as they are seen."""
+        """Return the study in a file; the charts have the chosen axes."""
         study, choice = self._finished(), self.studies.choice
         assert study is not None
-        if ending in (".svg", ".png") and choice.cost != TIME:
-            return None
-        return study_content(study, choice.measure, ending)
+        return study_content(study, choice.measure, ending, choice.cost)
 
     def _finished(self) -> Study | None:
         result = self.studies.result

@@ -29,18 +29,6 @@ def digits(number: float, count: int = 3) -> str:
     return f"{number:.{count - 1}e}"
 
 
-def names_of(study: Study) -> dict[str, str]:
-    """Return by method what its point is called beside its mark: its name alone where all are of one family.
-
-    Where they are of several, a point that changes several settings goes by its title.
-    """
-    methods = [point.method for point in study.points]
-    families = {tuple(part.split("=", 1)[0] for part in method.split()) for method in methods}
-    if len(families) > 1:
-        return {point.method: point.title if " " in point.method else point.method for point in study.points}
-    return {method: ", ".join(part.split("=", 1)[1] for part in method.split()) for method in methods}
-
-
 def work_sentence(study: Study) -> str:
     """Return what was done, with the values of all dials."""
     parts = [f"{study.work.title}{f' ({study.scene})' if study.scene else ''}"]

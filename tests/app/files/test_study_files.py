@@ -5,22 +5,21 @@ import io
 import json
 import re
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication
 
-from app.export.study import export_study, study_csv
-from app.export.study_axes import axis_of, ticks
-from app.export.study_chart import study_svg
-from app.export.study_labels import Box, place_labels, spread_apart
+from app.export.study import export_study, study_content, study_csv, study_sheet
 from app.files.study_files import StudyFileError, load_study, save_study
 from app.pages.compare.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
 from core.study.accuracy.record import Dial
+from widgets.basics.theme import DARK, LIGHT, current_theme, paint_as
+from widgets.charts.chart import Chart
 
 
 @pytest.fixture(scope="module")
@@ -149,42 +148,58 @@ def test_the_table_has_the_numbers_of_the_study(study: Study) -> None:
     assert [row["dial_size"] for row in rows[4:]] == ["2.0", "2.0", "8.0"]
 
 
-def test_charts_match_the_numbers_and_name_everything(study: Study) -> None:
-    tree = ElementTree.fromstring(study_svg(study))
-    words = " ".join(node.text or "" for node in tree.iter() if node.tag.endswith("text"))
+def words_of(study: Study, measure: str | None = None) -> str:
+    """Return all texts of the charts as one line."""
+    svg = study_content(study, measure, ".svg")
+    assert svg is not None
+    return " ".join(
+        node.text or "" for node in ElementTree.fromstring(svg).iter() if node.tag.endswith("text")
+    )
+
+
+def test_charts_name_everything(study: Study, qapp: QApplication) -> None:
+    words = words_of(study)
     for needed in (
-        "fill=spans",
-        "fill=blocks",
-        "coverage=float64",
+        "Spans",
+        "Blocks",
+        "<Float & 64>",
         "It takes too long.",
         "cull=back",
         "seed 3",
+        "Pareto front",
     ):
         assert needed in words
     for name in ("processor", "python", "numpy", "rasterscope", "date"):
         assert study.machine[name] in words
-    circles = [node for node in tree.iter() if node.tag.endswith("circle") and node.get("r") == "5"]
-    assert len(circles) == 3
-    x = [float(node.get("cx", 0)) for node in circles]
-    y = [float(node.get("cy", 0)) for node in circles]
-    assert x[2] < x[0] < x[1]
-    assert y[0] == y[1] > y[2] + 20  # zero has a place of its own, below
-    fills = [node.get("fill") for node in circles]
-    assert fills[0] == fills[2] != fills[1]  # filled: on the front
+    assert words.count("Time per triangle") == 2, "of the chart of errors, and of the chart of growth"
 
 
-def test_the_chart_of_another_error_says_what_is_left_out(study: Study) -> None:
-    words = study_svg(study, "late")
-    assert "Not shown: coverage=float64. It has none." in words
-    assert words.count('r="5"') == 2
+def test_charts_on_paper_are_those_of_the_page(study: Study, qapp: QApplication) -> None:
+    with paint_as(LIGHT):
+        sheet = study_sheet(study, study.measures[0])
+    scatter, growth = (chart.picture for chart in sheet.findChildren(Chart))
+    assert scatter is not None
+    assert growth is not None
+    assert [float(series.y[0]) for series in scatter.series] == [0.0, 0.0, 12.25]
+    assert scatter.front == ("coverage=float64", "fill=spans")
+    assert [len(series.x) for series in growth.series] == [3, 2, 1]
+
+
+def test_the_theme_of_the_window_does_not_change_a_file(study: Study, qapp: QApplication) -> None:
+    light = study_content(study, None, ".svg")
+    with paint_as(DARK):
+        assert study_content(study, None, ".svg") == light
+        assert current_theme() == DARK
+
+
+def test_the_chart_of_another_error_says_what_is_left_out(study: Study, qapp: QApplication) -> None:
+    assert "<Float & 64>. It has none." in words_of(study, "late")
     with pytest.raises(ValueError, match="error of fill must be one of wrong, late, got speed"):
-        study_svg(study, "speed")
+        study_content(study, "speed", ".svg")
 
 
-def test_a_study_without_numbers_has_an_empty_chart(study: Study) -> None:
-    empty = replace(study, points=study.points[3:], growth={})
-    assert 'r="5"' not in study_svg(empty)
-    assert "Brute" not in study_svg(empty)
+def test_a_study_without_numbers_has_an_empty_chart(study: Study, qapp: QApplication) -> None:
+    assert "Every method refused this work" in words_of(replace(study, points=study.points[3:], growth={}))
 
 
 def test_files_are_written_and_say_nothing_of_the_user(study: Study, tmp_path: Path, qapp) -> None:
@@ -199,39 +214,6 @@ def test_files_are_written_and_say_nothing_of_the_user(study: Study, tmp_path: P
         assert str(Path.home()).encode() not in content
     png = next(path for path in written if path.suffix == ".png").read_bytes()
     assert png.startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize("count", [1, 8, 25])
-def test_names_of_marks_do_not_lie_on_each_other(count: int) -> None:
-    source = np.random.default_rng(count)
-    places = [
-        (float(x), float(y))
-        for x, y in zip(source.uniform(200, 500, count), source.uniform(200, 420, count), strict=True)
-    ]
-    area = Box(90, 80, 990, 500)
-    labels = place_labels(places, [f"name={k} of some length" for k in range(count)], area)
-    for number, label in enumerate(labels):
-        assert area.contains(label.box)
-        assert not any(label.box.overlaps(other.box) for other in labels[:number])
-        assert not any(label.box.overlaps(Box(x - 4, y - 4, x + 4, y + 4)) for x, y in places)
-
-
-def test_heights_are_spread_apart_in_their_order() -> None:
-    heights = [100.0, 101.0, 99.0, 300.0, 498.0, 499.0]
-    moved = spread_apart(heights, 14, 0, 500)
-    in_order = [moved[k] for k in sorted(range(len(heights)), key=lambda k: heights[k])]
-    assert all(after - before >= 14 - 1e-9 for before, after in pairwise(in_order))
-    assert moved[3] == 300.0
-    assert max(moved) <= 500
-
-
-@pytest.mark.parametrize("values", [[1.0], [1.0, 1.2], [1e-9, 1e3], []])
-def test_axes_hold_their_values_and_have_numbers(values: list[float]) -> None:
-    axis = axis_of(values, 100, 900)
-    assert all(100 <= axis.place(value) <= 900 for value in values)
-    assert axis.place(0.0) == 100
-    assert 1 <= len(ticks(axis)) <= 18
-    assert all(100 <= axis.place(value) <= 900 for value in ticks(axis))
 
 
 def test_numbers_as_they_are_read() -> None:

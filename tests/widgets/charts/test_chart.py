@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtGui import QColor, QIcon, QImage, QPainter
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -13,7 +13,7 @@ from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, contrast
 from widgets.charts.chart import Chart
 from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
-from widgets.charts.series_marks import SHAPES, series_color, series_icon, series_shape
+from widgets.charts.series_marks import SHAPES, SeriesIcon, series_color, series_shape
 
 TIME, ERROR = ChartAxis("Time per line", "s"), ChartAxis("Misclassified pixels", "per million")
 
@@ -198,8 +198,11 @@ def test_shapes_tell_series_apart_without_colour(qtbot: QtBot) -> None:
     assert len({series_shape(number) for number in range(len(SHAPES))}) == len(SHAPES) == 12
     masks = set()
     for number in range(len(SHAPES)):
-        alpha = series_icon(number, 24).pixmap(24, 24).toImage().convertToFormat(QImage.Format.Format_Alpha8)
-        masks.add(bytes(alpha.constBits()))
+        image = QImage(24, 24, QImage.Format.Format_Alpha8)
+        image.fill(0)
+        with QPainter(image) as painter:
+            QIcon(SeriesIcon(number)).paint(painter, image.rect())
+        masks.add(bytes(image.constBits()))
     assert len(masks) == len(SHAPES)
 
 

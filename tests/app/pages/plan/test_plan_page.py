@@ -10,8 +10,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.pages.compare.charts import title_of
 from app.pages.compare.page import ComparePage
-from app.pages.compare.words import names_of
 from app.pages.plan.page import PlanPage
 from app.pages.plan.points import chosen_points, plan_candidates
 from app.pages.plan.words import details, headline, rows_of
@@ -287,7 +287,7 @@ def test_a_plan_that_is_applied_is_the_scene_as_it_is() -> None:
         points=tuple(Point(each.method, each.title, np.ones(1), 1) for each in (*others, everything)),
     )
     assert chosen_points(study, chosen) == (f"fill={chosen.settings.fill}",)
-    assert names_of(study)[everything.method] == "Everything on"
+    assert title_of(study.points[-1], [point.method for point in study.points]) == "Everything on"
     one_away = replace(chosen.everything, antialiasing="none")
     (choice,) = plan_candidates(chosen, one_away, (Candidate("antialiasing=ssaa-16", ""),))
     assert settings_of(one_away, choice.method) == chosen.settings

@@ -7,12 +7,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.export.atlas_svg import atlas_svg
+from app.export.atlas import atlas_sheet
 from app.pages.stability.page import StabilityPage
 from app.pages.stability.severity_curves import BELOW_ZERO, NOTHING_RUN, severity_chart
 from app.window.main_window import MainWindow
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 from widgets.atlas.records import CellPlace
+from widgets.basics.theme import LIGHT, paint_as
+from widgets.charts.chart import Chart
 from widgets.charts.records import ChartEmpty, ChartPicture
 
 AXIS = Axis("gap", "Gap", "pixels", (0.001, 0.01, 0.1), True)
@@ -102,11 +104,13 @@ def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPag
     assert not page.curves[1].isVisible()
 
 
-def test_an_axis_below_zero_says_where_to_look() -> None:
+def test_an_axis_below_zero_says_where_to_look(qapp: QApplication) -> None:
     axis = Axis("gap", "Gap", "", (-1.0, 1.0))
     found = severity_chart(axis, {WEAK: np.array([1.0, 0.0])}, {WEAK: "float16"})
     assert found == ChartEmpty(BELOW_ZERO)
-    assert "Severity" not in atlas_svg(hand_made(Axis("gap", "Gap", "", (-1.0, 0.0, 1.0))))
+    with paint_as(LIGHT):
+        sheet = atlas_sheet(hand_made(Axis("gap", "Gap", "", (-1.0, 0.0, 1.0))))
+    assert not sheet.findChildren(Chart)
 
 
 def test_what_has_not_been_run_has_no_line() -> None:
@@ -118,8 +122,8 @@ def test_what_has_not_been_run_has_no_line() -> None:
     assert [(series.key, series.number) for series in found.series] == [(STRONG, 1)]
 
 
-def test_the_drawing_has_a_mark_for_every_severity() -> None:
-    svg = atlas_svg(hand_made())
-    assert svg.count("<circle") == 6
-    assert "how wrong a run is" in svg
-    assert svg.count(f">{WEAK}<") == 2, "above its map and at the end of its line"
+def test_a_file_has_the_curves_of_the_page(qapp: QApplication) -> None:
+    with paint_as(LIGHT):
+        (chart,) = atlas_sheet(hand_made()).findChildren(Chart)
+    assert chart.picture is not None
+    assert [series.y.tolist() for series in chart.picture.series] == [[40.0, 3.0, 0.0], [0.0, 0.0, 0.0]]

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from PySide6.QtWidgets import QApplication
 
-from app.export.atlas import atlas_csv, atlas_json
-from app.export.atlas_svg import atlas_svg
+from app.export.atlas import atlas_csv, atlas_json, atlas_sheet
 from app.export.atlas_text import MARKS, WORDS, atlas_text
+from app.export.sheet import sheet_bytes
 from app.files.state_files import load_state
 from core.study.stability import Axis, Outcome, experiments, stress
 from tests.app.cli.cli_runs import refused, run_program
@@ -151,10 +152,11 @@ def test_everything_is_in_the_json(atlas) -> None:
         assert saved["remarks"] == [[each.remark(column, 0) for column in range(2)]]
 
 
-def test_the_drawing_has_a_square_for_every_cell(atlas) -> None:
-    svg = atlas_svg(atlas)
-    seen = {outcome for each in atlas.maps for outcome in each.outcome.ravel().tolist()}
-    squares = svg.count("<rect") - 1
-    assert squares == sum(each.outcome.size for each in atlas.maps) + len(seen)
+def test_the_drawing_names_every_method_and_outcome(atlas, qapp: QApplication) -> None:
+    words = sheet_bytes(lambda: atlas_sheet(atlas), ".svg").decode()
+    seen = {Outcome(value) for each in atlas.maps for value in each.outcome.ravel().tolist()}
+    for shown in (atlas.experiment.title, "abacus", *(WORDS[outcome] for outcome in seen)):
+        assert shown in words
     for each in atlas.maps:
-        assert f">{each.method}<" in svg
+        assert f">{each.method.partition('=')[2]}<" in words
+    assert "<image" not in words, "cells are squares and characters"
