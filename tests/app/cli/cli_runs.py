@@ -1,4 +1,4 @@
-"""Runs of the program as a user starts it: a process of its own, or its command line within this one."""
+"""Runs of the program's command line: within this process, or in one of its own as a user starts it."""
 
 import contextlib
 import io
@@ -12,36 +12,36 @@ from app.cli.commands import run_command_line
 ROOT = Path(__file__).resolve().parents[3]
 
 
-def run_program(*arguments, cwd=None, stdin=None, **variables):
-    """Run ``rasterscope`` with these arguments and return the finished process."""
+def start_program(*arguments, cwd=None, **variables):
+    """Start ``rasterscope`` with these arguments and environment variables; return the finished process."""
     texts = {name: str(value) for name, value in variables.items()}
     environment = dict(os.environ, PYTHONPATH=str(ROOT), PYTHONWARNINGS="error", **texts)
     command = [sys.executable, "-P", "-m", "app", *map(str, arguments)]
-    return subprocess.run(
-        command, capture_output=True, encoding="utf-8", cwd=cwd, env=environment, input=stdin, timeout=120
-    )
+    return subprocess.run(command, capture_output=True, encoding="utf-8", cwd=cwd, env=environment, input="")
 
 
-def refused(code, *arguments, cwd=None, **how):
+def run_program(*arguments, cwd=None):
+    """Run the command line with these arguments in this process: a start takes longer than most commands."""
+    command = [str(argument) for argument in arguments]
+    output, errors = io.StringIO(), io.StringIO()
+    with (
+        contextlib.redirect_stdout(output),
+        contextlib.redirect_stderr(errors),
+        contextlib.chdir(cwd or Path.cwd()),
+    ):
+        code = run_command_line(command)
+    return subprocess.CompletedProcess(command, code, output.getvalue(), errors.getvalue())
+
+
+def refused(code, *arguments, cwd=None, **variables):
     """Run the program where it must fail with ``code``; return its one line without the line's end.
 
-    It runs in this process, which takes a hundredth of the time, unless ``how`` asks for one of its own.
+    With environment variables it is started in a process of its own.
     """
-    if how:
-        run = run_program(*arguments, cwd=cwd, **how)
-        found, output, errors = run.returncode, run.stdout, run.stderr
-    else:
-        written, told = io.StringIO(), io.StringIO()
-        with (
-            contextlib.redirect_stdout(written),
-            contextlib.redirect_stderr(told),
-            contextlib.chdir(cwd or Path.cwd()),
-        ):
-            found = run_command_line([str(argument) for argument in arguments])
-        output, errors = written.getvalue(), told.getvalue()
-    assert found == code, errors
-    assert output == ""
-    lines = errors.splitlines()
-    assert len(lines) == 1, errors
+    run = (start_program if variables else run_program)(*arguments, cwd=cwd, **variables)
+    assert run.returncode == code, run.stderr
+    assert run.stdout == ""
+    lines = run.stderr.splitlines()
+    assert len(lines) == 1, run.stderr
     assert lines[0].startswith("rasterscope")
     return lines[0]

@@ -5,7 +5,6 @@ import json
 import signal
 import subprocess
 import sys
-import time
 from io import StringIO
 
 import numpy as np
@@ -23,7 +22,7 @@ from core.framebuffer.display import to_display
 from core.methods import table
 from core.scene import ClipScene
 from lessons.scenes import make_scene, scene_names
-from tests.app.cli.cli_runs import ROOT, run_program
+from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
 
 HALF_COVERED = ClipScene(
@@ -234,7 +233,8 @@ def test_scenes_lists_the_catalogue():
 
 
 def test_version_and_help():
-    assert succeeded("--version") == f"rasterscope {__version__}\n"
+    version = start_program("--version")
+    assert (version.returncode, version.stdout, version.stderr) == (0, f"rasterscope {__version__}\n", "")
     text = succeeded("--help")
     for word in ("render", "trace", "methods", "scenes", "screenshot", "opengl-check", "examples", "FILE"):
         assert word in text
@@ -270,30 +270,21 @@ HEADLESS = [
 ]
 
 
-@pytest.mark.parametrize("arguments", HEADLESS, ids=lambda arguments: " ".join(arguments))
-def test_commands_without_a_window_do_not_import_qt(tmp_path, arguments):
+def test_commands_without_a_window_do_not_import_qt(tmp_path):
     code = (
-        "import sys; from app.__main__ import main; code = main(sys.argv[1:]); "
-        "print([m for m in sys.modules if m.partition('.')[0] in ('PySide6', 'shiboken6')], file=sys.stderr); "
-        "sys.exit(code)"
+        "import json, sys; from app.__main__ import main; "
+        "codes = [main(arguments) for arguments in json.loads(sys.argv[1])]; "
+        "qt = [m for m in sys.modules if m.partition('.')[0] in ('PySide6', 'shiboken6')]; "
+        "print(codes, qt, file=sys.stderr)"
     )
     run = subprocess.run(
-        [sys.executable, "-c", code, *arguments],
+        [sys.executable, "-c", code, json.dumps(HEADLESS)],
         capture_output=True,
         text=True,
         env={"PYTHONPATH": str(ROOT)},
         cwd=tmp_path,
     )
-    assert (run.returncode, run.stderr) == (0, "[]\n")
-
-
-def test_methods_answers_at_once():
-    times = []
-    for _ in range(3):
-        start = time.perf_counter()
-        succeeded("methods")
-        times.append(time.perf_counter() - start)
-    assert min(times) < 1.5
+    assert (run.returncode, run.stderr) == (0, f"{[0] * len(HEADLESS)} []\n")
 
 
 def test_a_reader_that_leaves_is_no_error():
@@ -309,7 +300,7 @@ def test_a_reader_that_leaves_is_no_error():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for one process")
 def test_an_interrupt_ends_with_130_and_without_a_word():
-    command = [sys.executable, "-P", "-m", "app", "trace", "cube", "--stage", "raster", "--size", "200x200"]
+    command = [sys.executable, "-P", "-m", "app", "trace", "cube", "--stage", "raster", "--size", "60x60"]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={"PYTHONPATH": str(ROOT)}
     ) as process:

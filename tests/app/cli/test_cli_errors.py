@@ -228,7 +228,7 @@ def test_what_goes_to_a_device_goes_there():
 def test_a_window_without_a_display_says_so(monkeypatch):
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
-    line = refused(1, "cube", stdin="")
+    line = refused(1, "cube", QT_QPA_PLATFORM="")
     assert line.startswith("rasterscope: there is no display to open a window on")
     assert "rasterscope render FILE -o out.png" in line
 

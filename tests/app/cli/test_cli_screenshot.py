@@ -11,16 +11,14 @@ from PIL import Image
 
 from app.export.atlas import atlas_json
 from core.study.stability import Axis, experiments, stress
-from tests.app.cli.cli_runs import ROOT, refused, run_program
+from tests.app.cli.cli_runs import ROOT, refused, start_program
 
 NO_DISPLAY = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""}
 
 
 LINES = ["--page", "compare", "--show", "visibility", "--work", "cycle", "--rounds", "1"]
-MAPS = ["--page", "stability", "--show", "painters-cycle"]
 DIAL = ["--page", "stability", "--show", "precision-dial"]
 SHOTS = {
-    "light": ["shared-edge", "--size", "1100x700"],
     "dark": ["shared-edge", "--size", "1100x700", "--theme", "dark"],
     "step": ["shared-edge"],
     "first": ["shared-edge", "--stage", "raster", "--step", "1"],
@@ -29,7 +27,6 @@ SHOTS = {
     "plain": ["shared-edge", "--stage", "resolve"],
     "smooth": ["shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16"],
     "lines": ["shared-edge", *LINES],
-    "maps": ["shared-edge", *MAPS],
     "plan": ["shared-edge", "--page", "plan"],
     "closed": ["shared-edge", *DIAL],
     "opened": ["shared-edge", *DIAL, "--choose", "coverage=float32"],
@@ -88,7 +85,7 @@ def differs(first, second):
 
 
 def test_the_program_makes_a_picture_without_a_display(tmp_path):
-    run = run_program(
+    run = start_program(
         *["screenshot", "shared-edge", "-o", "window.png"],
         cwd=tmp_path,
         RASTERSCOPE_CONFIG=tmp_path / "none",
@@ -102,10 +99,9 @@ def test_pictures_show_what_was_asked_for(tmp_path):
     """One test, so that one worker makes the pictures once."""
     pictures = pictures_in(tmp_path)
 
-    light, dark = pictures["light"], pictures["dark"]
-    assert light.shape == dark.shape == (700, 1100, 3)
-    assert light.mean() > 180
-    assert dark.mean() < 90
+    assert pictures["dark"].shape == (700, 1100, 3)
+    assert pictures["dark"].mean() < 90
+    assert pictures["step"].mean() > 180
 
     # Stage, step, view and method.
     first, last, space = (pictures[name] for name in ("first", "last", "space"))
@@ -115,7 +111,7 @@ def test_pictures_show_what_was_asked_for(tmp_path):
     assert differs(pictures["plain"], pictures["smooth"]) > 0.01
 
     # Every page is filled, and what is behind a mark is opened.
-    pages = [pictures[name] for name in ("step", "lines", "maps", "plan")]
+    pages = [pictures[name] for name in ("step", "lines", "closed", "plan")]
     for number, page in enumerate(pages):
         for other in pages[:number]:
             assert differs(page, other) > 0.05
@@ -142,8 +138,7 @@ def test_pictures_show_what_was_asked_for(tmp_path):
     ],
 )
 def test_options_of_another_page_are_wrong_usage(tmp_path, arguments, wanted):
-    line = refused(2, "screenshot", *arguments, "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
-    assert wanted in line
+    assert wanted in refused(2, "screenshot", *arguments, "-o", "a.png", cwd=tmp_path)
 
 
 REFUSED = [
@@ -171,8 +166,3 @@ def test_what_cannot_be_done_is_one_line(tmp_path):
         assert line.startswith("rasterscope screenshot: ")
         assert wanted in line
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_picture_that_cannot_be_made_ends_the_program_with_1(tmp_path):
-    line = refused(1, "screenshot", "gone.obj", "-o", "a.png", cwd=tmp_path, **NO_DISPLAY)
-    assert "there is no file gone.obj" in line

@@ -12,9 +12,7 @@ QUICK = ("--rounds", 1, "--no-growth")
 
 
 def test_a_family_is_measured_printed_and_written(tmp_path: Path) -> None:
-    run = run_program(
-        "study", "cull", "--dial", "rings=4", *QUICK, "-o", tmp_path, QT_QPA_PLATFORM="offscreen"
-    )
+    run = run_program("study", "cull", "--dial", "rings=4", *QUICK, "-o", tmp_path)
     assert run.returncode == 0, run.stderr
     assert run.stderr == ""
     study = load_study(tmp_path / "study-cull-closed.json")
@@ -40,7 +38,6 @@ def test_the_pipeline_takes_a_scene_and_settings(tmp_path: Path) -> None:
             *QUICK,
         ),
         *("-o", tmp_path),
-        QT_QPA_PLATFORM="offscreen",
     )
     assert run.returncode == 0, run.stderr
     study = load_study(tmp_path / "study-pipeline-scene.json")

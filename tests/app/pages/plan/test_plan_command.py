@@ -10,6 +10,7 @@ from app.files.open_any import open_any
 from core.study import Tolerance, plan
 from core.study.planner.measuring import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
+from tests.core.covering import in_turn
 
 
 def test_a_scene_is_planned_and_measured() -> None:
@@ -49,11 +50,15 @@ def test_what_is_wrong_is_told(arguments: tuple[str, ...], said: str) -> None:
     assert said in refused(2, "plan", *arguments)
 
 
-@pytest.mark.parametrize("name", ["teapot", "spot", "suzanne"])
-def test_plans_of_the_models_beside_the_project_hold(name: str, shared_folder: Path) -> None:
+MODELS, TOLERANCES = ["teapot", "spot", "suzanne"], [Tolerance(), Tolerance(8, 400), Tolerance.exact()]
+
+
+@pytest.mark.parametrize(("name", "tolerance"), in_turn(MODELS, TOLERANCES))
+def test_plans_of_the_models_beside_the_project_hold(
+    name: str, tolerance: Tolerance, shared_folder: Path
+) -> None:
     scene = replace(open_any(str(shared_folder / "meshes" / f"{name}.obj")).document.scene, size=(72, 72))
-    for tolerance in (Tolerance(), Tolerance(8, 400), Tolerance.exact()):
-        chosen = plan(scene, tolerance)
-        differences = difference(shown(scene, chosen.settings), shown(scene, chosen.everything))
-        assert np.count_nonzero(differences > tolerance.bytes) <= tolerance.pixels
-        assert chosen.settings != chosen.everything
+    chosen = plan(scene, tolerance)
+    differences = difference(shown(scene, chosen.settings), shown(scene, chosen.everything))
+    assert np.count_nonzero(differences > tolerance.bytes) <= tolerance.pixels
+    assert chosen.settings != chosen.everything

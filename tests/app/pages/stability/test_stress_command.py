@@ -24,7 +24,7 @@ def atlas():
 
 
 def test_an_experiment_is_run_printed_and_written(tmp_path: Path) -> None:
-    run = run_program("stress", "zero-length-segments", "-o", tmp_path, QT_QPA_PLATFORM="offscreen")
+    run = run_program("stress", "zero-length-segments", "-o", tmp_path)
     assert run.returncode == 0, run.stderr
     assert run.stderr == ""
     info = experiments.get("zero-length-segments").info
@@ -44,15 +44,7 @@ def run_version() -> str:
 
 
 def test_a_failing_cell_is_made_small_and_written(tmp_path: Path) -> None:
-    run = run_program(
-        "stress",
-        "shared-edges",
-        "--shrink",
-        "fill_rule=inclusive",
-        "-o",
-        tmp_path,
-        QT_QPA_PLATFORM="offscreen",
-    )
+    run = run_program("stress", "shared-edges", "--shrink", "fill_rule=inclusive", "-o", tmp_path)
     assert run.returncode == 0, run.stderr
     assert "2 triangles in 1x1 pixels" in run.stdout
     test = tmp_path / "test_shared_edges_inclusive.py"
@@ -75,7 +67,7 @@ def test_a_failing_cell_is_made_small_and_written(tmp_path: Path) -> None:
 def test_segments_textures_and_lit_meshes_are_made_small_and_open_again(
     name: str, method: str, words: str, stage: str, tmp_path: Path
 ) -> None:
-    run = run_program("stress", name, "--shrink", method, "-o", tmp_path, QT_QPA_PLATFORM="offscreen")
+    run = run_program("stress", name, "--shrink", method, "-o", tmp_path)
     assert run.returncode == 0, run.stderr
     assert words in run.stdout
     title = f"{name}-{method.partition('=')[2]}"
