@@ -22,7 +22,7 @@ from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
 
-DESCRIPTION = """Choose for every stage the cheapest method whose bounded error stays within a tolerance, against
+DESCRIPTION = """Try cheaper methods at every stage, choose the cheapest whose error stays within a tolerance, against
 everything on (16 samples a pixel, each lit and textured by itself), and measure whether it does."""
 EXAMPLES = """examples:
   rasterscope plan teapot.obj

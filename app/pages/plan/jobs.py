@@ -12,7 +12,8 @@ from app.background.workers import JobGroup, Progress
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
-from core.study.planner.measuring import alone_settings, difference, shown
+from core.study.planner.measuring import alone_settings
+from core.study.planner.trials import difference, shown
 
 
 @dataclass(frozen=True, eq=False)

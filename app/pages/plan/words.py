@@ -10,15 +10,14 @@ from core.explain.stage_texts import family_title
 from core.methods import table
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
-from core.study.planner.words.phrases import in_bytes
+from core.study.planner.phrases import in_bytes
 from widgets.plan.rows import PlanRow, Verdict
 
 EMPTY = (
-    "What does this scene need? No more than that: Look (F5) goes through the open scene and chooses, stage by "
-    "stage, the cheapest method whose error stays within the tolerance: clipping or none, a perspective divide or "
-    "none, a depth buffer or none, how many samples. Each choice has its reason and a bound of its error; then all "
-    "of them are drawn and timed against the picture with everything on, and a prediction that was wrong is told. "
-    "Apply takes the choice over."
+    "What does this scene need? No more than that: Look (F5) tries cheaper methods stage by stage and chooses the "
+    "cheapest whose error stays within the tolerance: clipping or none, a perspective divide or none, a depth buffer "
+    "or none, how many samples. Each choice has its reason and a predicted error. Then all of them are drawn and timed "
+    "against the picture with everything on, and wrong predictions are flagged. Apply uses these settings."
 )
 
 
@@ -46,7 +45,9 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
     is_cheaper = decision.chosen != decision.dearest
     instead = f"instead of {table.get(decision.setting, decision.dearest).title}" if is_cheaper else ""
     if not is_cheaper:
-        instead = "kept: nothing cheaper is sure to do" if decision.is_needed else "there is nothing cheaper"
+        instead = (
+            "kept: cheaper methods are too far off" if decision.is_needed else "there is nothing cheaper"
+        )
     verdict = Verdict.OPEN
     if outcome is not None:
         verdict = Verdict.HELD if outcome.is_right else Verdict.WRONG
@@ -119,7 +120,7 @@ def details(plan: Plan, report: PlanReport) -> str:
             f"The first plan was beyond the tolerance when measured, so everything is on again at {names}."
         )
     needed = [family_title(each.setting) for each in plan.decisions if each.is_needed]
-    kept = f"Kept, as nothing cheaper is sure to do: {joined(needed)}."
+    kept = f"Kept, as cheaper methods are too far off: {joined(needed)}."
     parts.append(kept if needed else "Nothing expensive is needed.")
     return " ".join(parts)
 

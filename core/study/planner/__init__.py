@@ -1,7 +1,7 @@
-"""No more than a scene needs: the cheapest methods whose bounded errors stay within a tolerance.
+"""No more than a scene needs: the cheapest methods whose errors stay within a tolerance.
 
-A plan looks at the scene (``look``), bounds what cheaper methods would change (``bounds``), chooses stage by stage
-(``choices``), says why (``words``), and is measured (``measuring``).
+A plan counts what there is in the scene (``findings``), tries cheaper methods in parts of the picture (``trials``),
+chooses family by family (``planning``), says why (``reasons``), and is measured (``measuring``).
 """
 
 from core.study.planner.measuring import check_plan, measure_plan, plan_and_check

@@ -7,27 +7,20 @@ from time import perf_counter
 import numpy as np
 
 from core.fast_path import draw_picture
-from core.framebuffer.display import to_display
-from core.pipeline import render
 from core.records.arrays import Floats, Integers
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.speed_accuracy import collector_off
+from core.study.planner.phrases import capitalized, in_bytes, phrase
 from core.study.planner.planning import plan
-from core.study.planner.progress import Watch, unwatched
-from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance
-from core.study.planner.words.phrases import capitalized, in_bytes, phrase
+from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance, Watch, unwatched
+from core.study.planner.trials import difference, shown
 
 ROUNDS = 5
 
 
 def measure_plan(
-    scene: AnyScene,
-    chosen: Plan,
-    rounds: int = ROUNDS,
-    fallen_back: tuple[str, ...] = (),
-    watch: Watch = unwatched,
-    times_each: bool = False,
+    scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, watch: Watch = unwatched, times_each: bool = False
 ) -> PlanReport:
     """Draw a scene with everything on, with a plan's settings, and with each of its decisions alone.
 
@@ -37,10 +30,8 @@ def measure_plan(
     chosen : Plan
     rounds : int
         Timed drawings of each, in turn, from 1 on.
-    fallen_back : tuple of str
-        As `PlanReport.fallen_back`.
     watch : callable, optional
-        Told what is drawn, see `Watch`.
+        Called with what is drawn, see `Watch`.
     times_each : bool
         Whether each decision alone is timed too.
 
@@ -49,25 +40,95 @@ def measure_plan(
     Errors are those of all buffers (`render`) as bytes on the screen, the largest of red, green and blue. Times are
     those of `draw_picture`, each of a scene that nothing is known of.
     """
-    cheaper = [decision for decision in chosen.decisions if decision.chosen != decision.dearest]
+    steps = _Steps(watch, _comparisons(chosen) + _timings(chosen, rounds, times_each))
+    outcomes, differences = _compare(scene, chosen, {}, steps)
+    return _report(scene, chosen, outcomes, differences, rounds, (), steps, times_each)
+
+
+def plan_and_check(
+    scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None, rounds: int = ROUNDS
+) -> PlanReport:
+    """Plan, measure, and where the tolerance does not hold put decisions back until it does, see `check_plan`."""
+    return check_plan(scene, plan(scene, tolerance, base), rounds)
+
+
+def check_plan(
+    scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, watch: Watch = unwatched, times_each: bool = False
+) -> PlanReport:
+    """Measure a plan as `measure_plan` does, and where the tolerance does not hold put decisions back until it does.
+
+    Notes
+    -----
+    The decision whose own measured error is largest goes back first; everything on is within any tolerance.
+    """
+    steps = _Steps(watch, _comparisons(chosen) + _timings(chosen, rounds, times_each))
+    pictures: dict[Settings, Integers] = {}
+    fallen_back: list[str] = []
+    while True:
+        outcomes, differences = _compare(scene, chosen, pictures, steps)
+        if np.count_nonzero(differences > chosen.tolerance.bytes) <= chosen.tolerance.pixels:
+            break
+        worst = max(outcomes, key=lambda outcome: (outcome.measured_pixels, outcome.measured_error))
+        fallen_back.append(worst.decision.setting)
+        chosen = put_back(chosen, worst.decision.setting)
+    return _report(scene, chosen, outcomes, differences, rounds, tuple(fallen_back), steps, times_each)
+
+
+def _compare(
+    scene: AnyScene, chosen: Plan, pictures: dict[Settings, Integers], steps: "_Steps"
+) -> tuple[list[Outcome], Integers]:
+    """Return how each decision turned out, and how far (H, W) the chosen settings are from everything on.
+
+    What is drawn is kept in ``pictures``.
+    """
+
+    def drawn(settings: Settings, name: str) -> Integers:
+        steps.next(f"Comparing: {name}")
+        if settings not in pictures:
+            pictures[settings] = shown(scene, settings)
+        return pictures[settings]
+
+    differences = difference(
+        drawn(chosen.everything, "everything on"), drawn(chosen.settings, "the whole choice")
+    )
+    outcomes = []
+    for decision in _cheaper(chosen):
+        name = phrase(decision.setting, decision.chosen)
+        before, alone = (drawn(settings, name) for settings in alone_settings(chosen, decision))
+        outcomes.append(_outcome(decision, difference(alone, before)))
+    return outcomes, differences
+
+
+def _cheaper(chosen: Plan) -> list[Decision]:
+    return [decision for decision in chosen.decisions if decision.chosen != decision.dearest]
+
+
+def _comparisons(chosen: Plan) -> int:
+    return 2 + 2 * len(_cheaper(chosen))
+
+
+def _timings(chosen: Plan, rounds: int, times_each: bool) -> int:
+    return (2 + times_each * len(_cheaper(chosen))) * (1 + max(rounds, 1))
+
+
+def _report(
+    scene: AnyScene,
+    chosen: Plan,
+    outcomes: list[Outcome],
+    differences: Integers,
+    rounds: int,
+    fallen_back: tuple[str, ...],
+    steps: "_Steps",
+    times_each: bool,
+) -> PlanReport:
+    """Time the settings and say what all comes to."""
     timed = [chosen.everything, chosen.settings]
     if times_each:
-        timed += [with_choices(chosen, (decision.setting,)) for decision in cheaper]
-    steps = _Steps(watch, 2 + len(cheaper) + len(timed) * (1 + max(rounds, 1)))
-    steps.next("Comparing: everything on")
-    reference = shown(scene, chosen.everything)
-    steps.next("Comparing: the whole choice")
-    differences = difference(shown(scene, chosen.settings), reference)
-    beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
-    outcomes = []
-    for decision in cheaper:
-        steps.next(f"Comparing: {phrase(decision.setting, decision.chosen)}")
-        before, alone = alone_settings(chosen, decision)
-        drawn_before = reference if before == chosen.everything else shown(scene, before)
-        outcomes.append(_outcome(decision, difference(shown(scene, alone), drawn_before)))
+        timed += [with_choices(chosen, (decision.setting,)) for decision in _cheaper(chosen)]
     times = _times(scene, timed, max(rounds, 1), steps)
     for place, seconds in enumerate(times[2:]):
         outcomes[place] = replace(outcomes[place], seconds=seconds)
+    beyond = int(np.count_nonzero(differences > chosen.tolerance.bytes))
     is_within = beyond <= chosen.tolerance.pixels
     ratio = float(np.median(times[0]) / np.median(times[1]))
     largest = int(differences.max(initial=0))
@@ -83,7 +144,7 @@ def measure_plan(
 
 @dataclass(eq=False)
 class _Steps:
-    """Tells a `Watch` what is drawn next."""
+    """Calls a `Watch` with what is drawn next."""
 
     watch: Watch
     count: int
@@ -105,43 +166,13 @@ def alone_settings(chosen: Plan, decision: Decision) -> tuple[Settings, Settings
     return with_choices(chosen, rest), with_choices(chosen, (*rest, decision.setting))
 
 
-def plan_and_check(
-    scene: AnyScene, tolerance: Tolerance | None = None, base: Settings | None = None, rounds: int = ROUNDS
-) -> PlanReport:
-    """Plan, measure, and where the tolerance does not hold put decisions back until it does, see `check_plan`."""
-    return check_plan(scene, plan(scene, tolerance, base), rounds)
-
-
-def check_plan(
-    scene: AnyScene,
-    chosen: Plan,
-    rounds: int = ROUNDS,
-    watch: Watch = unwatched,
-    times_each: bool = False,
-) -> PlanReport:
-    """Measure a plan as `measure_plan` does, and where the tolerance does not hold put decisions back until it does.
-
-    Notes
-    -----
-    The decision whose own measured error is largest goes back first; everything on is within any tolerance.
-    """
-    report = measure_plan(scene, chosen, rounds, (), watch, times_each)
-    fallen_back: list[str] = []
-    while not report.is_within:
-        worst = max(report.outcomes, key=lambda outcome: (outcome.measured_pixels, outcome.measured_error))
-        fallen_back.append(worst.decision.setting)
-        chosen = put_back(chosen, worst.decision.setting)
-        report = measure_plan(scene, chosen, rounds, tuple(fallen_back), watch, times_each)
-    return report
-
-
 def put_back(chosen: Plan, setting: str) -> Plan:
     """Return a plan that keeps the dearest method of one stage."""
     decisions = []
     for decision in chosen.decisions:
         if decision.setting == setting:
             cheaper, dearest = (phrase(setting, name) for name in (decision.chosen, decision.dearest))
-            reason = f"{capitalized(cheaper)} was measured to be too far off, so {dearest} stays."
+            reason = f"{capitalized(cheaper)} was too far off when the whole picture was measured, so {dearest} stays."
             decision = replace(
                 decision,
                 chosen=decision.dearest,
@@ -153,16 +184,6 @@ def put_back(chosen: Plan, setting: str) -> Plan:
         decisions.append(decision)
     settings = replace(chosen.settings, **{setting: getattr(chosen.everything, setting)})
     return replace(chosen, decisions=tuple(decisions), settings=settings)
-
-
-def shown(scene: AnyScene, settings: Settings) -> Integers:
-    """Return the red, green and blue bytes of a picture, (H, W, 3) int64."""
-    return to_display(render(copy(scene), settings).color).pixels[..., :3].astype(np.int64)
-
-
-def difference(first: Integers, second: Integers) -> Integers:
-    """Return the difference of the channel that differs most, (H, W) int64, of pictures (H, W, 3)."""
-    return np.asarray(np.abs(first - second).max(axis=2, initial=0))
 
 
 def _outcome(decision: Decision, differences: Integers) -> Outcome:

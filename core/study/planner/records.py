@@ -1,5 +1,6 @@
 """What the planner is asked, what it saw, what it chose, and what was measured."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import floor
 
@@ -8,6 +9,13 @@ import numpy as np
 from core.records.arrays import Floats
 from core.scene import AnyScene
 from core.settings import Settings
+
+Watch = Callable[[float, str], None]
+"""Called with the part that is done and what is done next; whatever it raises ends planning or measuring."""
+
+
+def unwatched(done: float, doing: str) -> None:
+    """Let everything be done."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +83,13 @@ class Decision:
     reason: str
     """One sentence with the numbers."""
     predicted_error: float
-    """Bound of the error of this choice alone, in 1/255 of an sRGB byte's range: every pixel but `predicted_pixels`."""
+    """Error of this choice where it was tried, in 1/255 of an sRGB byte's range: every pixel but `predicted_pixels`."""
     predicted_pixels: int = 0
     """Pixels that may differ by more than that."""
     is_needed: bool = False
     """Whether the dearest method is kept although there are cheaper ones."""
-    unit: str = "1/255"
     rests_on: tuple[str, ...] = ()
-    """Settings whose choices the prediction takes for granted: flat interpolation of light that flat shading made."""
+    """Settings whose choices came before: the prediction is of this choice on top of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +109,7 @@ class Tessellation:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The cheapest methods whose bounded errors stay within a tolerance."""
+    """The cheapest methods whose errors stay within a tolerance where they were tried."""
 
     tolerance: Tolerance
     everything: Settings
@@ -115,7 +122,7 @@ class Plan:
     tessellations: tuple[Tessellation, ...] = ()
 
     predicted_error: float = 0.0
-    """Bound of the chosen settings, in 1/255: the sum of the decisions' bounds, one that stages share counted once."""
+    """Error of all choices together where they were tried, in 1/255: every pixel but `predicted_pixels`."""
     predicted_pixels: int = 0
     """Pixels that may differ by more."""
     predicted_everything: float | None = None

@@ -8,7 +8,7 @@ import pytest
 
 from app.files.open_any import open_any
 from core.study import Tolerance, plan
-from core.study.planner.measuring import difference, shown
+from core.study.planner.trials import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
 from tests.core.covering import in_turn
 

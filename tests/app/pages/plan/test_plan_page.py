@@ -19,9 +19,9 @@ from app.window.main_window import MainWindow
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
 from core.study.accuracy.family import Candidate, settings_of
 from core.study.accuracy.whole_picture import PIPELINE
-from core.study.planner.choices.costs import LectureOrder
+from core.study.planner import planning
+from core.study.planner.costs import Costs
 from core.study.planner.planning import STAGES
-from core.study.planner.scene_analysis import conservative_coverage as touched
 from lessons.scenes import built_in_scene
 from widgets.plan.rows import Verdict
 
@@ -176,7 +176,11 @@ def test_a_scene_that_is_too_large_is_told(
     window: MainWindow, page: PlanPage, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     report = looked(page, qtbot)
-    monkeypatch.setattr(touched, "MOST_PAIRS", 1)
+
+    def refuse(*arguments: object) -> None:
+        raise MemoryError("the scene is too large")
+
+    monkeypatch.setattr(planning, "look", refuse)
     QTest.keyClick(window, Qt.Key.Key_F5)
     qtbot.waitUntil(window.messages.isVisible, timeout=60000)
     assert "could not be planned" in window.messages.text.text()
@@ -186,7 +190,7 @@ def test_a_scene_that_is_too_large_is_told(
 
 def test_a_wrong_prediction_is_said_plainly() -> None:
     scene = built_in_scene("shared-edge").make()
-    report = measure_plan(scene, plan(scene, costs=LectureOrder()), 1)
+    report = measure_plan(scene, plan(scene, costs=Costs()), 1)
     broken = replace(report.outcomes[0], is_right=False, text="predicted 0/255, measured 7/255")
     report = replace(report, outcomes=(broken, *report.outcomes[1:]), fallen_back=("depth",))
     rows = rows_of(report.plan, report)

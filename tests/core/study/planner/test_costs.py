@@ -7,12 +7,12 @@ import pytest
 from core.settings import Settings, with_method
 from core.study import Tolerance, everything_on, plan
 from core.study.accuracy.workloads import sphere_scene
-from core.study.planner.choices.costs import PIXELS, LectureOrder, TriedCosts
+from core.study.planner.costs import PIXELS, Costs, TriedCosts
 from core.study.planner.planning import STAGES
 from tests.core.study.planner.needy_scenes import highlight
 
 
-class Opposite(LectureOrder):
+class Opposite(Costs):
     """A machine on which one family's cheaper methods take longer."""
 
     def __init__(self, family: str, dearest: str) -> None:
@@ -43,11 +43,11 @@ def test_a_larger_picture_is_predicted_to_take_longer() -> None:
 @pytest.mark.parametrize("family", [name for name in STAGES if name != "antialiasing"])
 def test_what_is_slower_is_not_chosen_and_told(family: str) -> None:
     scene, tolerance = highlight(), Tolerance(250.0)
-    usual = plan(scene, tolerance, costs=LectureOrder())
+    usual = plan(scene, tolerance, costs=Costs())
     dearest = getattr(usual.everything, family)
     chosen = plan(scene, tolerance, costs=Opposite(family, dearest))
     decision = next(each for each in chosen.decisions if each.setting == family)
-    has_effect = family not in ("clipping", "texture_filter")
+    has_effect = family not in ("clipping", "texture_filter", "depth")
     assert getattr(usual.settings, family) != dearest
     assert (decision.chosen == dearest) == has_effect
     assert ("longer here" in decision.reason) == has_effect
@@ -58,7 +58,7 @@ def test_choices_that_take_longer_together_are_not_made() -> None:
     scene = highlight()
     everything = everything_on(scene)
 
-    class SlowTogether(LectureOrder):
+    class SlowTogether(Costs):
         def is_slower(self, settings: Settings, others: Settings) -> bool:
             """Tell whether the second has everything on but the first several things less."""
             changed = sum(getattr(settings, name) != getattr(others, name) for name in STAGES)
@@ -73,7 +73,7 @@ def test_choices_that_take_longer_together_are_not_made() -> None:
 
 def test_a_plan_predicts_its_time_if_anything_was_timed() -> None:
     scene = sphere_scene(4, 24)
-    untimed = plan(scene, costs=LectureOrder())
+    untimed = plan(scene, costs=Costs())
     assert untimed.predicted_seconds is untimed.predicted_everything is None
     timed = plan(scene, Tolerance(255.0))
     assert timed.predicted_seconds is not None

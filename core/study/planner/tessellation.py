@@ -12,7 +12,6 @@ import numpy as np
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, Scene
-from core.study.planner.bounds.light_ranges import angle
 from core.study.planner.records import Tessellation
 
 WANTED = 0.25
@@ -38,6 +37,12 @@ def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
             largest = max(largest, float(sagitta(length, turned)[in_front].max(initial=0.0)))
         found.append(_advice(mesh.name, len(corners), largest))
     return tuple(found)
+
+
+def angle(first: Floats, second: Floats) -> Floats:
+    """Return the angles (Q,) between unit vectors (Q, 3), accurate for small ones too."""
+    apart, together = (np.linalg.norm(each, axis=-1) for each in (first - second, first + second))
+    return np.asarray(2 * np.arctan2(apart, np.maximum(together, 1e-300)))
 
 
 def sagitta(length: Floats, turned: Floats) -> Floats:

@@ -1,7 +1,6 @@
 """What methods and numbers are called in the sentences of a plan."""
 
 from collections.abc import Sequence
-from math import ceil
 
 PHRASES = {
     "cull": {
@@ -72,15 +71,9 @@ def counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}" if count == 1 else f"{count:,} {noun}s"
 
 
-def bound(error: float) -> str:
-    """Return a bound as text: ``0.82/255``, never below what it is."""
-    return f"{figure(error)}/255"
-
-
 def in_bytes(error: float) -> str:
-    """Return the difference of whole bytes that an error comes to at most: ``1/255 (0.82 before rounding)``."""
-    whole = f"{ceil(error):,}/255"
-    return whole if ceil(error) == error else f"{whole} ({figure(error)} before rounding)"
+    """Return a difference of bytes as text: ``2/255``."""
+    return f"{error:,g}/255"
 
 
 def figure(value: float) -> str:
@@ -92,4 +85,4 @@ def figure(value: float) -> str:
 
 
 SMALLEST = 0.001
-"""Smaller numbers than this are told as this."""
+"""Smaller numbers display as this."""

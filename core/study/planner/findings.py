@@ -1,0 +1,180 @@
+"""What there is in a scene: signs of w, closedness, layers, texels, light. Facts to be read, and reasons' numbers."""
+
+from dataclasses import dataclass, replace
+from math import acos, pi
+
+import numpy as np
+
+from core.fragments.interpolation import value_plane
+from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
+from core.geometry.vertex_stage import unit
+from core.pipeline import draw
+from core.raster.pixel_runs import make_raster
+from core.records.frame import STAGES, StageCount
+from core.scene import AnyScene, Scene, Texture
+from core.settings import Settings
+from core.stages.closed_meshes import is_closed
+from core.stages.geometry import Geometry
+from core.stages.vertices import process_geometry
+from core.study.planner.phrases import figure
+from core.study.planner.records import Fact
+from core.study.planner.tessellation import angle
+
+OPAQUE = 1 - 1e-9
+"""Alphas from here on are 1, but for rounding."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What was counted and measured in a scene before anything was tried."""
+
+    triangles: int
+    behind: int
+    """Triangles with a corner that is not in front of the eye."""
+    cut: int
+    """Triangles that cross a plane of the view volume, or lie beyond one."""
+    backs: int
+    """Triangles and pieces in view that face away."""
+    in_view: int
+    """Triangles and pieces in view."""
+    w_ratio: float
+    """Largest w over smallest in a triangle."""
+    layers: int
+    """Most fragments in a pixel, where it was looked at."""
+    depth: tuple[float, float] | None
+    """Least and greatest window depth; ``None``: nothing is in view."""
+    texels: float | None
+    """Longest step from pixel to pixel in a texture, at the corners of triangles; ``None``: there is none."""
+    lean: float | None
+    """Largest angle, in degrees, of a normal from the middle of its triangle's; ``None``: nothing is lit."""
+    highlight: float | None
+    """Degrees within which the narrowest highlight falls to half its light; ``None``: there is none."""
+    is_translucent: bool
+    """Whether some alpha is below 1."""
+    closed: str
+    """How many meshes are closed."""
+
+
+def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, int, int], ...]) -> Seen:
+    """Count and measure; fragments are counted in some regions (column, row, columns, rows) of the picture."""
+    one = replace(everything, antialiasing="none", polygon_mode="fill")
+    geometry = process_geometry(scene, one, {stage: StageCount() for stage in STAGES})
+    frames = [draw(scene, one, make_raster(scene.size, one.pixel_center, region)) for region in regions]
+    assembled, primitives = geometry.assembled, geometry.primitives
+    w = primitives.clip[..., 3]
+    depth = geometry.depth[np.isfinite(geometry.depth)]
+    planes = has_bits(joined_bits(outcodes(assembled.vertex_clip.T), assembled.corner), PLANE_BITS)
+    return Seen(
+        triangles=len(assembled),
+        behind=int(np.count_nonzero((assembled.vertex_clip[3].take(assembled.corner) <= 0).any(axis=0))),
+        cut=int(np.count_nonzero(planes)),
+        backs=int(np.count_nonzero(geometry.doubled_area < 0)),
+        in_view=len(primitives),
+        w_ratio=float((w.max(axis=1) / w.min(axis=1)).max(initial=1.0)),
+        layers=max(int(frame.cover_count.max(initial=0)) for frame in frames),
+        depth=(float(depth.min()), float(depth.max())) if depth.size else None,
+        texels=_longest_step(geometry, scene),
+        lean=_lean(geometry),
+        highlight=_highlight(scene) if "normal" in primitives.layout else None,
+        is_translucent=_is_translucent(geometry, scene),
+        closed=_closed(scene),
+    )
+
+
+def facts_of(seen: Seen) -> tuple[Fact, ...]:
+    """Return the facts in pipeline order."""
+    facts = [
+        Fact("triangles", "Triangles", f"{seen.triangles:,}"),
+        Fact("w-signs", "Triangles with a corner that is not in front of the eye", f"{seen.behind:,}"),
+        Fact(
+            "cut",
+            "Triangles that cross a plane of the view volume, or lie beyond one",
+            f"{seen.cut:,} of {seen.triangles:,}",
+        ),
+        Fact("backs", "Triangles in view that face away", f"{seen.backs:,} of {seen.in_view:,}"),
+        Fact("w-ratio", "Largest ratio of w in a triangle", f"{seen.w_ratio:.4g}"),
+        Fact("closed", "Closed meshes", seen.closed),
+        Fact("layers", "Fragments in a pixel, at most", f"{seen.layers:,}"),
+        Fact("depth-range", "Window depth", _depth_range(seen)),
+    ]
+    if seen.texels is not None:
+        facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{figure(seen.texels)} texels"))
+    if seen.lean is not None:
+        facts.append(
+            Fact("normals", "Largest angle of a normal from its triangle's mean", f"{seen.lean:.3g} degrees")
+        )
+    return tuple(facts)
+
+
+def _depth_range(seen: Seen) -> str:
+    if seen.depth is None:
+        return "nothing is in view"
+    nearest, farthest = seen.depth
+    return f"{nearest:.6g} to {farthest:.6g}, {(farthest - nearest) * (2**16 - 1):,.0f} steps of 16 bits"
+
+
+def _closed(scene: AnyScene) -> str:
+    if not isinstance(scene, Scene):
+        return "not known: triangles given one by one"
+    found = sum(is_closed(mesh.positions, mesh.triangles) for mesh in scene.meshes)
+    return f"{found:,} of {len(scene.meshes):,}"
+
+
+def _textures(scene: AnyScene) -> list[Texture | None]:
+    return [mesh.texture for mesh in scene.meshes] if isinstance(scene, Scene) else [scene.texture]
+
+
+def _longest_step(geometry: Geometry, scene: AnyScene) -> float | None:
+    """Return the longest step in texels; ``None``: no texture is in view.
+
+    Notes
+    -----
+    With U = u/w and D = 1/w linear over the window, du/dx is (U_x - u D_x) w.
+    """
+    primitives, longest = geometry.primitives, None
+    for number, texture in enumerate(_textures(scene)):
+        of_mesh = primitives.mesh == number
+        if texture is None or "uv" not in primitives.layout or not of_mesh.any():
+            continue
+        uv = primitives.varyings[..., primitives.layout["uv"]]
+        w = primitives.clip[..., 3]
+        height, width = texture.pixels.shape[:2]
+        for way in (0, 1):
+            of_depth = geometry.inverse_w_plane[way][:, None]
+            steps = [
+                (value_plane(geometry.planes, uv[..., k])[way][:, None] - uv[..., k] * of_depth) * w * size
+                for k, size in enumerate((width, height))
+            ]
+            length = np.nan_to_num(np.hypot(*steps)[of_mesh])
+            longest = max(longest or 0.0, float(length.max()))
+    return longest
+
+
+def _lean(geometry: Geometry) -> float | None:
+    primitives = geometry.primitives
+    if "normal" not in primitives.layout:
+        return None
+    normals = unit(primitives.varyings[..., primitives.layout["normal"]])
+    middle = unit(normals.mean(axis=1))
+    return float(np.degrees(angle(normals, middle[:, None]).max(initial=0.0)))
+
+
+def _highlight(scene: AnyScene) -> float | None:
+    if not isinstance(scene, Scene):
+        return None
+    shiny = [mesh.material.shininess for mesh in scene.meshes if mesh.material.specular > 0]
+    return float(np.degrees(half_width(max(shiny)))) if shiny else None
+
+
+def half_width(shininess: float) -> float:
+    """Return the angle, in radians, at which a highlight has half its light: cos(angle)^shininess = 1/2."""
+    return acos(0.5 ** (1 / shininess)) if shininess > 0 else pi / 2
+
+
+def _is_translucent(geometry: Geometry, scene: AnyScene) -> bool:
+    primitives = geometry.primitives
+    alpha = primitives.varyings[..., primitives.layout.get("color", slice(0))][..., 3:4]
+    textures = (texture.pixels for texture in _textures(scene) if texture is not None)
+    return bool((alpha < OPAQUE).any()) or any(
+        texels.shape[2] == 4 and bool((texels[..., 3] < OPAQUE).any()) for texels in textures
+    )

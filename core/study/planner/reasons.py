@@ -1,0 +1,101 @@
+"""Why each method was chosen: what was seen in the scene, and what was measured of the cheaper methods."""
+
+from typing import TYPE_CHECKING
+
+from core.study.planner.findings import Seen
+from core.study.planner.phrases import capitalized, counted, figure, in_bytes, listed, phrase
+from core.study.planner.records import Tolerance
+from core.study.planner.trials import Trial
+
+if TYPE_CHECKING:
+    from core.study.planner.planning import Choice
+
+ALL_SLOWER = "All choices together take longer here than everything on, so none is made."
+EVEN = 1e-9
+"""Ratios of w no farther from 1 are 1, but for rounding."""
+FLAT = 1e-5
+"""Degrees by which normals that are the same may differ, for rounding."""
+
+
+def reason(choice: "Choice", tolerance: Tolerance, seen: Seen, is_compared: bool) -> str:
+    """Return sentences with the numbers: of the scene, of every method that was tried, and what stays.
+
+    Depths may be ``is_compared`` or not.
+    """
+    parts = [_fact(choice, seen, is_compared)]
+    for name, trial in choice.rejected:
+        many = f"{counted(trial.beyond, 'pixel')} {'changes' if trial.beyond == 1 else 'change'}"
+        parts.append(
+            f"{capitalized(phrase(choice.family, name))}: {many} by more than {tolerance.bytes}/255, "
+            f"by up to {in_bytes(trial.largest)}."
+        )
+    if choice.slower:
+        slower = capitalized(listed([phrase(choice.family, name) for name in choice.slower]))
+        parts.append(f"{slower} would do, but {'take' if len(choice.slower) > 1 else 'takes'} longer here.")
+    chosen = capitalized(phrase(choice.family, choice.chosen))
+    if choice.trial is not None:
+        parts.append(f"{chosen}: {change_text(choice.trial)}.")
+    elif choice.rejected or choice.slower:
+        parts.append(f"{chosen}: kept.")
+    return " ".join(part for part in parts if part)
+
+
+def change_text(trial: Trial) -> str:
+    """Return how far a choice changes the picture: ``pixels change by 2/255 at most, but for 3 pixels``."""
+    if not trial.largest:
+        return "no pixel changes"
+    but = f", but for {counted(trial.pixels, 'pixel')}" if trial.pixels else ""
+    return f"pixels change by {in_bytes(trial.error)} at most{but}"
+
+
+def _fact(choice: "Choice", seen: Seen, is_compared: bool) -> str:
+    """Return what of the scene bears on a family."""
+    match choice.family:
+        case "cull" if choice.dearest != "none":
+            return "Leaving out front faces was asked for."
+        case "cull" if not seen.backs:
+            return "No triangle in view faces away."
+        case "cull":
+            return f"Of {counted(seen.in_view, 'triangle')} in view {seen.backs:,} face away."
+        case "clipping" if not seen.cut:
+            return "No triangle crosses a plane of the view volume: there is nothing to clip."
+        case "clipping":
+            total = counted(seen.triangles, "triangle")
+            return f"Of {total} {seen.cut:,} cross a plane of the view volume or lie beyond it."
+        case "interpolation" if seen.w_ratio - 1 < EVEN:
+            return "Within every triangle w is the same."
+        case "interpolation":
+            return f"Within a triangle w changes by a factor of {seen.w_ratio:.4g} at most."
+        case "texture_filter":
+            return _texture_fact(seen)
+        case "shading":
+            return _light_fact(seen)
+        case "visibility":
+            return f"At most {counted(seen.layers, 'fragment')} lie in a pixel."
+        case "depth" if not is_compared:
+            return "Depth is not compared, so its format does not matter."
+        case "blend" if choice.dearest == "additive":
+            return "Light that adds up was asked for."
+        case "blend" if seen.is_translucent:
+            return "Some alpha is below 1: what is behind shines through."
+        case "blend":
+            return "Every alpha is 1: nothing shines through."
+    return ""
+
+
+def _texture_fact(seen: Seen) -> str:
+    if seen.texels is None:
+        return "There is no texture in view, so any filter does."
+    size = "somewhere made smaller" if seen.texels > 1 else "nowhere made smaller"
+    return f"A step of one pixel is {figure(seen.texels)} texels long at most, so the texture is {size}."
+
+
+def _light_fact(seen: Seen) -> str:
+    if seen.lean is None:
+        return "Nothing is lit, so there is nothing to shade."
+    text = f"Within a triangle normals lean up to {figure(seen.lean)} degrees from their mean"
+    if seen.lean < FLAT:
+        text = "Within every triangle the normals are the same"
+    if seen.highlight is None:
+        return f"{text}, and nothing has highlights."
+    return f"{text}, and a highlight falls to half its light within {figure(seen.highlight)} degrees."
