@@ -75,7 +75,7 @@ def _draw_strip(context: DrawContext, palette: Floats | None) -> tuple[Singles, 
     pixel, primitive = _fragments(context)
     count, passes = len(pixel), None
     with context.timed("depth"):
-        is_tested = geometry.uses_depth_test or context.depth_format.quantity != "z"
+        is_tested = geometry.uses_depth_test or not context.depth_format.quantity.is_window_depth
         if is_tested or not geometry.is_in_range.all():
             pixel, primitive, passes = _test_depth(context, pixel, primitive)
         stacks = stacks_of(pixel, np.arange(len(pixel)))

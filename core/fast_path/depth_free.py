@@ -34,7 +34,7 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
     """
     if not geometry.uses_depth_test:
         return True
-    if depth_format.quantity != "z":
+    if not depth_format.quantity.is_window_depth:
         return False
     # Whole numbers tell the last half of a step from the far plane no more: keep a whole one away.
     limit = FARTHEST if depth_format.scale == 1 else min(FARTHEST, 1 - 1 / depth_format.scale)

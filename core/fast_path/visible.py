@@ -51,7 +51,8 @@ def _word_planes(context: DrawContext, nearest: NearestFragments) -> tuple[Plane
     """Return the words of all primitives as planes, and for which (P,) they hold: these walk along spans."""
     geometry, depth_format = context.geometry, context.depth_format
     count = len(geometry.primitives)
-    if not geometry.uses_depth_test or depth_format.quantity not in ("z", "reversed-z"):
+    quantity = depth_format.quantity
+    if not geometry.uses_depth_test or quantity.plane == "inverse-w" or quantity.convert is not None:
         return None, np.zeros(count, bool)
     number = np.arange(1, count + 1)
     if depth_format.is_planar:
@@ -59,7 +60,7 @@ def _word_planes(context: DrawContext, nearest: NearestFragments) -> tuple[Plane
         depth = fixed.planes
         origin = ((depth.origin + SLACK) << bits) + number
         return IntegerPlanes(origin, depth.across << bits, depth.up << bits), fixed.is_linear
-    plane = geometry.depth_plane if depth_format.quantity == "z" else geometry.reversed_plane
+    plane = geometry.depth_plane if quantity.plane == "z" else geometry.reversed_plane
     planes = DepthPlanes(*plane, number, depth_format.scale, depth_format.larger_is_nearer)
     return planes, geometry.is_projected & geometry.is_in_range & planes.is_finite
 

@@ -9,7 +9,7 @@ E. Catmull, *A subdivision algorithm for computer display of curved surfaces*, 1
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,16 +22,49 @@ FLOAT_INFINITY = 0x7F800000
 """Bits of the float32 infinity; the bits of positive floats are in the order of their values."""
 
 
+PLANES = ("z", "inverse-w", "reversed-z")
+"""Numbers that are linear over the window: the window depth, 1/w, and a depth that is 1 at the near plane, 0 at the far."""
+
 Stored = NDArray[Any]
 """Depths as a method stores them: float32, or whole numbers in float64."""
+
+
+@dataclass(frozen=True)
+class DepthQuantity:
+    """A number that grows or falls with the distance: interpolated over the window, then converted at every pixel."""
+
+    name: str
+    """As explanations know it."""
+    plane: Literal["z", "inverse-w", "reversed-z"]
+    """What is interpolated, one of `PLANES`. With 1/w, pixels where it is not positive are behind the eye and fail."""
+    convert: Callable[[Floats, float, float], Floats] | None = None
+    """From interpolated values (F,), near and far to the number (F,); ``None``: it is that value itself."""
+    listing: Callable[..., Any] | None = None
+    """How it is found at a pixel; ``None``: nothing more is shown than the interpolated value."""
+    line_listing: Callable[..., Any] | None = None
+    """The same along an outline, where it differs."""
+
+    def __post_init__(self) -> None:
+        if self.plane not in PLANES:
+            raise ValueError(f"plane must be one of {', '.join(PLANES)}, got {self.plane}")
+
+    @property
+    def is_window_depth(self) -> bool:
+        """Whether it is the window depth z itself."""
+        return self.plane == "z" and self.convert is None
+
+
+WINDOW_DEPTH = DepthQuantity("z", "z")
+INVERSE_W = DepthQuantity("inverse-w", "inverse-w")
 
 
 @dataclass(frozen=True)
 class DepthFormat:
     """How a depth is kept: as a float32 that is 0 or more."""
 
-    quantity: str
-    """``z`` (window depth), ``inverse-w``, ``reversed-z`` or ``logarithm`` (of w)."""
+    quantity: DepthQuantity
+    description: str
+    """What the buffer holds, in one sentence: range, cleared value, and which of two is nearer."""
     cleared: float
     """Value of the empty buffer: nothing is farther."""
     larger_is_nearer: bool
@@ -39,6 +72,8 @@ class DepthFormat:
     """Depth of a fragment (F,) float64 to the stored value (F,) of ``stored_type``."""
     scale: float = 1.0
     """What depth 1 is stored as where whole numbers are; 1: it stays a fraction."""
+    unit: str = ""
+    """Of the stored numbers, behind each on screen."""
 
     stored_type: ClassVar[type[np.floating[Any]]] = np.float32
     nearness_bits: ClassVar[int] = 31
@@ -82,7 +117,8 @@ def not_behind_eye(inverse_w: Floats) -> Singles:
 )
 def z_float32() -> DepthFormat:
     """Store the window depth."""
-    return DepthFormat("z", 1.0, False, as_float32)
+    description = "Window depth z as float32, from 0 (near) to 1 (far and cleared): smaller is nearer."
+    return DepthFormat(WINDOW_DEPTH, description, 1.0, False, as_float32)
 
 
 @method(
@@ -101,7 +137,8 @@ def inverse_w() -> DepthFormat:
     -----
     At a pixel that only the snapped corners cover 1/w may come out negative: behind the eye, stored as 0, not seen.
     """
-    return DepthFormat("inverse-w", 0.0, True, not_behind_eye)
+    description = "1/w as float32, in one over scene units, 0 where cleared: larger is nearer."
+    return DepthFormat(INVERSE_W, description, 0.0, True, not_behind_eye)
 
 
 def clamp_depth(depth: Floats, is_in_range: Flags) -> tuple[Floats, Flags]:

@@ -15,7 +15,7 @@ from functools import partial
 
 import numpy as np
 
-from core.framebuffer.depth import DepthFormat, as_float32
+from core.framebuffer.depth import WINDOW_DEPTH, DepthFormat, DepthQuantity, as_float32
 from core.methods import method
 from core.numeric.logarithm import log2, log2_of
 from core.records.arrays import Flags, Floats, Singles
@@ -34,10 +34,29 @@ def as_share(value: Floats) -> Singles:
     return as_float32(np.minimum(np.maximum(value, 0.0), 1.0))
 
 
+def unsigned_depth(z: float, steps: float) -> float:
+    """Listing of a depth kept in whole numbers."""
+    return float(round(z * steps))  #: round
+
+
+def share_of_depth(value: float) -> np.float32:
+    """Listing of a depth from 0 to 1 kept as a float32."""
+    limited = min(max(value, 0.0), 1.0)  #: limit
+    return np.float32(limited)  #: round
+
+
 def unsigned_format(bits: int) -> DepthFormat:
     """Return the format that keeps z as an unsigned normalized integer."""
     steps = 2.0**bits - 1
-    return DepthFormat("z", steps, False, partial(as_unsigned, steps=steps), scale=steps)
+    return DepthFormat(
+        WINDOW_DEPTH,
+        f"Window depth z in steps of 1/{int(steps):,}, all of them where cleared: smaller is nearer.",
+        steps,
+        False,
+        partial(as_unsigned, steps=steps),
+        scale=steps,
+        unit="steps",
+    )
 
 
 @method(
@@ -47,6 +66,7 @@ def unsigned_format(bits: int) -> DepthFormat:
     source="OpenGL 4.6, DEPTH_COMPONENT24: round(z (2^24 - 1)), half to even",
     exact_for="order, to 2^-24 of z, at every z alike",
     breaks_where="far from the eye: z crowds towards 1, and most of the steps lie near the near plane",
+    listing=unsigned_depth,
 )
 def z_24() -> DepthFormat:
     """Store the window depth as a whole number from 0 to 2^24 - 1."""
@@ -60,69 +80,11 @@ def z_24() -> DepthFormat:
     source="OpenGL 4.6, DEPTH_COMPONENT16: round(z (2^16 - 1)), half to even",
     exact_for="order, to 2^-16 of z, at every z alike",
     breaks_where="surfaces close to each other, at a few hundred times the near distance already",
+    listing=unsigned_depth,
 )
 def z_16() -> DepthFormat:
     """Store the window depth as a whole number from 0 to 2^16 - 1."""
     return unsigned_format(16)
-
-
-@method(
-    "depth",
-    "reversed-z",
-    "Reversed z, float32",
-    source="Lapidous and Jiao 1999; Reed, Depth precision visualized, 2015",
-    exact_for="order, to 2^-24 of the distance, at every distance alike",
-    breaks_where="cameras without perspective, and clip positions whose z is rounded already: no more than z-float32",
-)
-def reversed_z() -> DepthFormat:
-    """Store a depth that is 1 at the near plane and 0 at the far plane; larger is nearer.
-
-    Notes
-    -----
-    The small numbers of far surfaces are where float32 is finest. That is worth something only if they come from a
-    projection of their own: 1 - z has lost them already (``core.geometry.reversed_depth``).
-    """
-    return DepthFormat("reversed-z", 0.0, True, as_share)
-
-
-@method(
-    "depth",
-    "logarithmic",
-    "Logarithm of w, float32",
-    source="Kemen (Outerra), Logarithmic depth buffer, 2009: log2(w/near) / log2(far/near), here at every pixel",
-    exact_for="order, to 2^-24 log2(far/near) octaves of the distance, at every distance alike",
-    breaks_where="orthographic cameras: w is constant; clip positions beyond w = 2^-16 to 2^16",
-    needs=("perspective",),
-)
-def logarithmic() -> DepthFormat:
-    """Store the logarithm of the distance: 0 at the near plane, 1 at the far plane; smaller is nearer.
-
-    Notes
-    -----
-    Where 1/w is not positive (a pixel that only the snapped corners cover) nothing is seen, as with 1/w.
-    """
-    return DepthFormat("logarithm", 1.0, False, as_share)
-
-
-def logarithmic_depth(inverse_w: Floats, near: float, far: float) -> Floats:
-    """Return log2(w/near) / log2(far/near) of 1/w (F,) float64; 1 where 1/w is not positive."""
-    is_in_front: Flags = inverse_w > 0
-    with np.errstate(over="ignore"):
-        ratio = 1 / (np.where(is_in_front, inverse_w, 1.0) * near)
-    # So near to the eye that it overflows is before every near plane, so far that it is infinite behind every far one.
-    octaves = log2(np.minimum(np.maximum(ratio, np.finfo(float).tiny), np.finfo(float).max))
-    return np.where(is_in_front, octaves / log2_of(far / near), 1.0)
-
-
-def unsigned_depth(z: float, steps: float) -> float:
-    """Listing of a depth kept in whole numbers."""
-    return float(round(z * steps))  #: round
-
-
-def share_of_depth(value: float) -> np.float32:
-    """Listing of a depth from 0 to 1 kept as a float32."""
-    limited = min(max(value, 0.0), 1.0)  #: limit
-    return np.float32(limited)  #: round
 
 
 def reversed_depth(a: float, b: float, c: float, x: float, y: float) -> float:
@@ -135,9 +97,65 @@ def reversed_depth_along(t: float, start: float, end: float) -> float:
     return (1 - t) * start + t * end  #: value
 
 
+@method(
+    "depth",
+    "reversed-z",
+    "Reversed z, float32",
+    source="Lapidous and Jiao 1999; Reed, Depth precision visualized, 2015",
+    exact_for="order, to 2^-24 of the distance, at every distance alike",
+    breaks_where="cameras without perspective, and clip positions whose z is rounded already: no more than z-float32",
+    listing=share_of_depth,
+)
+def reversed_z() -> DepthFormat:
+    """Store a depth that is 1 at the near plane and 0 at the far plane; larger is nearer.
+
+    Notes
+    -----
+    The small numbers of far surfaces are where float32 is finest. That is worth something only if they come from a
+    projection of their own: 1 - z has lost them already (``core.geometry.reversed_depth``).
+    """
+    quantity = DepthQuantity(
+        "reversed-z", "reversed-z", listing=reversed_depth, line_listing=reversed_depth_along
+    )
+    description = "Reversed z as float32, from 1 (near) to 0 (far and cleared): larger is nearer."
+    return DepthFormat(quantity, description, 0.0, True, as_share)
+
+
+def logarithmic_depth(inverse_w: Floats, near: float, far: float) -> Floats:
+    """Return log2(w/near) / log2(far/near) of 1/w (F,) float64; 1 where 1/w is not positive."""
+    is_in_front: Flags = inverse_w > 0
+    with np.errstate(over="ignore"):
+        ratio = 1 / (np.where(is_in_front, inverse_w, 1.0) * near)
+    # So near to the eye that it overflows is before every near plane, so far that it is infinite behind every far one.
+    octaves = log2(np.minimum(np.maximum(ratio, np.finfo(float).tiny), np.finfo(float).max))
+    return np.where(is_in_front, octaves / log2_of(far / near), 1.0)
+
+
 def logarithm_of_w(inverse_w: float, near: float, far: float) -> float:
     """Listing of the logarithmic depth at a pixel."""
     if not inverse_w > 0:
         return 1.0  #: behind
     ratio = 1 / (inverse_w * near)  #: ratio
     return log2_of(ratio) / log2_of(far / near)  #: value
+
+
+@method(
+    "depth",
+    "logarithmic",
+    "Logarithm of w, float32",
+    source="Kemen (Outerra), Logarithmic depth buffer, 2009: log2(w/near) / log2(far/near), here at every pixel",
+    exact_for="order, to 2^-24 log2(far/near) octaves of the distance, at every distance alike",
+    breaks_where="orthographic cameras: w is constant; clip positions beyond w = 2^-16 to 2^16",
+    needs=("perspective",),
+    listing=share_of_depth,
+)
+def logarithmic() -> DepthFormat:
+    """Store the logarithm of the distance: 0 at the near plane, 1 at the far plane; smaller is nearer.
+
+    Notes
+    -----
+    Where 1/w is not positive (a pixel that only the snapped corners cover) nothing is seen, as with 1/w.
+    """
+    quantity = DepthQuantity("logarithm", "inverse-w", logarithmic_depth, logarithm_of_w)
+    description = "Octaves of w from near (0) to far (1 and cleared), as a share, float32: smaller is nearer."
+    return DepthFormat(quantity, description, 1.0, False, as_share)

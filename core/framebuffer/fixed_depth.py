@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.framebuffer.depth import DepthFormat, Stored
+from core.framebuffer.depth import WINDOW_DEPTH, DepthFormat, Stored
 from core.methods import method
 from core.numeric.integer_planes import FieldPlane, IntegerPlanes, integer_planes
 from core.records.arrays import Flags, Floats, Integers
@@ -117,4 +117,5 @@ def in_units(depth: Floats) -> Floats:
 )
 def fixed_38() -> DepthFormat:
     """Store the window depth in units of 2^-38."""
-    return FixedDepth("z", SCALE, False, in_units, SCALE)
+    description = "Window depth z in steps of 2⁻³⁸, 2³⁸ of them where cleared: smaller is nearer."
+    return FixedDepth(WINDOW_DEPTH, description, SCALE, False, in_units, SCALE, "× 2⁻³⁸")

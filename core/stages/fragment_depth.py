@@ -6,8 +6,8 @@ It joins geometry, outlines and the formats of the depth buffer; picture, trace 
 import numpy as np
 
 from core.fragments.interpolation import plane_value
-from core.framebuffer.depth import DepthFormat, Stored, clamp_depth
-from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, logarithmic_depth
+from core.framebuffer.depth import DepthFormat, DepthQuantity, Stored, clamp_depth
+from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.raster.coverage import Fragments
 from core.raster.lines.drawing import interpolate_line
@@ -25,7 +25,7 @@ def fragment_depth(
     Returns
     -------
     depth : (F,) float64, clamped where the triangle is in range as a whole
-    keeps : (F,) bool, False too where 1/w or its logarithm is stored and 1/w shows a point behind the eye
+    keeps : (F,) bool, False too where 1/w is interpolated and shows a point behind the eye
     stored : (F,) of the format's ``stored_type``
     """
     if not isinstance(fragments, LineFragments):
@@ -39,12 +39,8 @@ def fragment_depth(
     outlines = outlines_of(geometry)
     depth = line_depth(outlines, fragments, raster.center)
     depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
-    if depth_format.quantity == "z":
-        return depth, keeps, depth_format.store(depth)
-    value = fragment_quantity(geometry, fragments, raster, depth_format.quantity)
-    if depth_format.quantity != "reversed-z":
-        keeps &= fragment_inverse_w(geometry, fragments, raster) > 0
-    return depth, keeps, depth_format.store(value)
+    plane = _plane_along(geometry, fragments, raster, depth_format.quantity, depth)
+    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
 
 
 def depth_at(
@@ -53,34 +49,53 @@ def depth_at(
     """Return depth, whether it is in range, and what would be stored, (F,) each, of primitives at window positions."""
     depth = plane_value(geometry.depth_plane, primitive, x, y)
     depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
-    if depth_format.quantity == "z":
-        return depth, keeps, depth_format.store(depth)
-    value = quantity_at(geometry, primitive, x, y, depth_format.quantity)
-    if depth_format.quantity != "reversed-z":
-        keeps &= plane_value(geometry.inverse_w_plane, primitive, x, y) > 0
-    return depth, keeps, depth_format.store(value)
+    plane = _plane_at(geometry, primitive, (x, y), depth_format.quantity, depth)
+    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
 
 
-def quantity_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats, quantity: str) -> Floats:
-    """Return what a depth method stores in the place of z, (F,) float64, of primitives at window positions (F,)."""
-    if quantity == "reversed-z":
-        return plane_value(geometry.reversed_plane, primitive, x, y)
-    inverse_w = plane_value(geometry.inverse_w_plane, primitive, x, y)
-    return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
+def fragment_quantity(
+    geometry: Geometry, fragments: Fragments, raster: Raster, quantity: DepthQuantity, depth: Floats
+) -> Floats:
+    """Return what a depth method stores, (F,) float64, before it is limited and rounded; ``depth`` as it is tested."""
+    if isinstance(fragments, LineFragments):
+        plane = _plane_along(geometry, fragments, raster, quantity, depth)
+    else:
+        centers = raster.centers(fragments.column, fragments.row)
+        plane = _plane_at(geometry, fragments.primitive, centers, quantity, depth)
+    return _converted(geometry, plane, quantity)
 
 
-def fragment_quantity(geometry: Geometry, fragments: Fragments, raster: Raster, quantity: str) -> Floats:
-    """Return what a depth method stores in the place of z, before it is limited and rounded: (F,) float64.
+def _plane_at(
+    geometry: Geometry, primitive: Integers, at: tuple[Floats, Floats], quantity: DepthQuantity, depth: Floats
+) -> Floats:
+    """Return what is interpolated, (F,) float64, of primitives at window positions x and y (F,)."""
+    if quantity.plane == "z":
+        return depth
+    plane = geometry.inverse_w_plane if quantity.plane == "inverse-w" else geometry.reversed_plane
+    return plane_value(plane, primitive, *at)
 
-    ``quantity`` is that of `DepthFormat`, ``inverse-w``, ``logarithm`` or ``reversed-z``.
-    """
-    if not isinstance(fragments, LineFragments):
-        x, y = raster.centers(fragments.column, fragments.row)
-        return quantity_at(geometry, fragments.primitive, x, y, quantity)
-    if quantity == "reversed-z":
-        return _reversed_along(geometry, fragments, raster)
-    inverse_w = fragment_inverse_w(geometry, fragments, raster)
-    return inverse_w if quantity == "inverse-w" else logarithmic_depth(inverse_w, *logarithm_range(geometry))
+
+def _plane_along(
+    geometry: Geometry, fragments: LineFragments, raster: Raster, quantity: DepthQuantity, depth: Floats
+) -> Floats:
+    """Return what is interpolated, (F,) float64, of fragments of outlines."""
+    if quantity.plane == "z":
+        return depth
+    along = fragment_inverse_w if quantity.plane == "inverse-w" else _reversed_along
+    return along(geometry, fragments, raster)
+
+
+def _in_front(keeps: Flags, plane: Floats, depth_format: DepthFormat) -> Flags:
+    """Drop fragments (F,) whose interpolated 1/w shows a point behind the eye."""
+    return keeps & (plane > 0) if depth_format.quantity.plane == "inverse-w" else keeps
+
+
+def _stored(geometry: Geometry, plane: Floats, depth_format: DepthFormat) -> Stored:
+    return depth_format.store(_converted(geometry, plane, depth_format.quantity))
+
+
+def _converted(geometry: Geometry, plane: Floats, quantity: DepthQuantity) -> Floats:
+    return plane if quantity.convert is None else quantity.convert(plane, *logarithm_range(geometry))
 
 
 def logarithm_range(geometry: Geometry) -> tuple[float, float]:

@@ -5,13 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from core.framebuffer.depth_formats import (
-    logarithm_of_w,
-    reversed_depth,
-    reversed_depth_along,
-    share_of_depth,
-    unsigned_depth,
-)
+from core.methods import table
 from core.raster.lines.wireframe import LineFragments, line_parameter
 from core.records.listing import Listing, listing
 from core.records.steps import Operation
@@ -24,32 +18,29 @@ _VALUE = (Operation("value", "value", ("depth", "value")), Operation("depth", "r
 
 def value_operations(source: TraceSource) -> tuple[Operation, ...]:
     """Return the operations that make the value; none where z or 1/w is stored as it is."""
-    kept = source.depth_format
-    if kept.quantity in ("reversed-z", "logarithm"):
+    if source.depth_format.quantity.listing is not None:
         return _VALUE
-    return (_ROUND,) if kept.scale != 1 and not kept.is_planar else ()
+    return () if table.get("depth", source.settings.depth).listing is None else (_ROUND,)
 
 
 def value_listings(source: TraceSource) -> dict[str, Listing]:
     """Return the listings of these operations, by kind of row and operation."""
-    kept, found = source.depth_format, dict[str, Callable[..., Any]]()
-    if kept.quantity == "reversed-z":
-        along = isinstance(source.fragments, LineFragments)
-        found = {"value": reversed_depth_along if along else reversed_depth, "depth": share_of_depth}
-    elif kept.quantity == "logarithm":
-        found = {"value": logarithm_of_w, "depth": share_of_depth}
-    elif value_operations(source):
-        found = {"depth": unsigned_depth}
+    quantity, rounding = source.depth_format.quantity, table.get("depth", source.settings.depth).listing
+    value = quantity.listing
+    if isinstance(source.fragments, LineFragments):
+        value = quantity.line_listing or value
+    made: dict[str, Callable[..., Any] | None] = {"value": value, "depth": rounding}
+    found = {name: of for name, of in made.items() if of is not None}
     return {f"{kind}.{name}": listing(of) for kind in ("test", "store") for name, of in found.items()}
 
 
 def value_columns(source: TraceSource) -> dict[str, np.ndarray]:
     """Return the numbers (F,) that the value is made from."""
-    kept, geometry, fragments = source.depth_format, source.geometry, source.fragments
-    if kept.quantity not in ("reversed-z", "logarithm"):
+    quantity, geometry, fragments = source.depth_format.quantity, source.geometry, source.fragments
+    if quantity.listing is None:
         return {}
-    columns = {"value": fragment_quantity(geometry, fragments, source.raster, kept.quantity)}
-    if kept.quantity == "logarithm":
+    columns = {"value": fragment_quantity(geometry, fragments, source.raster, quantity, source.depths[0])}
+    if quantity.plane != "reversed-z":
         return columns
     if isinstance(fragments, LineFragments):
         outlines = outlines_of(geometry)
@@ -64,9 +55,10 @@ def value_columns(source: TraceSource) -> dict[str, np.ndarray]:
 
 def value_constants(source: TraceSource) -> dict[str, float | str]:
     """Return what is the same for all fragments."""
-    constants: dict[str, float | str] = {"quantity": source.depth_format.quantity}
-    if source.depth_format.scale != 1 and not source.depth_format.is_planar:
-        constants["scale"] = source.depth_format.scale
-    if source.depth_format.quantity == "logarithm":
+    kept = source.depth_format
+    constants: dict[str, float | str] = {"quantity": kept.quantity.name}
+    if kept.scale != 1 and not kept.is_planar:
+        constants["scale"] = kept.scale
+    if kept.quantity.convert is not None:
         constants["near"], constants["far"] = logarithm_range(source.geometry)
     return constants

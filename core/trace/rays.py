@@ -66,7 +66,7 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=_listings(),
-        constants={"by_w": source.geometry.ray_planes.by_w, "quantity": source.depth_format.quantity},
+        constants={"by_w": source.geometry.ray_planes.by_w, "quantity": source.depth_format.quantity.name},
         marks={
             "covered": tests.passes,
             "depth-failed": ~tests.passes,

@@ -12,7 +12,7 @@ from app.pages.step.ab_presenter import compare, settings_difference
 from app.session.document import Document, TeachingRaster
 from core import ClipScene, Settings, draw_picture, render, trace
 from core.fast_path.workers import BandWorkers
-from core.framebuffer.depth import DepthFormat, as_float32
+from core.framebuffer.depth import WINDOW_DEPTH, DepthFormat, as_float32
 from core.framebuffer.display import to_display
 from core.methods import table
 from core.pixel_history import why
@@ -27,7 +27,7 @@ def owns_all_ties(a, b):
 
 
 def keep_the_farther():
-    return DepthFormat("z", 0.0, True, as_float32)
+    return DepthFormat(WINDOW_DEPTH, "Reversed by mistake.", 0.0, True, as_float32)
 
 
 def one_row_too_high(segments, last_pixel):

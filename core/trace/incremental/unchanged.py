@@ -98,7 +98,7 @@ def _numbers_of(source: TraceSource) -> list[NDArray[Any]]:
     ]
     found += [planes.a, planes.b, planes.c, planes.determinant, planes.w, geometry.is_in_range]
     found += [*geometry.depth_plane, *geometry.inverse_w_plane]
-    if kept.quantity == "reversed-z":
+    if kept.quantity.plane == "reversed-z":
         found += geometry.reversed_plane
     if kept.is_planar:
         fixed = geometry.fixed_planes

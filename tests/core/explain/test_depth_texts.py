@@ -3,17 +3,13 @@
 import numpy as np
 import pytest
 
-from core.explain.depth_texts import DEPTH_TEXTS, NEARNESS, depth_text
+from core.explain.depth_texts import NEARNESS, depth_text
 from core.methods import table
-
-
-def test_every_depth_method_has_a_text() -> None:
-    assert set(DEPTH_TEXTS) == set(table.names("depth"))
 
 
 @pytest.mark.parametrize("name", table.names("depth"))
 def test_the_text_is_that_of_the_format(name: str) -> None:
-    kept, text = table.get("depth", name).function(), DEPTH_TEXTS[name]
+    kept, text = table.get("depth", name).function(), depth_text("depth", name)
     assert text.description.endswith("larger is nearer." if kept.larger_is_nearer else "smaller is nearer.")
     assert bool(text.unit) == (kept.scale != 1)
     assert ("float32" in text.description) == (kept.scale == 1)
@@ -23,6 +19,5 @@ def test_the_text_is_that_of_the_format(name: str) -> None:
 
 
 def test_only_buffers_of_depths_have_one() -> None:
-    assert depth_text("depth", "z-24") is DEPTH_TEXTS["z-24"]
     assert depth_text("nearness", "z-24") is NEARNESS
     assert depth_text("primitive", "z-24") is None
