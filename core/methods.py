@@ -5,9 +5,10 @@ A method is added by one function in the file of its idea under one decorator::
     @method("fill", "bounding-box", "Bounding box", source="Zwicker 2016, Binning", exact_for="every triangle")
     def bounding_box(edges, raster, block_size): ...
 
-A new file in the folder of its family is found by itself. The files in ``METHOD_FILES`` come first in the menus, and
-one of them is imported when the table is first asked for something that may stand in it; the others when a name stands
-in none of these, or all names are asked for. So a program that draws one picture waits only for the methods it uses.
+A new file in the folder of its family is found by itself. The files that `core.settings.Settings` names come first
+in the menus, and one of them is imported when the table is first asked for something that may stand in it; the others
+when a name stands in none of these, or all names are asked for. So a program that draws one picture waits only for the
+methods it uses.
 """
 
 import pkgutil
@@ -21,56 +22,6 @@ if TYPE_CHECKING:
     from core.records.steps import Operation
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-
-METHOD_FILES: dict[str, tuple[str, ...]] = {
-    "interpolation": ("core.fragments.interpolation", "core.fragments.corrected_affine"),
-    "provoking": ("core.fragments.interpolation",),
-    "depth": ("core.framebuffer.depth", "core.framebuffer.depth_formats", "core.framebuffer.fixed_depth"),
-    "line_clipping": (
-        "core.geometry.line_clipping.records",
-        "core.geometry.line_clipping.cohen_sutherland",
-        "core.geometry.line_clipping.cyrus_beck",
-        "core.geometry.line_clipping.exact",
-        "core.geometry.line_clipping.liang_barsky",
-    ),
-    "pixel_center": ("core.raster.pixel_runs",),
-    "line": (
-        "core.raster.lines.bresenham",
-        "core.raster.lines.dda",
-        "core.raster.lines.diamond_exit",
-        "core.raster.lines.rectangle",
-        "core.raster.lines.smooth",
-    ),
-    "polygon_mode": ("core.raster.polygon_mode",),
-    "cull": ("core.geometry.culling",),
-    "clipping": ("core.geometry.polygon_clipping.methods",),
-    "visibility": ("core.visibility.painters", "core.visibility.ray_casting"),
-    "blend": ("core.framebuffer.blending",),
-    "wrap": ("core.fragments.textures",),
-    "texture_filter": ("core.fragments.textures", "core.fragments.level_of_detail"),
-    "shading": ("core.fragments.shading",),
-    "fill": (
-        "core.raster.fills.tested",
-        "core.raster.fills.scanline",
-        "core.raster.fills.scanline_lecture",
-        "core.raster.spans.fill",
-    ),
-    "antialiasing": (
-        "core.antialiasing.single_sample",
-        "core.antialiasing.supersampling",
-        "core.antialiasing.exact_area",
-        "core.antialiasing.multisampling",
-    ),
-    "resolve_filter": ("core.framebuffer.resolve",),
-    "fill_rule": ("core.raster.edges.fill_rule",),
-    "coverage": (
-        "core.raster.number_formats.floats",
-        "core.raster.number_formats.inverse",
-        "core.raster.number_formats.integers",
-        "core.raster.number_formats.exact",
-    ),
-}
-"""The modules of each family's first methods, in the order of the menus; others are found in the first one's folder."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +43,8 @@ class Method:
     """Where it does not; empty: nowhere."""
     needs: tuple[str, ...] = ()
     """What must hold of the input: ``positive-w``, ``projected``, ``perspective``, ``float64-edges``."""
+    takes: tuple[str, ...] = ()
+    """Other settings that it takes, beside those that every method of its family does: ``block_size``."""
     listing: Callable[..., Any] | None = None
     """The algorithm as a short scalar function that a student can read (`core.records.listing`)."""
     operations: "Mapping[str, tuple[Operation, ...]]" = field(default_factory=dict)
@@ -144,12 +97,18 @@ class MethodTable:
     """
 
     def __init__(self, files: Mapping[str, tuple[str, ...]]) -> None:
-        self._files = files
-        self._registered: dict[str, dict[str, Method]] = {family: {} for family in files}
+        self._files: dict[str, tuple[str, ...]] = {}
+        self._registered: dict[str, dict[str, Method]] = {}
+        for family, its_files in files.items():
+            self.declare(family, its_files)
 
     def __iter__(self) -> Iterator[Method]:
         for family in self.families:
             yield from self._all_of(family)
+
+    def declare(self, family: str, files: tuple[str, ...]) -> None:
+        """Add a family, the first methods of which stand in ``files``."""
+        self._files[family], self._registered[family] = files, {}
 
     def add(self, method: Method) -> None:
         """Register ``method``; ValueError if its name is taken, or its file is not in its family's folder."""
@@ -234,8 +193,8 @@ def modules_in(package: str) -> tuple[str, ...]:
     return tuple(sorted(module.name for module in found if not module.ispkg))
 
 
-table = MethodTable(METHOD_FILES)
-"""All methods of the program."""
+table = MethodTable({})
+"""All methods of the program; `core.settings` declares the families."""
 
 
 def method(
@@ -247,6 +206,7 @@ def method(
     exact_for: str,
     breaks_where: str = "",
     needs: tuple[str, ...] = (),
+    takes: tuple[str, ...] = (),
     listing: Callable[..., Any] | None = None,
     operations: "Mapping[str, tuple[Operation, ...]] | None" = None,
     traits: Any = None,
@@ -254,7 +214,7 @@ def method(
     """Register the decorated function in the table."""
 
     def register(function: Function) -> Function:
-        accounts = (title, function, source, exact_for, breaks_where, needs)
+        accounts = (title, function, source, exact_for, breaks_where, needs, takes)
         table.add(Method(family, name, *accounts, listing, operations or {}, traits))
         return function
 

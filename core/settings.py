@@ -4,10 +4,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from core.families import (
+    Family,
+    SettingField,
+    WholeNumber,
+    choice,
+    draws_lines,
+    has_no_light,
+    has_no_texture,
+    number_field,
+)
 from core.methods import Method, ReplacedName, table
-
-WHOLE_NUMBERS = {"block_size": 256, "correction_interval": 256, "samples_across": 8}
-"""Settings that are whole numbers from 1 on, and the largest that each may be."""
+from core.scene import AnyScene
 
 
 @dataclass(frozen=True)
@@ -20,30 +28,146 @@ class Settings:
         If a value is not in the table; the message lists those that are.
     """
 
-    cull: str = "none"
-    clipping: str = "homogeneous"
-    coverage: str = "snapped"
-    fill_rule: str = "shared-edge"
-    fill: str = "spans"
-    polygon_mode: str = "fill"
-    line: str = "bresenham"
-    line_clipping: str = "none"
-    pixel_center: str = "half"
-    interpolation: str = "perspective"
-    provoking: str = "last"
-    texture_filter: str = "bilinear"
-    wrap: str = "repeat"
-    shading: str = "phong"
-    visibility: str = "z-buffer"
-    depth: str = "z-float32"
-    blend: str = "opaque"
-    antialiasing: str = "none"
-    resolve_filter: str = "box"
-    block_size: int = 8
+    cull: str = choice("none", "Cull", "cull", "core.geometry.culling")
+    clipping: str = choice("homogeneous", "Clipping", "clip", "core.geometry.polygon_clipping.methods")
+    coverage: str = choice(
+        "snapped",
+        "Number format",
+        "edges",
+        "core.raster.number_formats.floats",
+        "core.raster.number_formats.inverse",
+        "core.raster.number_formats.integers",
+        "core.raster.number_formats.exact",
+    )
+    fill_rule: str = choice(
+        "shared-edge",
+        "Fill rule",
+        "raster",
+        "core.raster.edges.fill_rule",
+        taken_by="polygon_mode",
+        otherwise="Wireframes are not filled.",
+    )
+    fill: str = choice(
+        "spans",
+        "Fill",
+        "raster",
+        "core.raster.fills.tested",
+        "core.raster.fills.scanline",
+        "core.raster.fills.scanline_lecture",
+        "core.raster.spans.fill",
+        taken_by="polygon_mode",
+        otherwise="Wireframes are not filled.",
+    )
+    polygon_mode: str = choice("fill", "Polygons", "raster", "core.raster.polygon_mode")
+    line: str = choice(
+        "bresenham",
+        "Lines",
+        "raster",
+        "core.raster.lines.bresenham",
+        "core.raster.lines.dda",
+        "core.raster.lines.diamond_exit",
+        "core.raster.lines.rectangle",
+        "core.raster.lines.smooth",
+        taken_by="polygon_mode",
+        otherwise="Lines are drawn where polygons are wireframes.",
+    )
+    line_clipping: str = choice(
+        "none",
+        "Line clipping",
+        "raster",
+        "core.geometry.line_clipping.records",
+        "core.geometry.line_clipping.cohen_sutherland",
+        "core.geometry.line_clipping.cyrus_beck",
+        "core.geometry.line_clipping.exact",
+        "core.geometry.line_clipping.liang_barsky",
+        taken_by="polygon_mode",
+        otherwise="Lines are drawn where polygons are wireframes.",
+    )
+    pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs")
+    interpolation: str = choice(
+        "perspective",
+        "Interpolation",
+        "interpolate",
+        "core.fragments.interpolation",
+        "core.fragments.corrected_affine",
+    )
+    provoking: str = choice(
+        "last",
+        "Provoking vertex",
+        "interpolate",
+        "core.fragments.interpolation",
+        taken_by="interpolation",
+        otherwise="Only flat interpolation takes one corner's value.",
+    )
+    texture_filter: str = choice(
+        "bilinear",
+        "Texture filter",
+        "shade",
+        "core.fragments.textures",
+        "core.fragments.level_of_detail",
+        reason=has_no_texture,
+    )
+    wrap: str = choice("repeat", "Texture wrap", "shade", "core.fragments.textures", reason=has_no_texture)
+    shading: str = choice("phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light)
+    visibility: str = choice(
+        "z-buffer", "Visibility", "depth", "core.visibility.painters", "core.visibility.ray_casting"
+    )
+    depth: str = choice(
+        "z-float32",
+        "Depth",
+        "depth",
+        "core.framebuffer.depth",
+        "core.framebuffer.depth_formats",
+        "core.framebuffer.fixed_depth",
+    )
+    blend: str = choice("opaque", "Blending", "blend", "core.framebuffer.blending")
+    antialiasing: str = choice(
+        "none",
+        "Antialiasing",
+        "resolve",
+        "core.antialiasing.single_sample",
+        "core.antialiasing.supersampling",
+        "core.antialiasing.exact_area",
+        "core.antialiasing.multisampling",
+    )
+    resolve_filter: str = choice(
+        "box",
+        "Resolve filter",
+        "resolve",
+        "core.framebuffer.resolve",
+        taken_by="antialiasing",
+        otherwise="Only several samples a pixel are filtered.",
+    )
+    block_size: int = number_field(
+        8,
+        "Block size",
+        256,
+        (1, 2, 4, 8, 16, 32),
+        "{0} × {0} pixels",
+        taken_by="fill",
+        otherwise="Only fills by blocks have a block size.",
+    )
     """Pixels on a side of a block (fills by blocks), 1 to 256."""
-    correction_interval: int = 16
+    correction_interval: int = number_field(
+        16,
+        "Correction interval",
+        256,
+        (1, 2, 4, 8, 16, 32, 64),
+        "{0} px",
+        taken_by="interpolation",
+        otherwise="Only affine interpolation that is corrected has an interval.",
+        reason=draws_lines,
+    )
     """Columns between corrections (interpolation ``affine-n``), 1 to 256."""
-    samples_across: int = 3
+    samples_across: int = number_field(
+        3,
+        "Samples",
+        8,
+        tuple(range(1, 9)),
+        "{0} × {0} samples",
+        taken_by="antialiasing",
+        otherwise="Only supersampling with n x n samples leaves their number open.",
+    )
     """Samples on a side of a pixel (antialiasing ``ssaa-n``), 1 to 8."""
 
     def __post_init__(self) -> None:
@@ -52,10 +176,10 @@ class Settings:
             # Defaults are in the table; looking there would import their files.
             if name != getattr(Settings, family) or isinstance(name, ReplacedName):
                 table.get(family, name)
-        for name, limit in WHOLE_NUMBERS.items():
+        for name, number in WHOLE_NUMBERS.items():
             value = getattr(self, name)
-            if type(value) is not int or not 1 <= value <= limit:
-                raise ValueError(f"{name} must be a whole number from 1 to {limit}, got {value!r}")
+            if type(value) is not int or not 1 <= value <= number.limit:
+                raise ValueError(f"{name} must be a whole number from 1 to {number.limit}, got {value!r}")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Settings):
@@ -102,9 +226,29 @@ class Settings:
         return replace(self, **names)  # type: ignore[arg-type]
 
 
+FIELDS: Mapping[str, SettingField] = {field.name: field.metadata["field"] for field in fields(Settings)}
+"""What is declared of every setting, by name."""
+FAMILIES = {name: declared for name, declared in FIELDS.items() if isinstance(declared, Family)}
+"""The families of methods, in pipeline order."""
+WHOLE_NUMBERS = {name: declared for name, declared in FIELDS.items() if isinstance(declared, WholeNumber)}
+"""Settings that are whole numbers from 1 on."""
+for _name, _family in FAMILIES.items():
+    table.declare(_name, _family.files)
+
+
 def families() -> tuple[str, ...]:
     """Return the families of methods that settings choose from, in pipeline order."""
-    return tuple(field.name for field in fields(Settings) if field.type is str)
+    return tuple(FAMILIES)
+
+
+def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> str:
+    """Return why a setting changes nothing with the others and this scene, as a sentence; empty: it may."""
+    declared = FIELDS[name]
+    by = declared.taken_by
+    if by and name not in table.get(by, getattr(settings, by)).takes:
+        return declared.otherwise
+    reason = declared.reason(settings, scene) if declared.reason else ""
+    return reason or (no_effect(settings, by, scene) if by else "")
 
 
 def import_methods(settings: Settings) -> None:

@@ -8,7 +8,6 @@ import core  # noqa: F401  (its modules register the methods)
 from app.cli.commands import UsageError
 from core import Settings
 from core.methods import Method, table
-from core.settings import families
 
 DESCRIPTION = """List the methods that settings choose from, spelled as --set takes them."""
 EXAMPLES = """examples:
@@ -29,9 +28,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the table."""
     if options.family is not None and options.family not in table.families:
         raise UsageError(f"family must be one of {', '.join(table.families)}, got {options.family}")
-    order = [*families(), *table.families]
-    methods = sorted(table, key=lambda method: order.index(method.family))
-    methods = [method for method in methods if options.family in (None, method.family)]
+    methods = [method for method in table if options.family in (None, method.family)]
     if options.json:
         print(json.dumps([json_of(method) for method in methods], indent=1))
     else:

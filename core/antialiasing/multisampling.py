@@ -33,6 +33,7 @@ from core.stages.vertices import Geometry, process_geometry, timed
     source="OpenGL 4.6, 14.3.1 Multisampling; LMU 2020, Multisampling (MSAA)",
     exact_for="edges, in quarters of a pixel",
     breaks_where="what lies inside triangles (textures, highlights), and colours that extrapolate beyond an edge",
+    takes=("resolve_filter",),
 )
 def multisample(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw with four samples a pixel; ``chosen`` (T,) triangles, or all."""

@@ -37,6 +37,7 @@ GEOMETRY = STAGES[: STAGES.index("bin") + 1]
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
     exact_for="areas in quarters of a pixel, shading included",
     breaks_where="edges that are nearly level or upright: two steps a pixel; four times the work",
+    takes=("resolve_filter",),
 )
 def supersample_by_2(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
@@ -52,6 +53,7 @@ def supersample_by_2(
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
     exact_for="areas in sixteenths of a pixel, shading included",
     breaks_where="edges that are nearly level or upright: four steps a pixel; sixteen times the work",
+    takes=("resolve_filter",),
 )
 def supersample_by_4(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
@@ -67,6 +69,10 @@ def supersample_by_4(
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
     exact_for="areas in n * n parts of a pixel, shading included; n is samples_across",
     breaks_where="edges that are nearly level or upright: n steps a pixel; n * n times the work",
+    takes=(
+        "resolve_filter",
+        "samples_across",
+    ),
 )
 def supersample_by_n(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from core import STAGES
 from core.explain.records import StageCard
 from core.methods import table
+from core.settings import FIELDS
 
 SHORT_TITLES: Mapping[str, str] = {
     "transform": "Transform",
@@ -103,32 +104,6 @@ STAGE_CARDS: Mapping[str, StageCard] = {
 }
 """The cards of all stages."""
 
-FAMILY_TITLES: Mapping[str, tuple[str, str]] = {
-    "cull": ("Cull", "Geometry"),
-    "clipping": ("Clipping", "Geometry"),
-    "coverage": ("Numbers", "Raster"),
-    "fill_rule": ("Fill rule", "Raster"),
-    "fill": ("Fill", "Raster"),
-    "block_size": ("Block size", "Raster"),
-    "polygon_mode": ("Polygons", "Raster"),
-    "line": ("Lines", "Raster"),
-    "line_clipping": ("Line clipping", "Raster"),
-    "pixel_center": ("Pixel centres", "Raster"),
-    "interpolation": ("Interpolation", "Fragments"),
-    "correction_interval": ("Corrected", "Fragments"),
-    "provoking": ("Flat takes", "Fragments"),
-    "texture_filter": ("Texture filter", "Fragments"),
-    "wrap": ("Texture wrap", "Fragments"),
-    "shading": ("Shading", "Fragments"),
-    "visibility": ("Visibility", "Framebuffer"),
-    "depth": ("Depth", "Framebuffer"),
-    "blend": ("Blending", "Framebuffer"),
-    "antialiasing": ("Antialiasing", "Framebuffer"),
-    "samples_across": ("Samples", "Framebuffer"),
-    "resolve_filter": ("Resolve by", "Framebuffer"),
-}
-"""What the families of methods are called, and the heading that they stand under."""
-
 
 @dataclass(frozen=True)
 class MethodText:
@@ -179,5 +154,5 @@ def method_text(family: str, name: str) -> MethodText:
 
 
 def family_title(family: str) -> str:
-    """Return what a family of methods is called; one that is not in the table goes by its own name."""
-    return FAMILY_TITLES[family][0] if family in FAMILY_TITLES else family.replace("_", " ").capitalize()
+    """Return what a setting is called; one that settings do not have goes by its own name."""
+    return FIELDS[family].title if family in FIELDS else family.replace("_", " ").capitalize()

@@ -75,6 +75,7 @@ def place_anchors(planes: Planes, primitive: Integers, x: Floats, y: Floats, int
     exact_for="triangles of one w; all of them with a correction interval of 1",
     breaks_where="w changes much within n pixels of a row: the error is that of affine over one interval",
     needs=("positive-w",),
+    takes=("correction_interval",),
 )
 @np.errstate(invalid="ignore", over="ignore")
 def corrected_affine(

@@ -170,6 +170,7 @@ def affine(
     "Flat (one corner's value)",
     source="OpenGL 4.6, 13.4 Flatshading",
     exact_for="values of one corner",
+    takes=("provoking",),
 )
 def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int) -> Floats:
     """Return weights (F, 3): 1 for the provoking corner, 0 for the others."""

@@ -23,7 +23,7 @@ FLOAT_INFINITY = 0x7F800000
 
 
 PLANES = ("z", "inverse-w", "reversed-z")
-"""Numbers that are linear over the window: the window depth, 1/w, and a depth that is 1 at the near plane, 0 at the far."""
+"""Numbers that are linear over the window: z, 1/w, and a depth that is 1 at the near and 0 at the far plane."""
 
 Stored = NDArray[Any]
 """Depths as a method stores them: float32, or whole numbers in float64."""

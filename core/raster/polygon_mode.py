@@ -3,7 +3,17 @@
 from core.methods import method
 
 
-@method("polygon_mode", "fill", "Filled", source="OpenGL 4.6, 14.6.4", exact_for="every triangle")
+@method(
+    "polygon_mode",
+    "fill",
+    "Filled",
+    source="OpenGL 4.6, 14.6.4",
+    exact_for="every triangle",
+    takes=(
+        "fill",
+        "fill_rule",
+    ),
+)
 def filled() -> bool:
     """Return whether only the edges are drawn."""
     return False
@@ -17,6 +27,10 @@ def filled() -> bool:
     exact_for="outlines of triangles in front of the eye, as exact as the line method",
     breaks_where="edges seen end-on and triangles seen edge-on vanish; edges that two triangles share are drawn twice",
     needs=("projected",),
+    takes=(
+        "line",
+        "line_clipping",
+    ),
 )
 def outlined() -> bool:
     """Return whether only the edges are drawn."""

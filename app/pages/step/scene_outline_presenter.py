@@ -7,19 +7,20 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.session.document import Document, focus_on
 from app.session.scene_edits import outline, set_value
 from app.session.session import Session
-from core.explain.stage_texts import FAMILY_TITLES
+from core.families import WholeNumber
 from core.methods import table
-from core.scene import ClipScene, Scene
-from core.settings import WHOLE_NUMBERS, families
+from core.scene import Scene
+from core.settings import FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 
-NUMBERS_OFFERED = {
-    "block_size": ((1, 2, 4, 8, 16, 32), "{0} × {0} pixels"),
-    "correction_interval": ((1, 2, 4, 8, 16, 32, 64), "every {0} pixels"),
-    "samples_across": (tuple(range(1, 9)), "{0} × {0} samples"),
+GROUPS = {
+    "Geometry": ("cull", "clip"),
+    "Raster": ("edges", "raster"),
+    "Fragments": ("interpolate", "shade"),
+    "Framebuffer": ("depth", "blend", "resolve"),
 }
-"""Settings that are numbers: the ones to choose from, and how they are called."""
+"""Headings of the panel, and the stages whose settings stand under each."""
 
 
 class SceneOutlinePresenter(QObject):
@@ -95,33 +96,28 @@ def _document_group(document: Document) -> OutlineGroup:
 
 
 def settings_records(document: Document) -> list[Setting]:
-    """Return one record per family, with what does not matter now and why."""
-    records = []
-    last_group = ""
-    for family in _in_order():
-        title, group = FAMILY_TITLES[family]
-        heading = group if group != last_group else ""
-        last_group = group
-        current = str(getattr(document.settings, family))
-        if family in WHOLE_NUMBERS:
-            offered, unit = NUMBERS_OFFERED[family]
-            numbers = [str(number) for number in offered]
-            numbers += [] if current in numbers else [current]
-            choices = tuple(SettingChoice(number, unit.format(number)) for number in numbers)
-        else:
-            choices = tuple(_choice(document, family, name) for name in table.names(family))
-        records.append(Setting(family, title, choices, current, _no_effect(document, family), heading))
-    return records
+    """Return one record per setting, with what does not matter now and why."""
+    return [
+        _record(document, name, heading if name == first else "")
+        for heading, stages in GROUPS.items()
+        for names in [[family for family in FAMILIES if FAMILIES[family].stage in stages]]
+        for first in names[:1]
+        for family in names
+        for name in (family, *(number for number in WHOLE_NUMBERS if FIELDS[number].taken_by == family))
+    ]
 
 
-def _in_order() -> list[str]:
-    """Return families and numbers as the panel lists them: a number behind the family that it belongs to."""
-    number_of = {
-        "fill": "block_size",
-        "interpolation": "correction_interval",
-        "antialiasing": "samples_across",
-    }
-    return [name for family in families() for name in (family, number_of.get(family, "")) if name]
+def _record(document: Document, name: str, heading: str) -> Setting:
+    declared, settings = FIELDS[name], document.settings
+    current = str(getattr(settings, name))
+    if isinstance(declared, WholeNumber):
+        numbers = [str(number) for number in declared.offered]
+        numbers += [] if current in numbers else [current]
+        choices = tuple(SettingChoice(number, declared.label.format(number)) for number in numbers)
+    else:
+        choices = tuple(_choice(document, name, method) for method in table.names(name))
+    reason = no_effect(settings, name, document.scene)
+    return Setting(name, declared.title, choices, current, reason, heading)
 
 
 def _choice(document: Document, family: str, name: str) -> SettingChoice:
@@ -134,34 +130,3 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     if "perspective" in found.needs and is_orthographic:
         refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
     return SettingChoice(name, found.title, tooltip, refusal)
-
-
-def _no_effect(document: Document, family: str) -> str:
-    """Return why a family has no effect on this document, or nothing."""
-    settings, scene = document.settings, document.scene
-    wireframe = settings.polygon_mode == "wireframe"
-    if family == "block_size" and settings.fill not in ("hierarchy", "blocks"):
-        return "Only fills by blocks have a block size."
-    if family == "correction_interval" and settings.interpolation != "affine-n":
-        return "Only affine interpolation that is corrected has an interval."
-    if family == "correction_interval" and wireframe:
-        return "Lines are interpolated with perspective at every pixel."
-    if family == "samples_across" and settings.antialiasing != "ssaa-n":
-        return "Only supersampling with n x n samples leaves their number open."
-    if family in ("fill", "fill_rule", "block_size") and wireframe:
-        return "Wireframes are not filled."
-    if family in ("line", "line_clipping") and not wireframe:
-        return "Lines are drawn where polygons are wireframes."
-    if family == "resolve_filter" and settings.antialiasing in ("none", "area"):
-        return "Only several samples a pixel are filtered."
-    if family == "provoking" and settings.interpolation != "flat":
-        return "Only flat interpolation takes one corner's value."
-    if family in ("texture_filter", "wrap"):
-        textures = (
-            [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
-        )
-        if not any(texture is not None for texture in textures):
-            return "This scene has no texture."
-    if family == "shading" and isinstance(scene, ClipScene):
-        return "Typed triangles have no lights: they are unlit."
-    return ""

@@ -20,7 +20,7 @@ from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene, DirectionalLight, Mesh, Scene
-from core.settings import Settings, families
+from core.settings import FAMILIES, Settings, families, no_effect
 from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task
 from core.study.accuracy.frame_task import (
     LARGEST_COLOR,
@@ -43,8 +43,6 @@ MEASURES = (MEAN_COLOR, LARGEST_COLOR, WRONG_VISIBLE, SAMPLED_COLOR)
 
 LOOKS = ("cull", "polygon_mode", "pixel_center", "provoking", "wrap", "shading", "blend", "line")
 """Families that choose what is to be seen, not how well: the reference takes them from the settings given."""
-TITLES = {"pixel_center": "Pixel centres"}
-"""Titles of families whose name is not one."""
 SCALES = Dial("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
 
 
@@ -150,19 +148,9 @@ class _Pipeline(StudyFamily):
         found = [Candidate(f"fill={base.fill}", "As it is")]
         for family in families():
             for name in table.names(family):
-                if name != getattr(base, family) and has_effect(family, base):
+                if name != getattr(base, family) and not no_effect(base, family):
                     found.append(Candidate(f"{family}={name}", table.get(family, name).title))
         return tuple(found)
-
-
-def has_effect(family: str, base: Settings) -> bool:
-    """Tell whether a change of a family can change the picture at all, with the other settings as they are."""
-    is_outlined = bool(table.get("polygon_mode", base.polygon_mode).function())
-    if family in ("line", "line_clipping"):
-        return is_outlined
-    if family in ("fill", "fill_rule"):
-        return not is_outlined
-    return family != "provoking" or base.interpolation == "flat"
 
 
 PICTURE = WorkKind("scene", "The scene as it is seen", "frame", (SCALES,))
@@ -201,5 +189,4 @@ def standing_in(family: str) -> StudyFamily:
     def make(assignment: Assignment) -> PictureTask:
         return PictureTask(scaled(standard_scene(), assignment.dials["scale"]), assignment.settings, family)
 
-    title = TITLES.get(family, family.replace("_", " ").capitalize())
-    return StudyFamily(family, title, (family,), (PICTURE,), MEASURES, make, base)
+    return StudyFamily(family, FAMILIES[family].title, (family,), (PICTURE,), MEASURES, make, base)

@@ -5,7 +5,6 @@ from pytestqt.qtbot import QtBot
 
 from core import STAGES
 from core.explain.stage_texts import (
-    FAMILY_TITLES,
     SHORT_TITLES,
     STAGE_CARDS,
     family_title,
@@ -13,7 +12,7 @@ from core.explain.stage_texts import (
     stage_card,
 )
 from core.methods import table
-from core.settings import families
+from core.settings import FAMILIES, families
 from widgets.timeline.stage_card import StageCardView
 
 
@@ -49,7 +48,7 @@ def test_a_stage_that_is_not_there_is_refused() -> None:
 
 @pytest.mark.parametrize("family", families())
 def test_methods_have_texts(family: str) -> None:
-    assert family_title(family) == FAMILY_TITLES[family][0]
+    assert family_title(family) == FAMILIES[family].title
     for name in table.names(family):
         text = method_text(family, name)
         method = table.get(family, name)

@@ -1,0 +1,84 @@
+"""What `core.settings.Settings` declares of each of its fields, once: menus, titles, command line and tests read it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from core.methods import table
+from core.scene import AnyScene, ClipScene
+
+if TYPE_CHECKING:
+    from core.settings import Settings
+
+Reason = Callable[["Settings", AnyScene | None], str]
+"""Why a setting changes nothing with these settings and this scene, as a sentence; empty: it does."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SettingField:
+    """What is known of any setting."""
+
+    title: str
+    """What a person reads in a panel."""
+    taken_by: str = ""
+    """The family whose chosen method decides, by its ``takes``, whether this setting matters; empty: it always does."""
+    otherwise: str = ""
+    """Why it does not matter, where the chosen method does not take it."""
+    reason: Reason | None = None
+    """Another reason why it does not matter."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Family(SettingField):
+    """A family of methods, one of which a setting chooses."""
+
+    stage: str
+    """The stage that runs the method."""
+    files: tuple[str, ...]
+    """The modules of its first methods, in the order of the menus; others are found in the first one's folder."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WholeNumber(SettingField):
+    """A whole number from 1 on that some methods of a family take."""
+
+    limit: int
+    """Largest that it may be."""
+    offered: tuple[int, ...]
+    """Those in menus."""
+    label: str
+    """How a menu shows one, a format of the number."""
+
+
+def choice(default: str, title: str, stage: str, *files: str, **applies: Any) -> Any:
+    """Declare a field of settings that chooses a method; ``applies`` are further fields of `Family`."""
+    return field(
+        default=default, metadata={"field": Family(title=title, stage=stage, files=files, **applies)}
+    )
+
+
+def number_field(
+    default: int, title: str, limit: int, offered: tuple[int, ...], label: str, **applies: Any
+) -> Any:
+    """Declare a field of settings that is a number; ``applies`` are further fields of `WholeNumber`."""
+    number = WholeNumber(title=title, limit=limit, offered=offered, label=label, **applies)
+    return field(default=default, metadata={"field": number})
+
+
+def has_no_texture(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why textures do not matter."""
+    if scene is None:
+        return ""
+    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
+
+
+def has_no_light(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why light does not matter."""
+    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
+
+
+def draws_lines(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why an interval between corrections does not matter."""
+    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
+    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""
