@@ -106,6 +106,7 @@ def test_history_ends_in_the_picture(name, choice):
     check_pixels(scene, settings_of(choice, scene), some_pixels(scene))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "choice"),
     in_turn(["clip", "lit", "textured-clip"], [{"fill": "hierarchy", "block_size": 2}, *MIXES]),

@@ -12,6 +12,7 @@ from core.records.frame import Frame
 from core.settings import families
 from core.trace import Trace
 from core.trace.source import TraceSource
+from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import (
     CASES,
@@ -120,11 +121,9 @@ def check_one_triangle(scene: ClipScene, settings: Settings, triangle: int) -> N
         assert np.array_equal(count, first.cover_count), before
 
 
-@pytest.mark.parametrize("choice", [*CHOICES, *MIXES], ids=name_of)
-def test_one_triangle_continues_the_picture_of_the_earlier_ones(choice):
-    scene = clip_scene()
-    for triangle in (0, 2, 4, 5, 9):
-        check_one_triangle(scene, Settings(**choice), triangle)
+@pytest.mark.parametrize(("triangle", "choice"), in_turn([0, 2, 4, 5, 9], [*CHOICES, *MIXES]), ids=name_of)
+def test_one_triangle_continues_the_picture_of_the_earlier_ones(triangle, choice):
+    check_one_triangle(clip_scene(), Settings(**choice), triangle)
 
 
 def test_one_triangle_of_a_lit_scene_gives_the_picture_when_it_is_the_last():
