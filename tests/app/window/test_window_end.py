@@ -27,17 +27,21 @@ sys.exit(window_start.run_window({target!r}))
 """
 
 
+ACTS = [
+    ("/nowhere/gone.obj", "pass"),
+    ("torus", "window.files.open_path('knot')"),
+    ("single-triangle", "window.pages.show_page('stability'); window.pages.current.runs.run()"),
+]
+SLOW_ACTS = [
+    ("single-triangle", "window.page.timeline.toggle_play()"),
+    ("knot", "window.page.show_view('scene')"),
+    ("sphere", "window.session.set_setting('fill', 'brute-force')"),
+    ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
+]
+
+
 @pytest.mark.parametrize(
-    ("target", "act"),
-    [
-        ("single-triangle", "window.page.timeline.toggle_play()"),
-        ("knot", "window.page.show_view('scene')"),
-        ("sphere", "window.session.set_setting('fill', 'brute-force')"),
-        ("torus", "window.files.open_path('knot')"),
-        ("/nowhere/gone.obj", "pass"),
-        ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
-        ("single-triangle", "window.pages.show_page('stability'); window.pages.current.runs.run()"),
-    ],
+    ("target", "act"), [*ACTS, *(pytest.param(*case, marks=pytest.mark.slow) for case in SLOW_ACTS)]
 )
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
     assert printed(tmp_path, target, act) == ""

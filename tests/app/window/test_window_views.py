@@ -1,5 +1,6 @@
 """Every main view at every stage of every built-in scene, and scenes that show next to nothing."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
 from core.records.steps import Level
 from lessons.scenes import built_in_scene, scene_names
+from tests.core.covering import in_turn
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, PRESENTER
 
@@ -38,20 +40,19 @@ POOR = {
 }
 
 
-def look_at_everything(window: MainWindow, views: tuple[str, ...], stages: tuple[str, ...] = STAGES) -> None:
-    """Go through views and stages, from the first step to the last, with a pin; pytest-qt fails on what is raised."""
+def look_at_everything(window: MainWindow, views: Iterable[str], stages: tuple[str, ...] = STAGES) -> None:
+    """Go through views at stages, from the first step to the last, with a pin; pytest-qt fails on what is raised."""
     session = window.session
     first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
-    for view in views:
+    for view, stage in in_turn(views, stages):
         window.page.show_view(view)
         assert window.page.current_view() == view
-        for stage in stages:
-            session.set_stage(stage, 0)
-            session.step(1)
-            session.go_to(session.stage_trace.steps.count)
-            QApplication.processEvents()
-            assert window.page.grid.buffer() is not None
-            assert window.page.sentence.text()
+        session.set_stage(stage, 0)
+        session.step(1)
+        session.go_to(session.stage_trace.steps.count)
+        QApplication.processEvents()
+        assert window.page.grid.buffer() is not None
+        assert window.page.sentence.text()
         session.set_pin(((first_column + end_column) // 2, (first_row + end_row) // 2))
         QApplication.processEvents()
         session.set_pin(None)
@@ -61,12 +62,11 @@ def look_at_everything(window: MainWindow, views: tuple[str, ...], stages: tuple
 def test_every_view_at_every_stage_of_every_scene(window: MainWindow, name: str) -> None:
     scene = built_in_scene(name)
     window.session.open(open_document(scene.make(), scene.title))
-    look_at_everything(window, tuple(window.page.view_names()))
+    look_at_everything(window, window.page.view_names())
 
 
-@pytest.mark.parametrize("cull", ["none", "back"])
-def test_scenes_that_show_next_to_nothing(window: MainWindow, cull: str) -> None:
-    for name, scene in POOR.items():
+def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
+    for (name, scene), cull in in_turn(POOR.items(), ["none", "back"]):
         window.session.open(replace(open_document(scene, name), settings=Settings(cull=cull)))
         look_at_everything(window, ("pixels",))
         look_at_everything(window, ("scene", "clip", "pyramid"), ("clip", "raster"))
@@ -100,15 +100,13 @@ def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None
     assert len(found) == 1
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK, PRESENTER], ids=["light", "dark", "presenter"])
-def test_every_theme_fills_the_window_with_its_ground(
-    window: MainWindow, qtbot: QtBot, theme: object
-) -> None:
-    window.look.set_theme(theme.name)  # type: ignore[attr-defined]
-    QApplication.processEvents()
-    image = window.grab().toImage()
-    ground = image.pixelColor(image.width() - 2, image.height() - 2)
-    assert ground.name() == theme.window  # type: ignore[attr-defined]
+def test_every_theme_fills_the_window_with_its_ground(window: MainWindow) -> None:
+    for theme in (DARK, PRESENTER, LIGHT):
+        window.look.set_theme(theme.name)
+        QApplication.processEvents()
+        image = window.grab().toImage()
+        ground = image.pixelColor(image.width() - 2, image.height() - 2)
+        assert ground.name() == theme.window
 
 
 def test_the_whole_window_fits_its_smallest_size(window: MainWindow) -> None:
