@@ -5,6 +5,7 @@ import json
 import signal
 import subprocess
 import sys
+from functools import partial
 from io import StringIO
 
 import numpy as np
@@ -301,8 +302,14 @@ def test_a_reader_that_leaves_is_no_error():
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for one process")
 def test_an_interrupt_ends_with_130_and_without_a_word():
     command = [sys.executable, "-P", "-m", "app", "trace", "cube", "--stage", "raster", "--size", "60x60"]
+    # A shell lets what it starts in the background ignore this signal, the tests too.
+    heed = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={"PYTHONPATH": str(ROOT)}
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env={"PYTHONPATH": str(ROOT)},
+        preexec_fn=heed,
     ) as process:
         assert process.stdout.readline() == b"{\n"
         process.send_signal(signal.SIGINT)

@@ -93,18 +93,21 @@ def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(qtbo
     accent = QColor(current_theme().accent)
     margin = view._margin
 
-    def accent_columns() -> int:
+    def accent_columns() -> list[int]:
         row = margin.grab().toImage()
         y = line_middle(view, 3)
-        return sum(row.pixelColor(x, y) == accent for x in range(row.width()))
+        return [x for x in range(row.width()) if row.pixelColor(x, y) == accent]
 
-    assert accent_columns() == 0
+    assert accent_columns() == []
     view.show_line(3)
     view.show_breakpoints({4})
-    assert accent_columns() >= 8
+    bar, arrow = accent_columns()[:4], accent_columns()[4:]
+    assert bar == [0, 1, 2, 3]
+    assert arrow
+    assert arrow[0] > 4
     assert "3" in view.accessibleDescription()
     view.show_line(None)
-    assert accent_columns() == 0
+    assert accent_columns() == []
     assert seen == []
 
 
