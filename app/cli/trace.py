@@ -146,7 +146,7 @@ def check_length(traced: Trace) -> None:
 
 def json_of(stage: StageTrace, traced: Trace, document: Document) -> Iterable[str]:
     """Return the lines of the JSON format."""
-    from core.explain.sentences.table import sentence
+    from core.explain import sentence
 
     source = traced.source
     header = {

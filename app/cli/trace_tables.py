@@ -25,7 +25,7 @@ def json_lines(stage: StageTrace, header: Header, sentence: Sentence) -> Iterato
     header : dict
         What was traced, values that JSON has.
     sentence : callable
-        Says what a step did, as ``core.explain.sentences.table.sentence``.
+        Says what a step did, as ``core.explain.sentence``.
 
     Notes
     -----

@@ -1,1 +1,40 @@
-"""Explanations of every step and method: sentences, formulas, variables and questions. NumPy only."""
+"""Explanations: for every step a sentence, a formula, variables and a question; for stages and methods their texts.
+
+What a subject says stands in one module of ``core.explain.subjects``; see `core.explain.rows` for the shape of a row.
+Nothing here draws: the window, ``rasterscope trace``, lessons and exercises show the same texts.
+"""
+
+from typing import TYPE_CHECKING
+
+from core.lazy_import import import_on_demand
+
+if TYPE_CHECKING:
+    from core.explain.stage_texts import (
+        family_title,
+        initial_sentence,
+        method_text,
+        stage_card,
+        summary_sentence,
+    )
+    from core.explain.steps import formula, question, sentence, variables
+else:
+    __getattr__ = import_on_demand(
+        globals(),
+        **dict.fromkeys(("formula", "question", "sentence", "variables"), "core.explain.steps"),
+        **dict.fromkeys(
+            ("family_title", "initial_sentence", "method_text", "stage_card", "summary_sentence"),
+            "core.explain.stage_texts",
+        ),
+    )
+
+__all__ = [
+    "family_title",
+    "formula",
+    "initial_sentence",
+    "method_text",
+    "question",
+    "sentence",
+    "stage_card",
+    "summary_sentence",
+    "variables",
+]

@@ -76,6 +76,39 @@ class Question:
     """What counts as right, in words, such as ``within 0.01``."""
 
 
+TOLERANCE = 0.01
+"""Relative error of a number that still counts as right."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question with its answer."""
+
+    question: Question
+    answer: float
+    """The number, or the index of the right choice."""
+    reveal: str
+    """One sentence with the value."""
+
+    def is_right(self, answer: float) -> bool:
+        """Tell whether an answer counts as right."""
+        if self.question.kind is AnswerKind.CHOICE:
+            return int(answer) == int(self.answer)
+        return math.isclose(answer, self.answer, rel_tol=TOLERANCE, abs_tol=1e-9)
+
+
+def choice(text: str, answer: int, reveal: str, choices: tuple[str, ...] = ("Yes", "No")) -> Asked:
+    """Return a question with buttons; ``answer`` is the index of the right one."""
+    return Asked(Question(text, AnswerKind.CHOICE, choices), answer, reveal)
+
+
+def number(text: str, answer: float, reveal: str) -> Asked | None:
+    """Return a question for a number; ``None`` where the answer is not finite."""
+    if not math.isfinite(answer):
+        return None
+    return Asked(Question(text, AnswerKind.NUMBER, tolerance="within 1 %"), answer, reveal)
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What became of an answer."""

@@ -21,13 +21,6 @@ PLANE_SIGNS = {
     "top": ("y", -1),
 }
 """Clip planes: the signed distance is w plus or minus one coordinate."""
-DEPTH_NAMES = {
-    "z": "z",
-    "inverse-w": "1/w",
-    "reversed-z": "reversed z",
-    "logarithm": "logarithmic depth",
-}
-"""Quantities of the depth buffer, as sentences call them."""
 KEY_NUMBER_BITS = 24
 """Bits of a packed key below the depth."""
 
@@ -45,9 +38,13 @@ class StepValues:
 
     @property
     def key(self) -> str:
-        """The key under which sentence and formula stand: one for all interpolated values."""
-        operation = "value" if self.operation.startswith("value-") else self.operation
-        return f"{self.stage}.{self.kind}.{operation}"
+        """The key of the step's row: one for all interpolated values, and one for the three edges."""
+        return row_key(self.explanation.key)
+
+    @property
+    def edge(self) -> int:
+        """Number of the edge that the operation ``edge-0``, ``edge-1`` or ``edge-2`` is about."""
+        return int(self.operation.removeprefix("edge-"))
 
     @property
     def pixel(self) -> tuple[int, int]:
@@ -58,11 +55,16 @@ class StepValues:
 
     @property
     def pixel_name(self) -> str:
-        """The pixel as it is called in a sentence."""
+        """The name of the pixel, or of its sample, at the beginning of a sentence."""
         column, row = self.pixel
         if self.has("sample") and self.whole("sample") >= 0:
             return f"Sample {self.whole('sample')} of pixel ({column}, {row})"
         return f"Pixel ({column}, {row})"
+
+    @property
+    def the_pixel(self) -> str:
+        """The same inside a sentence."""
+        return self.pixel_name[0].lower() + self.pixel_name[1:]
 
     def has(self, *names: str) -> bool:
         """Tell whether the step has all of these numbers."""
@@ -105,18 +107,8 @@ class StepValues:
             first += len(self.vector(name)) if name in ATTRIBUTES else 0
         return [row[first : first + len(self.vector(attribute))] for row in self.rows("corner_values")]
 
-    def depth_quantity(self) -> str:
-        """Return what the depth buffer holds: ``z``, ``inverse-w``, ``reversed-z`` or ``logarithm``."""
-        if self.has("quantity"):
-            return self.text("quantity")
-        return "inverse-w" if self.flag("larger_is_nearer") else "z"
-
-    def depth_name(self) -> str:
-        """Return what the number in the depth buffer is called in a sentence."""
-        return DEPTH_NAMES[self.depth_quantity()]
-
     def fill_rule(self, edge: int) -> str:
-        """Return the rule for ties: the one that is named, or else the one that the answers agree with."""
+        """Return the name of the fill rule; without a name, the rule that agrees with the answers."""
         if self.has("fill_rule"):
             return self.text("fill_rule")
         a, b, owns = self.vector("a"), self.vector("b"), self.flags("owns_tie")
@@ -124,6 +116,14 @@ class StepValues:
         if by_side == owns:
             return "shared-edge"
         return "inclusive" if owns[min(edge, len(owns) - 1)] else "exclusive"
+
+
+def row_key(key: str) -> str:
+    """Return the key of the row of an operation: one for all interpolated values, and one for the three edges."""
+    stage, kind, operation = key.split(".", 2)
+    for name in ("value", "edge"):
+        operation = name if operation.startswith(f"{name}-") else operation
+    return f"{stage}.{kind}.{operation}"
 
 
 def key_fields(key: int) -> tuple[str, str]:

@@ -1,18 +1,21 @@
-"""How a variable of a trace is shown in the table: its name, its meaning, and when it is known."""
+"""How the variables of a trace are shown in the table: name, meaning, and when they are known."""
 
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
+from core.explain.step_values import StepValues
+
 GIVEN = ""
-"""Marks variables that are there before the first operation."""
+"""Marks variables that are known before the first operation."""
 
 
 @dataclass(frozen=True)
 class VariableText:
     """How one variable of a trace is shown."""
 
-    label: str
-    """What it is called; ``#`` stands for the number of an element or edge."""
-    meaning: str
+    label: str | Callable[[StepValues], str]
+    """Its name, that of the formula; ``#`` stands for the number of an element or edge."""
+    meaning: str | Callable[[StepValues], str]
     after: str = "itself"
     """The variable that must be known before this one is shown; `GIVEN`: none."""
     spread: str = ""
@@ -24,3 +27,51 @@ class VariableText:
     """The variable that holds its value before the step, where there was one."""
     is_key: bool = False
     """Whether it is a packed key, to be shown in hexadecimal."""
+
+
+VARIABLES: dict[str, dict[str, VariableText]] = {}
+"""Stage to its variables in the order of the algorithm; what is not here stays hidden."""
+HIDDEN: dict[str, frozenset[str]] = {}
+"""``stage.kind`` to the variables that rows of the kind do not use."""
+
+
+def shows(stage: str, variables: Mapping[str, VariableText]) -> None:
+    """Enter variables of a stage, behind those that it has."""
+    VARIABLES.setdefault(stage, {}).update(variables)
+
+
+def hides(kinds: str, names: Iterable[str]) -> None:
+    """Leave variables out of rows of these kinds: ``stage.kind``, or ``stage.kind|kind``."""
+    stage, _, names_of_kinds = kinds.partition(".")
+    for kind in names_of_kinds.split("|"):
+        key = f"{stage}.{kind}"
+        HIDDEN[key] = HIDDEN.get(key, frozenset()) | frozenset(names)
+
+
+def given(label: str, meaning: str, spread: str = "") -> VariableText:
+    """Return a variable that is known before the first operation."""
+    return VariableText(label, meaning, GIVEN, spread)
+
+
+PIXEL = {
+    "column": given("column", "Column of the pixel, from the left; of n × n samples that of the sample."),
+    "row": given("row", "Row of the pixel, from the bottom; of n × n samples that of the sample."),
+}
+SAMPLE = {
+    "sample": given("sample", "Number of the sample in its pixel, from 0 at the lower left."),
+    "sample_position": given("place in pixel", "Position of the sample, from the pixel's lower left corner."),
+}
+"""Where a pixel has several samples."""
+CENTRE = {
+    "x": given("x", "x of the pixel's centre, in pixels."),
+    "y": given("y", "y of the pixel's centre, in pixels."),
+}
+COEFFICIENTS = {
+    "a": given("a#", "Change of the edge function per pixel to the right.", "edges"),
+    "b": given("b#", "Change of the edge function per pixel upwards.", "edges"),
+    "c": given("c#", "Value of the edge function at the window's origin.", "edges"),
+}
+
+for _stage in ("raster", "interpolate", "shade", "depth", "blend"):
+    shows(_stage, PIXEL | SAMPLE)
+shows("resolve", PIXEL)

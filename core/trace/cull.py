@@ -38,7 +38,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
         "facing": culled.facing[which],
         "is_projected": projected[which],
         "applies": applies[which, test],
-        "verdict": np.where(applies[which, test] | (test == 9), verdict[which], "not-yet"),
+        "verdict": np.where(applies[which, test] | (test == 9), verdict[which], "undecided"),
     }
     steps = Steps(
         kinds=KINDS,

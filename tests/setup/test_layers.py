@@ -29,12 +29,15 @@ FORBIDDEN = [
     ("widgets", "from core.pipeline import render"),
     ("core/geometry", "import core.raster"),
     ("core/raster", "import core.framebuffer"),
+    ("core/raster", "from core.explain import rows"),
 ]
 ALLOWED = [
     ("core", "import numpy"),
     ("lessons", "import core"),
     ("widgets", "import core, PySide6, pyqtgraph"),
     ("core", "import core.geometry, core.raster, core.fragments"),
+    ("core/explain", "import numpy, core.raster"),
+    ("widgets", "import core.explain"),
     ("app", "import core, lessons, widgets, PySide6, trimesh, PIL"),
 ]
 
@@ -42,10 +45,10 @@ ALLOWED = [
 def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess.CompletedProcess[str]":
     """Check a copy of the layers in which each statement stands in a module of its own."""
     shutil.copy(bootstrap.ROOT / "pyproject.toml", folder)
-    for name in ("app", "core", "lessons", "widgets", *STAGES):
+    for name in ("app", "core", "lessons", "widgets", "core/explain", *STAGES):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
-    for name in ("core/pipeline.py", "app/module.py"):
+    for name in ("core/pipeline.py", "core/explain/rows.py", "app/module.py"):
         (folder / name).touch()
     for number, (package, statement) in enumerate(statements):
         (folder / package / f"case_{number}.py").write_text(f"{statement}\n")

@@ -9,10 +9,7 @@ from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
 from core import STAGES
-from core.explain.formulas.table import formula
-from core.explain.sentences.table import initial_sentence, sentence, summary_sentence
-from core.explain.stage_texts import stage_card
-from core.explain.variables.table import step_variables
+from core.explain import formula, initial_sentence, sentence, stage_card, summary_sentence, variables
 from core.records.listing import Listing
 from core.records.steps import Level
 from widgets.inspector.formula_view import FormulaView
@@ -37,14 +34,14 @@ class InspectorPresenter(QObject):
         card: StageCardView,
         formula_view: FormulaView,
         listing: ListingView,
-        variables: VariablesView,
+        variables_view: VariablesView,
         history: PixelHistory,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._stepping = session, stepping
         self._sentence, self._card, self._formula = sentence_label, card, formula_view
-        self._listing, self._variables, self._history = listing, variables, history
+        self._listing, self._variables, self._history = listing, variables_view, history
         self._function = ""
         self._stage = ""
         self._triangles: list[int | None] = []
@@ -92,7 +89,7 @@ class InspectorPresenter(QObject):
             return
         self._formula.show_hint("This step decides or copies; it has no formula.")
         self._formula.show_formula(formula(explanation))
-        self._variables.show_variables(step_variables(explanation))
+        self._variables.show_variables(variables(explanation))
         self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)
         self._listing.show_line(explanation.line or None)

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from core import STAGES
-from core.explain.sentences.numbers import replaced_fill
 from core.explain.stage_texts import SHORT_TITLES
+from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
 from widgets.timeline.pipeline_rail import StageEntry, StageState
 

@@ -1,4 +1,4 @@
-"""Steps to be explained: all built-in scenes under every method, around one pixel, and the rare cases."""
+"""Steps to be explained: every method on a built-in scene, and on rare triangles together."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -9,14 +9,17 @@ from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import families
-from core.trace import Explanation
+from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
+from tests.core.strategies import clip_of_window
 
 Step = tuple[Explanation, int, tuple[int, int]]
 """An explanation, its triangle and its pixel."""
 
 WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
+ROWS = 4
+"""Rows of a kind that are explained of a trace, spread over it."""
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
@@ -33,6 +36,8 @@ RARE_CLIP = {
     "unsnapped": [[-0.7513, -0.7411, 0, 1], [0.7507, -0.6222, 0, 2], [-0.7507, 0.7591, 0, 1.5]],
 }
 """Triangles in clip space on an 8 x 8 raster."""
+CORNERS = [(1.5, 1.5), (9.5, 3.5), (5.5, 8.5)]
+"""A triangle on pixel centres of a 12 x 10 raster, for lines."""
 
 
 @cache
@@ -42,6 +47,10 @@ def rare_trace(name: str, settings: Settings) -> Trace:
 
 
 @cache
+def line_trace(settings: Settings) -> Trace:
+    return trace(ClipScene(clip_of_window([CORNERS], (12, 10)), np.eye(3)[None], (12, 10)), settings)
+
+
 def scene_and_window(name: str) -> tuple[AnyScene, int, tuple[int, int, int, int]]:
     """Return a scene, the triangle seen nearest to the middle, and a region around that pixel."""
     scene = make_scene(name)
@@ -59,83 +68,71 @@ def every_choice() -> list[Settings]:
     for family in families():
         default = getattr(found[0], family)
         found += [Settings(**{family: name}) for name in table.names(family) if name != default]
-    found.append(Settings(fill="blocks", block_size=2, interpolation="affine", texture_filter="nearest"))
-    found.append(Settings(fill="scanline", fill_rule="exclusive", blend="over", depth="inverse-w"))
-    found.append(Settings(clipping="sutherland-hodgman", coverage="float64", shading="flat", wrap="mirror"))
-    for texture_filter, interpolation in (("trilinear", "affine"), ("mipmap-nearest", "flat")):
-        mipmapped = {"texture_filter": texture_filter, "interpolation": interpolation}
-        found.append(Settings(shading="unlit", **mipmapped))
-        found.append(Settings(shading="unlit", polygon_mode="wireframe", **mipmapped))
-    found.append(Settings(texture_filter="trilinear", polygon_mode="wireframe", shading="unlit"))
-    found.append(Settings(interpolation="affine-n", correction_interval=1))
-    return found
-
-
-def steps_of(traced: Trace, most: int = 110) -> Iterator[Step]:
-    """Yield the steps of all stages; of a long stage, ``most`` spread over it."""
-    for stage in STAGES:
-        of_stage = traced.stage(stage)
-        count = of_stage.steps.count
-        positions = np.unique(np.linspace(1, count, min(count, most)).astype(int)) if count else []
-        for position in positions:
-            explanation = of_stage.explain(int(position))
-            assert explanation is not None
-            row, _ = of_stage.steps.row_at(int(position))
-            column, line = of_stage.pixel[row]
-            yield explanation, int(of_stage.triangle[row]), (int(column), int(line))
-
-
-@cache
-def steps_of_scene(name: str) -> tuple[Step, ...]:
-    """Return steps of a built-in scene under every method."""
-    scene, triangle, window = scene_and_window(name)
-    found: list[Step] = []
-    for settings in every_choice():
-        found += steps_of(trace(scene, settings, triangle, window, before="cleared"), 60)
-    return tuple(found)
-
-
-@cache
-def rare_steps() -> tuple[Step, ...]:
-    """Return steps of the rare triangles under the settings that treat them differently."""
-    choices = [
-        Settings(block_size=2),
+    wireframe = {"polygon_mode": "wireframe"}
+    found += [Settings(**wireframe, line=name) for name in table.names("line")]
+    found += [Settings(**wireframe, line_clipping=name) for name in table.names("line_clipping")[1:]]
+    found += [Settings(**wireframe, line="wu", blend=name) for name in table.names("blend")]
+    for texture_filter in ("bilinear", "trilinear", "mipmap-nearest"):
+        for interpolation in ("perspective", "affine", "flat"):
+            mixed = {"texture_filter": texture_filter, "interpolation": interpolation, "shading": "unlit"}
+            found += [Settings(**mixed), Settings(**mixed, **wireframe)]
+    found += [
+        Settings(fill="blocks", block_size=2, interpolation="affine", texture_filter="nearest"),
+        Settings(fill="scanline", fill_rule="exclusive", blend="over", depth="inverse-w"),
+        Settings(clipping="sutherland-hodgman", coverage="float64", shading="flat", wrap="mirror"),
         Settings(clipping="sutherland-hodgman", fill="scanline", cull="back"),
         Settings(fill="scanline-lecture", interpolation="affine", cull="front", blend="over"),
         Settings(fill="brute-force", fill_rule="inclusive", depth="inverse-w", visibility="last-drawn"),
         Settings(fill="blocks", block_size=2, fill_rule="exclusive", coverage="float64"),
-        *[Settings(polygon_mode="wireframe", line=line) for line in table.names("line")],
-        Settings(polygon_mode="wireframe", interpolation="affine"),
-        *[Settings(polygon_mode="wireframe", line="wu", blend=blend) for blend in table.names("blend")],
+        Settings(interpolation="affine-n", correction_interval=1),
         Settings(interpolation="affine-n", correction_interval=3),
-        *[Settings(depth=depth, visibility="last-drawn") for depth in ("z-24", "reversed-z", "logarithmic")],
-        Settings(polygon_mode="wireframe", depth="reversed-z"),
-        *[
-            Settings(polygon_mode="wireframe", line_clipping=name)
-            for name in table.names("line_clipping")[1:]
-        ],
-        Settings(fill="spans", depth="fixed-38"),
-        Settings(clipping="after-divide"),
-        Settings(clipping="sutherland-hodgman-lecture"),
-        Settings(fill="spans", fill_rule="exclusive", depth="fixed-38", visibility="last-drawn"),
+        *[Settings(depth=name, visibility="last-drawn") for name in table.names("depth")],
+        Settings(**wireframe, depth="reversed-z"),
+        Settings(**wireframe, depth="fixed-38", line="wu"),
+        Settings(fill="spans", fill_rule="exclusive", depth="fixed-38"),
+        Settings(visibility="ray-casting", cull="none"),
     ]
-    alone = [rare_trace(name, choice) for name in RARE_CLIP for choice in choices]
-    return tuple(step for traced in (*alone, *rays_of_all()) for step in steps_of(traced))
+    return found
 
 
-def rays_of_all() -> list[Trace]:
-    """Return traces of ray casting: all rare triangles, those of one plane and one in whose plane the eye lies."""
-    together = np.array([*RARE_CLIP.values(), RARE_CLIP["lattice-ties"]], float)
+def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
+    """Yield all operations of some rows of every kind, of one stage or of all."""
+    stages = [traced.stage(name) for name in STAGES] if isinstance(traced, Trace) else [traced]
+    for stage in stages:
+        for kind in range(len(stage.steps.kinds)):
+            rows = np.flatnonzero(stage.steps.kind == kind)
+            for row in rows[np.unique(np.linspace(0, len(rows) - 1, ROWS).astype(int))] if rows.size else []:
+                column, line = stage.pixel[row].tolist()
+                for position in range(stage.steps.starts[row] + 1, stage.steps.starts[row + 1] + 1):
+                    explanation = stage.explain(int(position))
+                    assert explanation is not None
+                    yield explanation, int(stage.triangle[row]), (column, line)
+
+
+@cache
+def traces() -> dict[str, list[Trace]]:
+    """Return the traces of built-in scenes, each method on one of them, and of the rare triangles together."""
+    scenes = [scene_and_window(name) for name in scene_names()]
+    choices = every_choice()
+    windows = []
+    for number, settings in enumerate([Settings()] * len(scenes) + choices):
+        scene, triangle, window = scenes[number % len(scenes)]
+        windows.append(trace(scene, settings, triangle, window, before="cleared"))
+    together = ClipScene(np.array([*RARE_CLIP.values(), RARE_CLIP["lattice-ties"]], float), size=(8, 8))
     # Covered by its snapped corners only: the exact determinant is 0.
     edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]
-    with_edge_on = np.array([RARE_CLIP["lattice-ties"], edge_on], float)
-    settings = Settings(visibility="ray-casting", cull="none")
-    return [trace(ClipScene(clip, size=(8, 8)), settings) for clip in (together, with_edge_on)]
+    with_edge_on = ClipScene(np.array([RARE_CLIP["lattice-ties"], edge_on], float), size=(8, 8))
+    rare = [trace(together, settings) for settings in choices]
+    rare.append(trace(with_edge_on, Settings(visibility="ray-casting", cull="none")))
+    return {"scenes": windows, "rare": rare}
 
 
-ALL_SCENES = [*scene_names(), "rare"]
+@cache
+def explained(group: str) -> tuple[Step, ...]:
+    """Return the steps of the built-in ``scenes`` or of the ``rare`` triangles."""
+    return tuple(step for traced in traces()[group] for step in steps_of(traced))
 
 
-def explained(name: str) -> tuple[Step, ...]:
-    """Return the steps of a built-in scene, or of the rare triangles."""
-    return rare_steps() if name == "rare" else steps_of_scene(name)
+def all_steps() -> tuple[Step, ...]:
+    """Return the steps of both groups."""
+    return explained("scenes") + explained("rare")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
-from core.explain.sentences.table import sentence
+from core.explain import sentence
 from core.trace import Explanation, pixel_cuts
 from tests.core.explain.explained_steps import rare_trace
 
@@ -120,7 +120,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.span.edge-2",
             Settings(fill="scanline"),
-            "Row 2 runs along edge 2, which has all of it inside (E2 = 9).",
+            "Row 2 runs along edge 2, and all of it is inside (E2 = 9).",
         ),
         (
             "raster",
@@ -146,15 +146,15 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.lane-row.start",
             Settings(fill="spans"),
-            "Row 2 starts at column 1: the left bound is 0.5, and a guard of −2⁻³⁵ counts a centre exactly on "
-            "it in.",
+            "Row 2 starts at column 1: the left bound is 0.5, and a guard of −2⁻³⁵ includes a centre exactly on "
+            "it.",
         ),
         (
             "raster",
             "raster.lane-row.stop",
             Settings(fill="spans"),
-            "Row 2 stops before column 5: the right bound is 5, and a guard of −2⁻³⁵ leaves a centre exactly "
-            "on it out.",
+            "Row 2 stops before column 5: the right bound is 5, and a guard of −2⁻³⁵ excludes a centre exactly "
+            "on it.",
         ),
         (
             "raster",
@@ -173,7 +173,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.pass.pass",
             Settings(fill="spans"),
-            "Pixel (2, 2) is 1 pixel from its span's start, so pass 1 draws it, in one go with a pixel of each "
+            "Pixel (2, 2) is 1 pixel from its span's start, so pass 1 draws it, together with one of each "
             "of 3 others.",
         ),
         (
@@ -213,8 +213,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "edges",
             "edges.orientation.area",
             Settings(),
-            "Twice the signed area of triangle 0 is 36, above 0: its edge functions are positive inside as "
-            "they are.",
+            "Twice the signed area of triangle 0 is 36, above 0, so its edge functions are positive inside "
+            "already.",
         ),
         (
             "bin",
@@ -250,7 +250,7 @@ def test_a_clipped_edge_gives_its_t() -> None:
         "The edge leaves through the near plane at t = 0.2857 from its inside end, the start: "
         "that end is 1 inside, and the two ends are 3.5 apart."
     ) in found["clip.in-out.t"]
-    assert found["clip.in-in.keep"][0] == "Both ends are inside the near plane, so the end is handed on."
+    assert found["clip.in-in.keep"][0] == "Both ends are inside the near plane, so the end is kept."
 
 
 @pytest.mark.parametrize(
@@ -292,7 +292,7 @@ def test_the_snapped_decision_and_the_unsnapped_weight_are_named_apart() -> None
     assert sentence(explanation, 0, (1, 3)) == (
         "Pixel (1, 3) is covered: its centre lies exactly on edge 1, which this triangle owns because it "
         "is a left "
-        "edge; E1 (snapped) decides, though weight 1 (unsnapped) is −0.0001819."
+        "edge; E1 (snapped) decides, though weight λ1 (unsnapped) is −0.0001819."
     )
 
 
@@ -315,14 +315,14 @@ def depth_step(operation: str, **values: object) -> str:
 def test_the_depth_test_says_what_was_compared() -> None:
     assert (
         depth_step("test.compare")
-        == "Pixel (5, 6) passes: its z, 0.25, is smaller than the buffer's 1: it is nearer."
+        == "Pixel (5, 6) passes: its z, 0.25, is smaller than the buffer's 1, so it is nearer."
     )
     assert depth_step("test.compare", before=0.125, passes=False) == (
-        "Pixel (5, 6) fails: its z, 0.25, is larger than the buffer's 0.125: it is hidden."
+        "Pixel (5, 6) fails: its z, 0.25, is larger than the buffer's 0.125, so it is hidden."
     )
-    assert depth_step("test.compare", before=0.25, passes=False).endswith("a tie keeps what is there.")
+    assert depth_step("test.compare", before=0.25, passes=False).endswith("a tie keeps the stored depth.")
     assert depth_step("test.compare", larger_is_nearer=True, stored=0.5, before=0.0) == (
-        "Pixel (5, 6) passes: its 1/w, 0.5, is larger than the buffer's 0: it is nearer."
+        "Pixel (5, 6) passes: its 1/w, 0.5, is larger than the buffer's 0, so it is nearer."
     )
     assert "0.99991, is smaller than the buffer's 0.99992" in depth_step(
         "test.compare", stored=0.99991, before=0.99992
@@ -330,16 +330,17 @@ def test_the_depth_test_says_what_was_compared() -> None:
     assert "cannot be compared" in depth_step("test.compare", stored=float("nan"), passes=False)
     assert (
         depth_step("test.depth", larger_is_nearer=True, stored=0.5)
-        == "Pixel (5, 6): 1/w is 0.5, to be stored as 0.5."
+        == "Pixel (5, 6): its 1/w = 0.5 is stored as 0.5."
     )
     assert depth_step("out-of-range.range", depth=1.5).endswith(
         "its depth z is 1.5, above 1: behind the far plane."
     )
-    assert depth_step("out-of-range.range", depth=-0.5).endswith("is −0.5, below 0: before the near plane.")
-    assert depth_step("out-of-range.range", depth=float("nan")).endswith("is NaN, which is no number.")
+    assert depth_step("out-of-range.range", depth=-0.5).endswith(
+        "is −0.5, below 0: in front of the near plane."
+    )
+    assert depth_step("out-of-range.range", depth=float("nan")).endswith("is NaN, which is not a number.")
     assert (
-        depth_step("store.write")
-        == "Pixel (5, 6): without a depth test 0.25 simply replaces 1 in the depth buffer."
+        depth_step("store.write") == "Pixel (5, 6): without a depth test 0.25 replaces 1 in the depth buffer."
     )
     for kind in ("test", "store"):
         assert depth_step(f"{kind}.write", after=1.0, writes=False) == (
@@ -367,6 +368,6 @@ def test_cuts_that_are_left_out_are_said_to_be(monkeypatch: pytest.MonkeyPatch) 
     explained = found.explain(1)
     assert explained is not None
     assert sentence(explained, -1, (0, 0)) == (
-        "Pixel (0, 0): edges cut it into 2 pieces, and triangles cover 0.5 of its area. How they are cut is told of "
-        "one triangle, or of a smaller part of the picture."
+        "Pixel (0, 0): edges cut it into 2 pieces, and triangles cover 0.5 of its area; to step through the cuts, "
+        "trace one triangle or a smaller part of the picture."
     )

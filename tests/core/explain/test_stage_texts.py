@@ -6,7 +6,7 @@ from pytestqt.qtbot import QtBot
 from core import STAGES
 from core.explain.stage_texts import (
     SHORT_TITLES,
-    STAGE_CARDS,
+    STAGE_TEXTS,
     family_title,
     method_text,
     stage_card,
@@ -17,7 +17,7 @@ from widgets.timeline.stage_card import StageCardView
 
 
 def test_the_texts_follow_the_stages() -> None:
-    assert tuple(STAGE_CARDS) == STAGES
+    assert tuple(STAGE_TEXTS) == STAGES
     assert tuple(SHORT_TITLES) == STAGES
     assert len(set(SHORT_TITLES.values())) == len(STAGES)
 
@@ -35,7 +35,7 @@ def test_a_card_is_complete(stage: str) -> None:
 
 def test_a_card_names_the_method_that_ran() -> None:
     source = stage_card("raster", "fill=scanline-lecture").source
-    assert source.startswith(STAGE_CARDS["raster"].source)
+    assert source.startswith(STAGE_TEXTS["raster"].card.source)
     assert source.endswith("Fill, Scanline as printed (LMU): LMU 2020, Scan line algorithm for triangles")
 
 
@@ -65,4 +65,4 @@ def test_the_view_shows_a_card(qtbot: QtBot) -> None:
     view = StageCardView()
     qtbot.addWidget(view)
     view.show_card(stage_card("edges"))
-    assert view.fold_button.text() == STAGE_CARDS["edges"].title
+    assert view.fold_button.text() == STAGE_TEXTS["edges"].card.title

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 
-from core.explain.formulas.equation import number_latex
+from core.explain.equation import number_latex
 from core.explain.records import Variable
 from widgets.basics.theme import current_theme
 from widgets.inspector.variables import VariablesView, value_text

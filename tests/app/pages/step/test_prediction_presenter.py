@@ -3,9 +3,9 @@
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.pages.step.prediction_presenter import question_about
 from app.window.main_window import MainWindow
 from core import STAGES
+from core.explain import question
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def test_the_next_pixel_is_asked_and_answered(asking: MainWindow) -> None:
     session, view = asking.session, asking.page.prediction
     session.step(1)
     trace = session.stage_trace
-    asked = question_about(trace, trace.steps.rows_done(session.cursor.position))
+    asked = question(trace, trace.steps.rows_done(session.cursor.position))
     assert asked is not None
     assert view.question.text() == asked.question.text
     view.choice_buttons[int(asked.answer)].click()
@@ -91,7 +91,7 @@ def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow, stage:
         QApplication.processEvents()
         row = session.stage_trace.steps.rows_done(session.cursor.position)
         if row < session.stage_trace.steps.row_count:
-            asked = question_about(session.stage_trace, row)
+            asked = question(session.stage_trace, row)
             assert (asked is None) == ("nothing to predict" in view.question.text())
     session.go_to(session.stage_trace.steps.count)
     assert view.question.text().startswith("This stage is done.")

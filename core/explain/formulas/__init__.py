@@ -1,1 +1,0 @@
-"""The formulas of a step: the law in symbols, and the same law with the numbers of the step."""

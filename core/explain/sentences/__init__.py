@@ -1,1 +1,0 @@
-"""The sentences of a step, one for every key."""

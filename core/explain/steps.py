@@ -1,0 +1,153 @@
+"""What a step says: its sentence, its formula, its variables, and what can be asked about the next one."""
+
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from core.explain.number_text import joined, spoken, vector_text
+from core.explain.records import Asked, Formula, Value, Variable
+from core.explain.rows import Row, find_row
+from core.explain.step_values import StepValues, key_fields, row_key
+from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText
+from core.trace import Explanation, StageTrace
+
+SUBJECTS = (
+    *("transform", "culling", "clipping", "number_formats", "edges", "binning", "spans", "fills"),
+    *("line_clipping", "lines", "smooth_lines", "interpolation", "textures", "shading"),
+    *("depth", "packed_keys", "rays", "blending", "areas", "resolve"),
+)
+"""Modules of ``core.explain.subjects``; the variables of a stage stand in their order."""
+
+
+@cache
+def load_subjects() -> None:
+    """Import all subjects, which enter their rows and variables."""
+    for name in SUBJECTS:
+        import_module(f"core.explain.subjects.{name}")
+
+
+def row_of(key: str) -> Row | None:
+    """Return the row of an operation, ``stage.kind.operation``; ``None`` where it has none."""
+    load_subjects()
+    return find_row(row_key(key))
+
+
+def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
+    """Say in one sentence what a step did and why.
+
+    Parameters
+    ----------
+    explanation : Explanation
+    triangle : int
+        Number of the triangle that the step is about, -1 for none.
+    pixel : (column, row), optional
+        The pixel that it is about; by default the one that the explanation names.
+    """
+    row, step = row_of(explanation.key), StepValues(explanation, triangle, pixel)
+    if row is None:
+        return _plain_account(step)
+    said = row.say(step)
+    return said if isinstance(said, str) else said[0]
+
+
+def formula(explanation: Explanation) -> Formula | None:
+    """Return the formula of a step; ``None`` where it computes nothing."""
+    row = row_of(explanation.key)
+    said = row.say(StepValues(explanation)) if row is not None else ""
+    return None if isinstance(said, str) else said[1]
+
+
+def question(trace: StageTrace, row: int) -> Asked | None:
+    """Return a question about a row of a trace, with its answer; ``None`` where there is nothing to predict."""
+    start, end = (int(position) for position in trace.steps.starts[row : row + 2])
+    for position in range(start + 1, end + 1):
+        explanation = trace.explain(position)
+        found = row_of(explanation.key) if explanation is not None else None
+        if explanation is not None and found is not None and found.asks is not None:
+            column, line = (int(number) for number in trace.pixel[row])
+            return found.asks(StepValues(explanation, int(trace.triangle[row]), (column, line)))
+    return None
+
+
+def _plain_account(step: StepValues) -> str:
+    """Return what an operation without a row has set."""
+    found = []
+    for name in step.explanation.changed:
+        value = step.explanation.values.get(name)
+        if isinstance(value, np.ndarray) and value.dtype.kind in "fiu":
+            shown = vector_text([float(number) for number in value.ravel()])
+        else:
+            shown = spoken(value) if isinstance(value, float) else str(value)
+        found.append(f"{name.replace('_', ' ')} is {shown}")
+    done = f"{step.kind}, {step.operation}".replace("-", " ").capitalize()
+    return f"{done}: {joined(found)}." if found else f"{done}."
+
+
+def variables(explanation: Explanation) -> tuple[Variable, ...]:
+    """Return the variables after a step: those given, those known by now; those just changed have another value before.
+
+    Variables that a later operation sets are left out until then.
+    """
+    load_subjects()
+    step = StepValues(explanation)
+    hidden = HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
+    values, known = explanation.values, explanation.known
+    found: list[Variable] = []
+    for name, text in VARIABLES.get(step.stage, {}).items():
+        needed = name if text.after == "itself" else text.after
+        if name not in values or name in hidden or (needed != GIVEN and needed not in known):
+            continue
+        before: Any = values.get(text.previous) if name in explanation.changed else values[name]
+        found += _shown(step, text, values[name], before)
+    return tuple(found)
+
+
+def _shown(step: StepValues, text: VariableText, now: Any, before: Any) -> list[Variable]:
+    """Return one variable, or one for every element that has its own."""
+    label = text.label if isinstance(text.label, str) else text.label(step)
+    meaning = text.meaning if isinstance(text.meaning, str) else text.meaning(step)
+    if text.is_key:
+        return _key_fields(label, meaning, int(now), None if before is None else int(before))
+    if not text.spread:
+        return [Variable(label, _value(now), _value(before), meaning, text.edge)]
+    elements = np.asarray(now)
+    earlier = [None] * len(elements) if before is None else list(np.asarray(before))
+    return [
+        Variable(
+            label.replace("#", str(k)),
+            _value(element),
+            _value(earlier[k]),
+            meaning,
+            k if text.spread == "edges" else None,
+        )
+        for k, element in enumerate(elements)
+        if text.spread != "corners" or np.isfinite(element).all()
+    ]
+
+
+def _key_fields(label: str, meaning: str, now: int, before: int | None) -> list[Variable]:
+    """Return the two fields of a packed key: the depth, and the number of the triangle plus one."""
+    depth, number = _digits(now)
+    earlier_depth, earlier_number = _digits(before) if before is not None else (None, None)
+    return [
+        Variable(label, depth, earlier_depth, f"{meaning} Its upper bits, in hexadecimal."),
+        Variable(f"{label}, number", number, earlier_number, "Its lower 24 bits, in hexadecimal."),
+    ]
+
+
+def _digits(key: int) -> tuple[str, str]:
+    depth, number = key_fields(key)
+    return depth.removeprefix("0x"), number.removeprefix("0x")
+
+
+def _value(value: Any) -> Value:
+    """Return a number, a word, or the numbers of an array as plain Python values."""
+    if value is None or isinstance(value, str):
+        return value
+    array = np.asarray(value)
+    if array.ndim == 0:
+        found: Value = array.item()
+        return found
+    return tuple(float(element) for element in array.ravel())

@@ -1,0 +1,1 @@
+"""One module for each subject: its rows (sentence, formula, question) and its variables."""

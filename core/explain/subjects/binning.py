@@ -1,0 +1,209 @@
+"""Binning: the bounding box of a triangle, and blocks that lie inside, outside or neither."""
+
+import math
+
+from core.explain.equation import (
+    Part,
+    all_of,
+    beside,
+    comparison,
+    conclusion,
+    equation,
+    linear,
+    number_latex,
+    vector_latex,
+)
+from core.explain.number_text import counted, joined, spoken
+from core.explain.records import Asked, Formula, choice
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import COEFFICIENTS, VariableText, given, hides, shows
+
+
+@explains("bin.box|outer-box.low")
+def box_low(step: StepValues) -> Said:
+    """The first column and row of the box."""
+    is_outer, center = step.kind == "outer-box", step.number("center")
+    sides: list[list[Part]] = []
+    least: list[float] = []
+    is_limited = False
+    for name, axis, values in zip(
+        ("column", "row"), "xy", zip(*step.rows("corners"), strict=True), strict=True
+    ):
+        first, low = step.whole(name), min(values)
+        least.append(low)
+        corners = ", ".join(rf"\vertex{{{k}}}{{{axis}_{k}}}" for k in range(3))
+        minimum = rf"\min({corners})"
+        symbols = rf"\lceil {minimum} - c \rceil"
+        numbers = rf"\lceil \min{vector_latex(values)} - {number_latex(center)} \rceil"
+        if is_outer:
+            low = float(math.floor(low))
+            symbols = rf"\lceil \lfloor {minimum} \rfloor - c \rceil"
+            numbers = rf"\lceil {number_latex(low)} - {number_latex(center)} \rceil"
+        nominal = math.ceil(low - center)
+        if first != nominal:
+            is_limited = True
+            symbols, numbers = rf"\max({symbols}, \mathrm{{first}})", rf"\max({nominal}, {first})"
+        sides.append([(rf"\mathrm{{{name}}}", float(first)), "=", (symbols, numbers)])
+    text = f"The box of triangle {step.triangle} begins at column {step.whole('column')} and row {step.whole('row')}: "
+    x, y = map(spoken, least)
+    if is_outer:
+        text += f"its least x, {x}, and y, {y}, are rounded down to whole pixels first, to be safe."
+    else:
+        centre = f"the first pixel centre{' of the raster' if is_limited else ''}"
+        text += f"{centre} at or beyond its least x, {x}, and its least y, {y}."
+    return text, equation(*beside(*sides))
+
+
+def _box_size(step: StepValues) -> tuple[int, int]:
+    return step.whole("column_end") - step.whole("column"), step.whole("row_end") - step.whole("row")
+
+
+def _product(columns: int, rows: int) -> str:
+    return f"{columns} × {rows} = {counted(columns * rows, 'pixel')}"
+
+
+@explains("bin.box|outer-box.high")
+def box_high(step: StepValues) -> Said:
+    """The columns and rows of the box."""
+    columns, rows = _box_size(step)
+    text = f"The box is empty: triangle {step.triangle} can cover no pixel centre of the raster."
+    if columns > 0 and rows > 0:
+        text = (
+            f"The box ends with column {step.whole('column_end') - 1} and row {step.whole('row_end') - 1}, so "
+            f"{_product(columns, rows)} may be covered."
+        )
+    sides: list[list[Part]] = [
+        [
+            (axis, float(count)),
+            "=",
+            (rf"\mathrm{{{name}}}_{{\mathrm{{end}}}}", step.number(f"{name}_end")),
+            "-",
+            (rf"\mathrm{{{name}}}", step.number(name)),
+        ]
+        for name, axis, count in (("column", "n_x", columns), ("row", "n_y", rows))
+    ]
+    return text, equation(*beside(*sides))
+
+
+@explains("bin.behind.drop")
+def behind(step: StepValues) -> Said:
+    """No corner in front of the eye."""
+    text = f"Triangle {step.triangle} is behind the eye, as no corner has w above 0, and no pixel is tested."
+    tests: list[list[Part]] = [[f"w_{k}", r"\le", "0"] for k in range(3)]
+    return text, all_of(tests, *conclusion("nothing to draw", "nothing to draw"))
+
+
+@explains("bin.whole-image.keep")
+def whole_image(step: StepValues) -> Said:
+    """Some corner cannot be projected."""
+    columns, rows = _box_size(step)
+    beginning = f"Not every corner of triangle {step.triangle} has a snapped position in the window"
+    if columns <= 0 or rows <= 0:
+        return f"{beginning}, and it has no area, so no pixel is tested."
+    return f"{beginning}, so no box bounds it and all {_product(columns, rows)} may be covered."
+
+
+def _block(step: StepValues) -> str:
+    size = step.whole("size")
+    return f"block at column {step.whole('column')}, row {step.whole('row')} ({size} × {size} pixels)"
+
+
+def _bounds(step: StepValues, name: str) -> str:
+    return joined([f"E{k} = {spoken(value)}" for k, value in enumerate(step.vector(name))])
+
+
+@explains("bin.block.high")
+def block_high(step: StepValues) -> Said:
+    """The greatest values of the edge functions in a block."""
+    text, edge = (
+        f"In the {_block(step)} the greatest values are {_bounds(step, 'high')}",
+        step.whole("rejected_by"),
+    )
+    rejected = f", so all of it is outside edge {edge}" if edge >= 0 else ""
+    return f"{text}{rejected}.", _bound(step, "high", r"\max")
+
+
+@explains("bin.block.low")
+def block_low(step: StepValues) -> Said:
+    """The least values of the edge functions in a block."""
+    return f"In the {_block(step)} the least values are {_bounds(step, 'low')}.", _bound(step, "low", r"\min")
+
+
+def _bound(step: StepValues, name: str, extreme: str) -> Formula:
+    """Return the value of the deciding edge at the corner of the block where it is greatest or least."""
+    values, rejected = step.vector(name), step.whole("rejected_by")
+    k = rejected if name == "high" and rejected >= 0 else min(range(3), key=lambda k: values[k])
+    a, b, c = (step.vector(coefficient)[k] for coefficient in "abc")
+    low_x, low_y = (step.whole(place) + step.number("center") for place in ("column", "row"))
+    reach = step.whole("size") - 1
+    x = low_x + (reach if (a > 0) == (name == "high") else 0)
+    y = low_y + (reach if (b > 0) == (name == "high") else 0)
+    coefficients = [(f"a_{k}", a), (f"b_{k}", b), (f"c_{k}", c)]
+    return linear(rf"E_{k}^{{{extreme}}}", values[k], coefficients, ("x", x), ("y", y))
+
+
+def verdict(step: StepValues) -> Asked:
+    """Ask where a block lies."""
+    found, size = step.text("verdict"), step.whole("size")
+    answer = {"outside": 0, "inside": 1}.get(found, 2)
+    where = f"the {size} × {size} block at ({step.whole('column')}, {step.whole('row')})"
+    reveal = f"{where} is {found}." if answer < 2 else f"an edge crosses {where}."
+    text = f"Is {where} outside triangle {step.triangle}, inside it, or neither?"
+    return choice(text, answer, reveal, ("Outside", "Inside", "Neither"))
+
+
+@explains("bin.block.verdict", asks=verdict)
+def block_verdict(step: StepValues) -> Said:
+    """Whether a block is rejected, accepted, split, or tested pixel by pixel."""
+    name, found, edge = _block(step), step.text("verdict"), step.whole("rejected_by")
+    low = step.vector("low")
+    if found == "outside":
+        high = step.vector("high")[edge]
+        text = f"The {name} is rejected by edge {edge}: even its greatest E{edge} there, {spoken(high)}, is outside."
+        compared = comparison(rf"E_{edge}^{{\max}}", "<", high)
+        return text, equation(*compared, *conclusion("outside", "outside"))
+    crossing = [str(k) for k in range(3) if not low[k] > 0]
+    edges = (
+        f"edge{'s' if len(crossing) > 1 else ''} {joined(crossing)} may cross it" if crossing else "unclear"
+    )
+    text, verdict = {
+        "inside": (
+            f"The {name} is accepted as a whole: even the least value of every edge function is inside.",
+            "inside",
+        ),
+        "split": (
+            f"The {name} is neither in nor out ({edges}), so it is split into smaller blocks.",
+            "split",
+        ),
+        "leaf": (
+            f"The {name} is neither in nor out ({edges}), so its pixels are tested one by one.",
+            "test its pixels",
+        ),
+    }[found]
+    least = [comparison(rf"E_{k}^{{\min}}", ">", value) for k, value in enumerate(low)]
+    return text, all_of(least, *conclusion("inside", verdict))
+
+
+shows(
+    "bin",
+    {
+        "corners": VariableText("corner #", "Position used for coverage, in pixels.", spread="edges"),
+        "column": given("column", "First column of the box or block."),
+        "column_end": given("column end", "Column after the last."),
+        "row": given("row", "First row of the box or block."),
+        "row_end": given("row end", "Row after the last."),
+        "size": given("size", "Pixels on a side of the block; 0 for a box."),
+        "center": given("c (centre)", "Position of a pixel's centre, from its lower left corner."),
+        "high": VariableText("E# max", "Greatest value of the edge function in the block.", spread="edges"),
+        "low": VariableText("E# min", "Least value of the edge function in the block.", spread="edges"),
+        "rejected_by": VariableText("rejected by", "Edge that the whole block lies outside of; −1: none."),
+        "verdict": VariableText(
+            "verdict", "Whether the block is outside, inside, split, or tested by pixels."
+        ),
+        **COEFFICIENTS,
+    },
+)
+hides("bin.box|outer-box", ("size", "a", "b", "c"))
+hides("bin.whole-image", ("size", "center", "a", "b", "c"))
+hides("bin.behind", ("column", "column_end", "row", "row_end", "size", "center", "a", "b", "c"))

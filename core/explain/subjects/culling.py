@@ -1,0 +1,101 @@
+"""Culling: the tests that drop a whole triangle."""
+
+from core.explain.equation import Part, all_of, comparison, conclusion, equation
+from core.explain.number_text import joined, spoken
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, shows
+
+
+def _listed(values: list[float]) -> str:
+    return joined([spoken(value) for value in values])
+
+
+def _dropped(step: StepValues) -> list[Part]:
+    return conclusion("dropped", "dropped" if step.flag("applies") else "kept")
+
+
+@explains("cull.behind.test")
+def behind(step: StepValues) -> Said:
+    """Whether all corners have w of 0 or less."""
+    w = step.vector("w")
+    compared = [comparison(f"w_{k}", r"\le", value) for k, value in enumerate(w)]
+    in_front = [str(k) for k in range(3) if not w[k] <= 0]
+    name, found = f"Triangle {step.triangle}", f"w above 0 (w = {_listed(w)})"
+    if step.flag("applies"):
+        text = f"{name} is behind the eye and dropped: no corner has {found}."
+    else:
+        corners = "corners" if len(in_front) > 1 else "corner"
+        verb = "have" if len(in_front) > 1 else "has"
+        text = f"{name} is not behind the eye: {corners} {joined(in_front)} {verb} {found}."
+    return text, all_of(compared, *_dropped(step))
+
+
+@explains("cull.plane.test")
+def plane(step: StepValues) -> Said:
+    """Whether all corners are outside one plane."""
+    distances, name = step.vector("distances"), step.text("plane")
+    compared = [comparison(f"d_{k}", "<", distance) for k, distance in enumerate(distances)]
+    inside = sum(not value < 0 for value in distances)
+    corners = f"{('no', 'one', 'two', 'all')[inside]} of its corners {'are' if inside > 1 else 'is'} inside"
+    verdict = f"is kept: {corners}"
+    if step.flag("applies"):
+        verdict = "is dropped: all its corners are outside"
+    text = f"Triangle {step.triangle} {verdict} the {name} plane (distances {_listed(distances)})."
+    return text, all_of(compared, *_dropped(step))
+
+
+def _area(step: StepValues) -> tuple[str, str]:
+    """Return what decides the facing, and its symbol: the area, or the determinant where a w is not above 0."""
+    has_area = all(value > 0 for value in step.vector("w"))
+    if step.has("is_projected"):
+        has_area = all(step.flags("is_projected"))
+    return ("twice its signed area", "2A") if has_area else ("the determinant of its (x, y, w) matrix", "D")
+
+
+@explains("cull.degenerate.test")
+def degenerate(step: StepValues) -> Said:
+    """Whether the triangle has an area."""
+    (name, symbol), value = _area(step), step.number("facing")
+    text = f"is not degenerate: {name} is {spoken(value)}, not 0."
+    if step.flag("applies"):
+        text = f"is degenerate and dropped: {name} is 0."
+    made = equation(*comparison(symbol, "=", value), *_dropped(step))
+    return f"Triangle {step.triangle} {text}", made
+
+
+@explains("cull.facing.test")
+def facing(step: StepValues) -> Said:
+    """Which side the eye sees, and whether the setting drops that side."""
+    (name, symbol), value = _area(step), step.number("facing")
+    side, sign = ("front", "above") if value > 0 else ("back", "below")
+    verdict, does = ("culled", "drops") if step.flag("applies") else ("kept", "keeps")
+    text = (
+        f"Triangle {step.triangle} is {verdict}: {name} is {spoken(value)}, {sign} 0, "
+        f"so we see its {side}, which the cull setting {does}."
+    )
+    return text, equation(*comparison(symbol, ">", value), *conclusion("front", side))
+
+
+@explains("cull.kept.verdict")
+def kept(step: StepValues) -> Said:
+    """No test applied."""
+    return f"Triangle {step.triangle} is kept: none of the tests drops it."
+
+
+shows(
+    "cull",
+    {
+        "w": VariableText("w#", "w of the corner: above 0 is in front of the eye.", spread="edges"),
+        "plane": VariableText("plane", "Plane of the view volume."),
+        "distances": VariableText("d#", "Signed distance of the corner: below 0 is outside.", spread="edges"),
+        "facing": VariableText(
+            lambda step: _area(step)[1],
+            "Twice the signed area 2A, or the determinant D: above 0 is the front.",
+        ),
+        "applies": VariableText("applies", "Whether the test drops the triangle."),
+        "verdict": VariableText(
+            "verdict", "Whether the triangle is kept or culled; undecided before all tests."
+        ),
+    },
+)

@@ -1,0 +1,216 @@
+"""The depth test: what each format stores of a fragment, the comparison, and what the buffer holds then."""
+
+import math
+
+from core.explain.equation import (
+    all_of,
+    comparison,
+    conclusion,
+    digits_that_differ,
+    equation,
+    linear,
+    number_latex,
+    relation,
+)
+from core.explain.number_text import number_text, pair_text, spoken
+from core.explain.records import Asked, choice
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import GIVEN, VariableText, hides, shows
+
+QUANTITIES = {
+    "z": ("z", "z", "depth"),
+    "inverse-w": ("1/w", r"\frac{1}{w}", "inverse_w"),
+    "reversed-z": ("reversed z", "r", "value"),
+    "logarithm": ("logarithmic depth", "l", "value"),
+}
+"""Quantity of the depth buffer to its name, its symbol and the variable that holds it."""
+
+
+def quantity_of(step: StepValues) -> str:
+    """Return what the depth buffer holds: a name of ``QUANTITIES``."""
+    if step.has("quantity"):
+        return step.text("quantity")
+    return "inverse-w" if step.flag("larger_is_nearer") else "z"
+
+
+@explains("depth.*.value")
+def value_made(step: StepValues) -> Said:
+    """The reversed or the logarithmic depth, before it is rounded."""
+    value, depth = step.number("value"), spoken(step.number("depth"))
+    if quantity_of(step) == "logarithm":
+        inverse_w, near, far = (step.number(name) for name in ("inverse_w", "near", "far"))
+        text = (
+            f"{step.pixel_name}: on a scale of octaves from w = {spoken(near)} to w = {spoken(far)}, "
+            f"1/w = {spoken(inverse_w)} is at {spoken(value)} (z = {depth})."
+        )
+        symbols = r"\frac{\log_2 (w / n)}{\log_2 (f / n)}"
+        above = rf"\log_2 (1 / ({number_latex(inverse_w)} \cdot {number_latex(near)}))"
+        numbers = rf"\frac{{{above}}}{{\log_2 ({number_latex(far)} / {number_latex(near)})}}"
+        return text, equation(("l", value), "=", (symbols, numbers))
+    where = "along the outline" if step.has("t") else "on the triangle's plane"
+    text = (
+        f"{step.pixel_name}: {where}, from 1 at the near plane to 0 at the far plane, "
+        f"the reversed z is {spoken(value)} (z = {depth})."
+    )
+    if step.has("t"):
+        t, (start, end) = step.number("t"), step.vector("ends")
+        first = ("(1 - t)", f"(1 - {number_latex(t)})")
+        terms = (first, r"\cdot", ("r_0", start), "+", ("t", t), r"\cdot", ("r_1", end))
+        return text, equation(("r", value), "=", *terms)
+    coefficients = [(name, step.number(name)) for name in "abc"]
+    return text, linear("r", value, coefficients, ("x", step.number("x")), ("y", step.number("y")))
+
+
+@explains("depth.*.depth")
+def stored(step: StepValues) -> Said:
+    """What the depth format stores of a fragment."""
+    value, quantity = step.number("stored"), quantity_of(step)
+    name, symbol, variable = QUANTITIES[quantity]
+    before = step.number(variable)
+    if quantity == "z":
+        of_steps = f" of {step.whole('scale'):,} steps" if step.has("scale") else ""
+        text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
+    elif quantity == "inverse-w":
+        text = f"{step.pixel_name}: its 1/w = {spoken(before)} is stored as {spoken(value)}."
+    else:
+        limited = "" if 0 <= before <= 1 else "limited to 0 to 1 and "
+        text = (
+            f"{step.pixel_name}: {name} {spoken(before)} is {limited}stored as the float32 {spoken(value)}."
+        )
+    symbols, numbers = rf"\mathrm{{store}}({symbol})", rf"\mathrm{{store}}({number_latex(before)})"
+    if quantity == "z" and step.has("scale"):
+        symbols = rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})"
+        numbers = rf"\mathrm{{round}}({number_latex(step.number('scale'))} \cdot {number_latex(before)})"
+    return text, equation((r"z_{\mathrm{new}}", value), "=", (symbols, numbers))
+
+
+def passes(step: StepValues) -> Asked:
+    """Ask whether a fragment passes."""
+    new, old = (number_text(step.number(name)) for name in ("stored", "before"))
+    is_kept = step.flag("passes")
+    return choice(
+        f"The buffer holds {old} at {step.the_pixel}. Does {new} pass?",
+        0 if is_kept else 1,
+        f"{new} against {old}: it {'passes' if is_kept else 'fails'}.",
+    )
+
+
+@explains("depth.*.compare", asks=passes)
+def compared(step: StepValues) -> Said:
+    """The depth test."""
+    new, old = step.number("stored"), step.number("before")
+    (shown, shown_before), name = pair_text(new, old), QUANTITIES[quantity_of(step)][0]
+    if math.isnan(new) or math.isnan(old):
+        text = f"fails: its {name}, {shown}, cannot be compared with the buffer's {shown_before}."
+    elif new == old:
+        text = f"fails: its {name}, {shown}, equals the buffer's, and a tie keeps the stored depth."
+    else:
+        verdict, outcome = ("passes", "nearer") if step.flag("passes") else ("fails", "hidden")
+        than = "larger" if new > old else "smaller"
+        text = (
+            f"{verdict}: its {name}, {shown}, is {than} than the buffer's {shown_before}, so it is {outcome}."
+        )
+    wanted = ">" if step.flag("larger_is_nearer") else "<"
+    return f"{step.pixel_name} {text}", equation(
+        (r"z_{\mathrm{new}}", new),
+        (wanted, relation(new, old)),
+        (r"z_{\mathrm{buffer}}", old),
+        *conclusion("passes", "passes" if step.flag("passes") else "fails"),
+        digits=digits_that_differ(new, old),
+    )
+
+
+@explains("depth.*.write")
+def written(step: StepValues) -> Said:
+    """What the depth buffer holds after the test."""
+    after, before = pair_text(step.number("after"), step.number("before"))
+    if step.flag("passes") and not step.flag("writes"):
+        return _not_stored(step)
+    if step.flag("passes"):
+        text = f"now holds {after}, of triangle {step.triangle}, instead of {before}."
+    else:
+        text = f"keeps {before}, and triangle {step.triangle} is hidden here."
+    return f"{step.pixel_name}: the depth buffer {text}"
+
+
+@explains("depth.store.write")
+def untested(step: StepValues) -> Said:
+    """A fragment written without a test."""
+    if not step.flag("writes"):
+        return _not_stored(step)
+    after, before = pair_text(step.number("after"), step.number("before"))
+    return f"{step.pixel_name}: without a depth test {after} replaces {before} in the depth buffer."
+
+
+def _not_stored(step: StepValues) -> str:
+    """A pale pixel of a line, whose depth is not stored."""
+    return (
+        f"{step.pixel_name}: the depth buffer keeps {spoken(step.number('before'))}, as the line covers less than "
+        "half of this pixel and must not hide what is drawn there later."
+    )
+
+
+@explains("depth.*.range")
+def out_of_range(step: StepValues) -> Said:
+    """A fragment in front of the near or behind the far plane."""
+    depth = step.number("depth")
+    why = "below 0: in front of the near plane" if depth < 0 else "above 1: behind the far plane"
+    why = "which is not a number" if math.isnan(depth) else why
+    tests = [comparison("z", r"\ge", depth), comparison("z", r"\le", depth, 1.0)]
+    return (
+        f"{step.pixel_name} is dropped: its depth z is {spoken(depth)}, {why}.",
+        all_of(tests, *conclusion("kept", "dropped")),
+    )
+
+
+def _letter(step: StepValues) -> str:
+    """Return the letter of depths in formulas: d where they are whole numbers on a plane."""
+    return "d" if step.has("origin") else "z"
+
+
+shows(
+    "depth",
+    {
+        "depth": VariableText("z", "Window depth: 0 is near, 1 is far."),
+        "m": VariableText("m", "2 x − W: the ray's x/w is m/W.", "depth"),
+        "n": VariableText("n", "2 y − H: the ray's y/w is n/H.", "depth"),
+        "x": VariableText("x", "x of the pixel's centre, in pixels.", "depth"),
+        "y": VariableText("y", "y of the pixel's centre, in pixels.", "depth"),
+        "a": VariableText("a", "Change of the value per step to the right.", "depth"),
+        "b": VariableText("b", "Change of the value per step upwards.", "depth"),
+        "c": VariableText("c", "Value where both coordinates are 0.", "depth"),
+        "d": VariableText("d", "Determinant of the corners' x, y and w.", "depth"),
+        "t": VariableText("t", "Position along the line: 0 at the first end, 1 at the second.", "depth"),
+        "ends": VariableText("r₀, r₁", "Reversed z at both ends of the line.", "depth"),
+        "scale": VariableText("steps", "The whole number that depth 1 is stored as.", GIVEN),
+        "near": VariableText("n (near)", "w at which the logarithmic depth is 0.", GIVEN),
+        "far": VariableText("f (far)", "w at which the logarithmic depth is 1.", GIVEN),
+        "nearness": VariableText("v", "Where the ray meets the triangle: 1/w or −z/w, larger is nearer."),
+        "error": VariableText("e", "Bound of the rounding error of v."),
+        "nearest": VariableText("nearest", "Number of the nearest triangle on the ray so far; −1: none."),
+        "nearest_nearness": VariableText("v nearest", "Where the ray meets the nearest triangle so far."),
+        "nearest_error": VariableText("e nearest", "Bound of the rounding error of v nearest."),
+        "sign": VariableText("sign", "1: nearer than the nearest so far, −1: farther, 0: equally near."),
+        "value": VariableText(
+            lambda step: QUANTITIES[quantity_of(step)][1], "Value to store instead of z, before rounding."
+        ),
+        "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
+        "stored": VariableText(
+            lambda step: f"{_letter(step)} new", "What the depth format stores of the fragment."
+        ),
+        "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
+        "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
+        "before_key": VariableText("key before", "Key in the buffer; the smaller one stays.", is_key=True),
+        "before": VariableText(lambda step: f"{_letter(step)} buffer", "What the depth buffer held."),
+        "passes": VariableText("passes", "Whether the fragment is kept."),
+        "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
+        "after_key": VariableText(
+            "key in buffer", "The smaller of both keys.", previous="before_key", is_key=True
+        ),
+        "origin": VariableText("origin", "Depth at column 0, row 0, in units of 2⁻³⁸.", "stored"),
+        "across": VariableText("across", "Change of the depth per column, in units of 2⁻³⁸.", "stored"),
+        "up": VariableText("up", "Change of the depth per row, in units of 2⁻³⁸.", "stored"),
+    },
+)
+hides("depth.rounded|out-of-range|store", ("origin", "across", "up"))

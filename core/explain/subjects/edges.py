@@ -1,0 +1,263 @@
+"""Setting up triangles: corners in the window, snapping, the area, edge functions and the fill rule."""
+
+import math
+
+from core.explain.equation import (
+    Part,
+    all_of,
+    beside,
+    comparison,
+    conclusion,
+    difference,
+    digits_that_add_up,
+    equation,
+    fraction,
+    lattice_latex,
+    number_latex,
+    signed_latex,
+)
+from core.explain.number_text import number_text, position_text, spoken, vector_text
+from core.explain.records import Asked, Formula, number
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.subjects.number_formats import DETERMINANT, equals
+from core.explain.variable_text import VariableText, given, hides, shows
+
+SNAP_LIMIT = 2**16
+"""Corners farther from the window's origin than this, in pixels, are not snapped."""
+WHOLE_NUMBERS = ("fixed-24.8", "int64")
+"""Number formats that cannot represent every corner."""
+ROUNDING = 1e-9
+"""Pixels below which a corner counts as unmoved."""
+
+
+def _corner(step: StepValues) -> str:
+    return f"Corner {step.whole('corner')} of triangle {step.triangle}"
+
+
+@explains("edges.snapped.window")
+def projected(step: StepValues) -> Said:
+    """A corner divided by its w, before snapping."""
+    (x, y, w), window, k = step.vector("homogeneous"), step.vector("window"), step.whole("corner")
+    text = (
+        f"{_corner(step)} is at {vector_text(window)} in the window: {spoken(x)} and {spoken(y)}, "
+        f"each divided by w = {spoken(w)}."
+    )
+    quotients: list[list[Part]] = [
+        [(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}", at), "=", fraction((axis, value), ("w", w), k)]
+        for axis, at, value in zip("xy", window, (x, y), strict=True)
+    ]
+    return text, equation(*beside(*quotients))
+
+
+@explains("edges.snapped.snap")
+def snapped(step: StepValues) -> Said:
+    """A corner rounded to 1/256 pixel."""
+    window, grid, k = step.vector("window"), step.vector("snapped"), step.whole("corner")
+    place = position_text(grid)
+    moved = math.hypot(*(a - b for a, b in zip(grid, window, strict=True)))
+    text = f"is snapped to the nearest 1/256 pixel, {place}, which moves it by {spoken(moved)} px."
+    if moved < ROUNDING:
+        text = f"stays at {place}, which is on the 1/256-pixel grid."
+    rounded: list[list[Part]] = [
+        [
+            (rf"\vertex{{{k}}}{{{axis}_{k}}}", lattice_latex(after)),
+            "=",
+            (
+                rf"\frac{{\mathrm{{round}}(256 \cdot \vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}})}}{{256}}",
+                rf"\frac{{\mathrm{{round}}(256 \cdot {signed_latex(before)})}}{{256}}",
+            ),
+        ]
+        for axis, before, after in zip("xy", window, grid, strict=True)
+    ]
+    return f"{_corner(step)} {text}", equation(*beside(*rounded))
+
+
+@explains("edges.homogeneous.keep")
+def homogeneous(step: StepValues) -> Said:
+    """A corner that is not snapped, and why."""
+    place, w, form = (
+        vector_text(step.vector("homogeneous")),
+        step.vector("homogeneous")[2],
+        step.text("number_format"),
+    )
+    if form in WHOLE_NUMBERS:
+        return (
+            f"{_corner(step)} cannot be represented in {form}, as it is behind the eye or too far away, "
+            f"so the triangle is not drawn: (x, y, w) = {place}."
+        )
+    if not w > 0:
+        reason = f"its w is {spoken(w)}, not above 0"
+    elif form == "snapped" and any(abs(value) > SNAP_LIMIT for value in step.vector("window")):
+        reason = f"it lies more than {SNAP_LIMIT:,} pixels away"
+    else:
+        reason = "this number format does not snap"
+    return f"{_corner(step)} keeps its homogeneous position (x, y, w) = {place}: {reason}."
+
+
+@explains("edges.orientation.area")
+def orientation(step: StepValues) -> Said:
+    """Twice the signed area, or the determinant where a corner is not projected."""
+    value, is_projected = step.number("doubled_area"), step.flag("is_projected")
+    first, start, finish = step.vector("snapped"), step.vector("start"), step.vector("finish")
+    is_snapped = all(map(math.isfinite, first))
+    is_area = is_projected and is_snapped
+    name = "Twice the signed area" if is_area else "The determinant of the (x, y, w) matrix"
+    rest = ": nothing is drawn"
+    if value > 0:
+        rest = ", above 0, so its edge functions are positive inside already"
+    elif value < 0:
+        rest = ", below 0, so its edge functions are negated to be positive inside"
+    text = f"{name} of triangle {step.triangle} is {spoken(value)}{rest}."
+    if is_area:
+        return text, _area(step, [first, start[:2], finish[:2]])
+    if is_projected:
+        # The two other corners are given divided by their w; this determinant is made of undivided ones.
+        return text, equation((DETERMINANT, value))
+    x, y, w = step.vector("homogeneous")
+    if is_snapped:
+        x, y = first[0] * w, first[1] * w
+    matrix = r" \\ ".join(" & ".join(map(number_latex, row)) for row in ([x, y, w], start, finish))
+    return text, equation(
+        ("D", value), "=", (DETERMINANT, rf"\det \begin{{pmatrix}} {matrix} \end{{pmatrix}}")
+    )
+
+
+def _area(step: StepValues, corners: list[list[float]]) -> Formula:
+    """Return twice the area of snapped corners as a cross product."""
+    value, ((x0, y0), (x1, y1), (x2, y2)) = step.number("doubled_area"), corners
+    digits = digits_that_add_up(value, [(x1, y2), (-x1, y0), (-x0, y2), (-x2, y1), (x2, y0), (x0, y1)])
+
+    def side(axis: int, corner: int) -> Part:
+        end, origin = ((rf"\vertex{{{k}}}{{{'xy'[axis]}_{k}}}", corners[k][axis]) for k in (corner, 0))
+        symbols, numbers = difference(end, origin, digits)
+        return f"({symbols})", f"({numbers})"
+
+    sign, rest = equals(step, value, [[x1 - x0, y2 - y0], [-(x2 - x0), y1 - y0]])
+    first, second = (side(0, 1), r"\cdot", side(1, 2)), (side(0, 2), r"\cdot", side(1, 1))
+    return equation(("2A", value), sign, *first, "-", *second, *rest, digits=digits)
+
+
+def coefficients(step: StepValues) -> Asked | None:
+    """Ask for a coefficient of an edge function."""
+    k = step.whole("edge")
+    shown = ", ".join(number_text(step.number(name)) for name in "abc")
+    text = f"What is a{k}, the change of E{k} per pixel to the right?"
+    return number(text, step.number("a"), f"a{k}, b{k}, c{k} are {shown}.")
+
+
+@explains("edges.edge.a|b|c", asks=coefficients)
+def coefficient(step: StepValues) -> Said:
+    """One component of the cross product of an edge's ends."""
+    name, k = step.operation, step.whole("edge")
+    i, j, value = (k + 1) % 3, (k + 2) % 3, step.number(step.operation)
+    first = dict(zip("xyw", step.vector("start"), strict=True))
+    second = dict(zip("xyw", step.vector("finish"), strict=True))
+    sign = _sign(step.number("doubled_area"))
+    one, other = {"a": ("y", "w"), "b": ("w", "x"), "c": ("x", "y")}[name]
+    products = [[sign, first[one], second[other]], [-sign, first[other], second[one]]]
+    digits = digits_that_add_up(value, products)
+    relation, rest = equals(step, value, products, 16 if name == "c" else 8)
+    cross = (
+        rf"(\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
+        rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}})",
+        rf"({number_latex(first[one], digits)} \cdot {signed_latex(second[other], digits)} "
+        rf"- {signed_latex(first[other], digits)} \cdot {signed_latex(second[one], digits)})",
+    )
+    made = equation((f"{name}_{k}", value), relation, ("s", sign), r"\cdot", cross, *rest, digits=digits)
+    return _coefficient_text(step), made
+
+
+@explains("edges.anchored-edge.a|b|c", asks=coefficients)
+def anchored_coefficient(step: StepValues) -> Said:
+    """One coefficient of an edge with one snapped end: its direction in whole numbers u, exactly through that end."""
+    name, k, is_forward = step.operation, step.whole("edge"), step.whole("anchor") > 0
+    i, j = ((k + 1) % 3, (k + 2) % 3) if is_forward else ((k + 2) % 3, (k + 1) % 3)
+    x, y, _ = step.vector("start" if is_forward else "finish")
+    end_x, end_y, end_w = step.vector("finish" if is_forward else "start")
+    value, text = (f"{name}_{k}", step.number(name)), _coefficient_text(step)
+    if name == "c":
+        terms = [
+            ("-", (f"{slope}_{k}", step.number(slope)), r"\cdot", (rf"\vertex{{{i}}}{{{axis}_{i}}}", at))
+            for slope, axis, at in (("a", "x", x), ("b", "y", y))
+        ]
+        return text, equation(value, "=", *terms[0], *terms[1])
+    corner, end, axis = (y, end_y, "y") if name == "a" else (x, end_x, "x")
+    ends = (rf"\vertex{{{i}}}{{{axis}_{i}}} \vertex{{{j}}}{{w_{j}}}", rf"\vertex{{{j}}}{{{axis}_{j}}}")
+    direction, symbols = corner * end_w - end, f"{ends[0]} - {ends[1]}"
+    if name == "b":
+        direction, symbols = end - corner * end_w, f"{ends[1]} - {ends[0]}"
+    above, below = fraction((symbols, direction), ("u", "u"))
+    sign = _sign(step.number("doubled_area")) * step.whole("anchor")
+    rounded = (rf"\mathrm{{round}} {above}", rf"\mathrm{{round}} {below}")
+    return text, equation(value, "=", ("s", sign), r"\cdot", rounded)
+
+
+def _sign(value: float) -> float:
+    return math.copysign(1.0, value) if value else value
+
+
+def _coefficient_text(step: StepValues) -> str:
+    k, value = step.whole("edge"), step.number(step.operation)
+    name = (
+        f"Edge {k} (from corner {(k + 1) % 3} to corner {(k + 2) % 3}): {step.operation} is {spoken(value)}"
+    )
+    if step.operation == "c":
+        return f"{name}, the value of E{k} at the window's origin."
+    way = "pixel to the right" if step.operation == "a" else "pixel upwards"
+    change = f"{'grows' if value > 0 else 'falls'} by {spoken(abs(value))} with every"
+    if value == 0:
+        change = "stays the same with every"
+    return f"{name}, so E{k} {change} {way}."
+
+
+def tie_reason(a: float, b: float, owns: bool, rule: str) -> str:
+    """Say why a triangle owns the pixel centres on an edge, or does not."""
+    if rule == "inclusive":
+        return "the inclusive rule counts every edge as inside"
+    if rule == "exclusive":
+        return "the exclusive rule counts no edge as inside"
+    if a != 0:
+        return "it is a left edge" if owns else "it is a right edge"
+    return "it is a level bottom edge" if owns else "it is a level top edge"
+
+
+@explains("edges.edge|anchored-edge|inverse-edge.tie")
+def tie(step: StepValues) -> Said:
+    """Whether the triangle owns the pixel centres on an edge."""
+    k, a, b, owns = step.whole("edge"), step.number("a"), step.number("b"), step.flag("owns_tie")
+    rule, found = step.fill_rule(0), "inside" if owns else "outside"
+    verb = "belongs" if owns else "does not belong"
+    reason = tie_reason(a, b, owns, rule)
+    text = f"A pixel centre exactly on edge {k} {verb} to triangle {step.triangle}: {reason}."
+    if rule != "shared-edge":
+        wanted = r"\ge" if rule == "inclusive" else ">"
+        return text, equation(f"E_{k}", wanted, "0", *conclusion("inside", "inside"))
+    tests = [comparison(f"a_{k}", ">", a)]
+    if a == 0:
+        tests = [comparison(f"a_{k}", "=", a), comparison(f"b_{k}", ">", b)]
+    return text, all_of(tests, *conclusion("inside", found))
+
+
+shows(
+    "edges",
+    {
+        "corner": given("number", "Number of the corner, and of the edge opposite to it."),
+        "homogeneous": given("homogeneous", "x, y and w in the window, before the division."),
+        "window": VariableText("window", "Position in pixels, before snapping."),
+        "snapped": VariableText("snapped", "Position on the 1/256-pixel grid, used for coverage."),
+        "rounded": VariableText("rounded", "x, y and w in the number format."),
+        "doubled_area": VariableText(
+            lambda step: "2A" if step.flag("is_projected") else "D",
+            "Twice the signed area 2A, or the determinant D.",
+        ),
+        "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),
+        "finish": VariableText("edge end", "End of the edge as (x, y, w).", "a"),
+        "a": VariableText("a", "Change of the edge function per pixel to the right."),
+        "b": VariableText("b", "Change of the edge function per pixel upwards."),
+        "c": VariableText("c", "Value of the edge function at the window's origin."),
+        "owns_tie": VariableText("owns ties", "Whether a pixel centre on the edge belongs to the triangle."),
+    },
+)
+hides("edges.orientation|determinant", ("corner", "homogeneous"))
+hides("edges.edge|anchored-edge|inverse-edge", ("homogeneous",))

@@ -1,0 +1,308 @@
+"""Fills that test pixels or rows: edge functions at a centre, the decision, spans between crossings."""
+
+import math
+from functools import partial
+
+from core.explain.equation import (
+    Part,
+    all_of,
+    beside,
+    comparison,
+    conclusion,
+    digits_that_add_up,
+    equation,
+    linear,
+    linear_digits,
+    linear_parts,
+    number_latex,
+    relation,
+    signed_latex,
+)
+from core.explain.number_text import counted, joined, number_text, spoken, vector_text
+from core.explain.records import AnswerKind, Asked, Question, choice
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.subjects.edges import tie_reason
+from core.explain.subjects.number_formats import equals, number_format
+from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
+from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
+from core.raster.number_formats.bit_patterns import bit_pattern
+
+SNAP_DISTANCE = 1 / 256
+"""Largest distance in pixels at which snapping can reverse a decision."""
+COVERAGE_QUESTION = Question(
+    "Click the covered pixels, each is checked at once; or step on to be asked about one at a time.",
+    AnswerKind.GRID,
+)
+"""What is asked of coverage as a whole."""
+
+
+def coverage_reveal(column: int, row: int, is_covered: bool) -> str:
+    """Return whether a clicked pixel is covered."""
+    return f"({column}, {row}) is {'covered' if is_covered else 'not covered'}."
+
+
+def covered(step: StepValues) -> Asked:
+    """Ask whether a pixel is covered."""
+    is_covered = step.flag("covered")
+    values = ", ".join(number_text(step.number(f"value_{k}")) for k in range(3))
+    return choice(
+        f"Does triangle {step.triangle} cover {step.the_pixel}?",
+        0 if is_covered else 1,
+        f"{step.the_pixel} is {'inside' if is_covered else 'outside'}; E0, E1, E2 are {values}.",
+    )
+
+
+def _away(step: StepValues, edge: int) -> str:
+    """Return a distance from an edge with its unit, or nothing where the edge is no line."""
+    distance = step.vector("distance")[edge]
+    return f"{spoken(distance)} px" if math.isfinite(distance) else ""
+
+
+def _on_edge(step: StepValues, k: int) -> str:
+    """Say that a centre lies on an edge, and who owns it."""
+    owns = step.flags("owns_tie")[k]
+    reason = tie_reason(step.vector("a")[k], step.vector("b")[k], owns, step.fill_rule(k))
+    return f"exactly on edge {k}, which this triangle {'owns' if owns else 'does not own'} because {reason}"
+
+
+@explains("raster.test.edge")
+def edge_value(step: StepValues) -> Said:
+    """One edge function at a pixel's centre."""
+    k, x, y = step.edge, step.number("x"), step.number("y")
+    value, away = step.number(f"value_{k}"), _away(step, k)
+    text = f"{step.pixel_name}: E{k} is {spoken(value)} at its centre {vector_text([x, y])}"
+    if math.isnan(value):
+        text += f", which is not a number, so it is outside edge {k}."
+    elif value == 0:
+        text += f": it lies {_on_edge(step, k)}."
+    elif value > 0:
+        text += f", so it is inside edge {k}{f', {away} away' if away else ''}."
+    else:
+        text += f", so it is outside edge {k}{f' ({away})' if away else ''}."
+    terms = [(f"{name}_{k}", step.vector(name)[k]) for name in "abc"]
+    units = ("x", x), ("y", y)
+    (_, a), (_, b), (_, c) = terms
+    sign, rest = equals(step, value, [[a, x], [b, y], [c]])
+    _, _, *summands = linear_parts(f"E_{k}", value, terms, *units)
+    digits = linear_digits(value, terms, *units)
+    return text, equation((f"E_{k}", value), sign, *summands, *rest, digits=digits)
+
+
+@explains("raster.step|climb.edge")
+def added_value(step: StepValues) -> Said:
+    """One edge function as the neighbour's and a coefficient."""
+    k, is_right = step.edge, step.kind == "step"
+    value, before = step.number(f"value_{k}"), step.number(f"before_{k}")
+    slope, where, neighbour = ("a", "to the left", "left") if is_right else ("b", "below", "below")
+    added = step.vector(slope)[k]
+    text = (
+        f"{step.pixel_name}: E{k} is {spoken(value)}, from {spoken(before)} at the pixel {where} and "
+        f"{slope}{k} = {spoken(added)}"
+    )
+    if math.isnan(value):
+        text += f", which is not a number, so it is outside edge {k}."
+    elif value == 0:
+        text += f": it lies exactly on edge {k}."
+    else:
+        text += f", so it is {'inside' if value > 0 else 'outside'} edge {k}."
+    sign, rest = equals(step, value, [[before], [added]])
+    digits = digits_that_add_up(value, [[before], [added]])
+    start: Part = (rf"E_{k}^{{\mathrm{{{neighbour}}}}}", before)
+    return text, equation((f"E_{k}", value), sign, start, "+", (f"{slope}_{k}", added), *rest, digits=digits)
+
+
+@explains("raster.test|step|climb.decide", asks=covered)
+def decision(step: StepValues) -> Said:
+    """Covered or not, and why; where a weight disagrees by snapping, the weight beside it."""
+    values, owns, weights = step.vector("values"), step.flags("owns_tie"), step.vector("weights")
+    differing = _disagreeing(values, weights, step.vector("distance"))
+    notes = [
+        f"E{k} ({number_format(step)}) decides, though weight λ{k} (unsnapped) is {spoken(weights[k])}"
+        for k in differing
+    ]
+    reason = _why_covered(step, values) if step.flag("covered") else _why_outside(step, values, owns)
+    compared = [comparison(f"E_{k}", r"\ge" if owns[k] else ">", values[k]) for k in range(3)]
+    parts = conclusion("covered", "covered" if step.flag("covered") else "outside")
+    for k in differing:
+        parts += [r"\quad", (rf"\lambda_{k}", weights[k]), relation(weights[k]), "0"]
+    return f"{step.pixel_name} is {reason}{f'; {joined(notes)}' if notes else ''}.", all_of(compared, *parts)
+
+
+def _disagreeing(values: list[float], weights: list[float], distance: list[float]) -> list[int]:
+    """Return the edges whose snapped decision and unsnapped weight differ in sign, by snapping alone."""
+    return [
+        k
+        for k in range(3)
+        if abs(distance[k]) <= SNAP_DISTANCE and (values[k] < 0 < weights[k] or weights[k] < 0 <= values[k])
+    ]
+
+
+def _why_covered(step: StepValues, values: list[float]) -> str:
+    ties = [k for k in range(3) if values[k] == 0]
+    if ties:
+        return f"covered: its centre lies {joined([_on_edge(step, k) for k in ties])}"
+    distances = step.vector("distance")
+    nearest = min(range(3), key=lambda k: distances[k] if math.isfinite(distances[k]) else math.inf)
+    away = f"{_away(step, nearest)} away, " if _away(step, nearest) else ""
+    return (
+        f"covered: it is inside all three edges, the nearest is edge {nearest} "
+        f"({away}E{nearest} = {spoken(values[nearest])})"
+    )
+
+
+def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str:
+    reasons = []
+    for k in range(3):
+        value, away = spoken(values[k]), _away(step, k)
+        if values[k] < 0:
+            reasons.append(
+                f"edge {k} {f'is {away} away (E{k} = {value})' if away else f'has E{k} = {value}'}"
+            )
+        elif math.isnan(values[k]):
+            reasons.append(f"E{k} is {value}, not a number")
+    unowned = [_on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]
+    if not reasons:
+        return f"not covered: its centre lies {joined(unowned)}"
+    return f"outside: {joined(reasons + [f'it lies {text}' for text in unowned])}"
+
+
+@explains("raster.accept.accept")
+def accepted(step: StepValues) -> Said:
+    """A pixel that is covered without a test."""
+    is_block = all(math.isnan(step.number(f"crossing_{k}")) for k in range(3))
+    what = "its whole block is inside" if is_block else f"it is in the span of row {step.whole('row')}"
+    values, owns = step.vector("values"), step.flags("owns_tie")
+    outside = [k for k in range(3) if not (values[k] > 0 or (values[k] == 0 and owns[k]))]
+    text = f"{step.pixel_name} is covered without a test of its own: {what}"
+    if outside:
+        listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
+        text += f"; its own test would reject it ({listed})"
+    return f"{text}."
+
+
+@explains("raster.span.edge")
+def span_edge(step: StepValues) -> Said:
+    """Where a row crosses an edge."""
+    k, y, row = step.edge, step.number("y"), step.whole("row")
+    a, b, c = (step.vector(name)[k] for name in "abc")
+    if a == 0:
+        value = b * y + c
+        is_inside = value > 0 or (value == 0 and step.flags("owns_tie")[k])
+        text = (
+            f"Row {row} runs along edge {k}, and all of it is {'inside' if is_inside else 'outside'} "
+            f"(E{k} = {spoken(value)})."
+        )
+        return text, linear(f"E_{k}", value, [(f"b_{k}", b), (f"c_{k}", c)], ("y", y))
+    verb, limit = ("enters", "begins") if a > 0 else ("leaves", "ends")
+    crossing = step.number(f"crossing_{k}")
+    text = f"Row {row} {verb} through edge {k} at x = {spoken(crossing)}: the span {limit} there, or farther inside."
+    symbols = rf"-\frac{{b_{k} \cdot y + c_{k}}}{{a_{k}}}"
+    numbers = rf"\frac{{{number_latex(b)} \cdot {signed_latex(y)} + {signed_latex(c)}}}{{{number_latex(a)}}}"
+    return text, equation(("x", crossing), "=", (symbols, f"-{numbers}"))
+
+
+def _columns(start: int, stop: int) -> str:
+    columns = f"column {start}" if stop == start + 1 else f"columns {start} to {stop - 1}"
+    return f"{columns}: {counted(stop - start, 'pixel')}"
+
+
+@explains("raster.span.span")
+def span(step: StepValues) -> Said:
+    """The columns of a span."""
+    start, stop, name = (
+        step.whole("start"),
+        step.whole("stop"),
+        f"Row {step.whole('row')} of triangle {step.triangle}",
+    )
+    text = f"{name} has no pixel centre inside all three edges."
+    if stop > start:
+        text = f"{name} is covered in {_columns(start, stop)}."
+    end: Part = (r"\mathrm{stop}", float(stop))
+    return text, equation(("n", float(stop - start)), "=", end, "-", (r"\mathrm{start}", float(start)))
+
+
+@explains("raster.line.ends")
+def line_ends(step: StepValues) -> Said:
+    """The two sides of the printed scanline fill, made by adding up inverse slopes."""
+    first, second = (step.number(f"crossing_{k}") for k in range(2))
+    text = (
+        f"Row {step.whole('row')}: adding up the inverse slopes puts the two sides at "
+        f"x = {spoken(first)} and {spoken(second)}."
+    )
+    return text, equation((r"x_{\mathrm{first}}", first), r"\quad", (r"x_{\mathrm{second}}", second))
+
+
+@explains("raster.line.round")
+def line_rounded(step: StepValues) -> Said:
+    """The columns that the printed scanline fill draws: both sides rounded."""
+    start, stop, row = step.whole("start"), step.whole("stop"), step.whole("row")
+    text = f"Row {row}: rounded, both sides lie outside the raster, so nothing is drawn."
+    if stop > start:
+        text = f"Row {row}: the sides are rounded and both ends drawn, {_columns(start, stop)}."
+    sides: list[list[Part]] = []
+    for k, name in enumerate(("first", "second")):
+        crossing = step.number(f"crossing_{k}")
+        symbols = rf"\lfloor x_{{\mathrm{{{name}}}}} + \frac{{1}}{{2}} \rfloor"
+        numbers = rf"\lfloor {number_latex(crossing)} + \frac{{1}}{{2}} \rfloor"
+        column = rf"\mathrm{{column}}_{{\mathrm{{{name}}}}}"
+        sides.append([(column, float(math.floor(crossing + 0.5))), "=", (symbols, numbers)])
+    return text, equation(*beside(*sides))
+
+
+def _value_label(step: StepValues, k: int) -> str:
+    return f"E{k} ({number_format(step)})"
+
+
+def _value_meaning(step: StepValues, k: int) -> str:
+    """Return the meaning of a decision value, with its bits in the number format."""
+    meaning = "Decision value: above 0 is inside."
+    layout, value = step.explanation.values.get("value_layout"), step.number(f"value_{k}")
+    if layout and math.isfinite(value):
+        meaning += f" Its bits in {layout}: {bit_pattern(value, str(layout))}."
+    return meaning
+
+
+shows(
+    "raster",
+    {
+        **{
+            f"before_{k}": given(f"E{k} before", "Value at the neighbour that it is reached from.")
+            for k in range(3)
+        },
+        **{
+            f"value_{k}": VariableText(
+                partial(_value_label, k=k),
+                partial(_value_meaning, k=k),
+                edge=k,
+            )
+            for k in range(3)
+        },
+        "covered": VariableText("covered", "Whether the pixel is drawn."),
+        "tie": VariableText("on edge #", "Whether the centre lies exactly on the edge.", spread="edges"),
+        "weights": VariableText(
+            "λ# (unsnapped)",
+            "Weight of the corner, from the unsnapped corners; near an edge its sign may differ from that of E.",
+            "covered",
+            "edges",
+        ),
+        "distance": VariableText(
+            "distance #", "From the edge, in pixels; below 0 is outside.", "covered", "edges"
+        ),
+        **{
+            f"crossing_{k}": VariableText(f"crossing {k}", "x where the row crosses the edge.", edge=k)
+            for k in range(3)
+        },
+        **CENTRE,
+        **COEFFICIENTS,
+        "owns_tie": given("owns ties on #", "Whether a centre exactly on the edge is inside.", "edges"),
+    },
+)
+_BEFORE = {f"before_{k}" for k in range(3)}
+hides("raster.test", OF_SPANS | _BEFORE)
+hides("raster.step|climb|accept", OF_SPANS)
+hides("raster.span", {"column", "x"} | OF_SPANS)
+hides("raster.line", {"column", "x", "y", "a", "b", "c", "owns_tie"})
+hides("raster.lane", {"column", "row", "x", "y", "a", "b", "c", "owns_tie"} | (OF_SPANS - OF_LANE))
+hides("raster.lane-row", {"column", "x", "a", "b", "c"} | OF_LANE | OF_PASS)
+hides("raster.pass", (OF_SPANS - OF_PASS) | {"owns_tie"})

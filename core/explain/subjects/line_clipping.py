@@ -1,0 +1,279 @@
+"""Line clipping: p, q and t, or normals (Cyrus-Beck), entries and exits; outcodes."""
+
+from collections.abc import Callable
+
+from core.explain.equation import (
+    Part,
+    all_of,
+    beside,
+    comparison,
+    conclusion,
+    difference,
+    equation,
+    fraction,
+    number_latex,
+    relation,
+    signed_latex,
+    vector_latex,
+)
+from core.explain.number_text import joined, spoken, vector_text
+from core.explain.records import Formula
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import PIXEL, VariableText, hides, shows
+from core.geometry.line_clipping.records import RECTANGLE_EDGES
+from core.trace.line_clipping import CLIP_OPERATIONS
+
+CODE_BITS = len(RECTANGLE_EDGES)
+"""Digits of an outcode."""
+_P_AND_Q = {
+    "left": ("-(x_1 - x_0)", r"x_0 - x_{\min}"),
+    "right": ("x_1 - x_0", r"x_{\max} - x_0"),
+    "bottom": ("-(y_1 - y_0)", r"y_0 - y_{\min}"),
+    "top": ("y_1 - y_0", r"y_{\max} - y_0"),
+}
+"""Liang-Barsky's p and q of each border."""
+_FROM_BORDER = r"N \cdot (P_0 - P_E)"
+
+
+def uses_normals(step: StepValues) -> bool:
+    """Tell whether the method uses normals, as Cyrus-Beck does, rather than p and q."""
+    return step.text("line_clipping") != "liang-barsky"
+
+
+def code_text(code: int) -> str:
+    """Write an outcode in binary: top, bottom, right, left."""
+    return f"{code:0{CODE_BITS}b}"
+
+
+def edge_name(step: StepValues) -> str:
+    """Return the edge of the triangle that is clipped."""
+    return f"edge {step.whole('edge')} of triangle {step.triangle}"
+
+
+@explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room")
+def room(step: StepValues) -> Said:
+    """How fast an edge runs outwards, and how much room its first end has."""
+    border, along, distance = step.text("border"), step.number("approach"), step.number("room")
+    start, end, point = (step.vector(name) for name in ("window_start", "window_end", "border_point"))
+    side = "inside" if distance > 0 else "outside" if distance < 0 else "on it"
+    beginning = f"{border.capitalize()} border, {edge_name(step)}"
+    if uses_normals(step):
+        way = "PE, it may enter" if along < 0 else "PL, it may leave" if along > 0 else "parallel"
+        text = (
+            f"{beginning}: N · D = {spoken(along)}, so it is {way}, "
+            f"and N · (P₀ − Pₑ) = {spoken(-distance)} shows that it starts {side}."
+        )
+        normal = ("N", vector_latex(step.vector("normal")))
+        reach = ("D", vector_latex([b - a for a, b in zip(start, end, strict=True)]))
+        offset = (r"(P_0 - P_E)", vector_latex([a - b for a, b in zip(start, point, strict=True)]))
+        approach: list[Part] = [(r"N \cdot D", along), "=", normal, r"\cdot", reach]
+        return text, equation(*beside(approach, [(_FROM_BORDER, -distance), "=", normal, r"\cdot", offset]))
+    way = "inwards" if along < 0 else "outwards" if along > 0 else "parallel"
+    text = (
+        f"{beginning}: p = {spoken(along)}, so it runs {way}, "
+        f"and q = {spoken(distance)} shows that it starts {side}."
+    )
+    axis = 0 if border in ("left", "right") else 1
+    p = f"{number_latex(end[axis])} - {signed_latex(start[axis])}"
+    q = f"{number_latex(point[axis])} - {signed_latex(start[axis])}"
+    if border in ("left", "bottom"):
+        p, q = f"-({p})", f"{number_latex(start[axis])} - {signed_latex(point[axis])}"
+    of_p, of_q = _P_AND_Q[border]
+    return text, equation(*beside([("p", along), "=", (of_p, p)], [("q", distance), "=", (of_q, q)]))
+
+
+@explains("raster.clip-enter|clip-leave.crossing")
+def crossing(step: StepValues) -> Said:
+    """Where the edge crosses the line of a border."""
+    along, distance, t = step.number("approach"), step.number("room"), step.number("crossing_t")
+    where = "before its first end" if t < 0 else "after its second end" if t > 1 else "between its ends"
+    where = {0.0: "at its first end", 1.0: "at its second end"}.get(t, where)
+    quotient, made = "q over p", fraction(("q", distance), ("p", along))
+    if uses_normals(step):
+        quotient = "N · (P₀ − Pₑ) over −N · D"
+        made = fraction((_FROM_BORDER, -distance), (r"-N \cdot D", -along))
+    text = (
+        f"The edge crosses the {step.text('border')} border's line at t = {quotient} = {spoken(t)}, {where}."
+    )
+    return text, equation(("t", t), "=", made)
+
+
+@explains("raster.clip-enter|clip-leave.narrow")
+def narrow(step: StepValues) -> Said:
+    """The latest entry or the earliest exit so far."""
+    before, t = step.number("bound_before"), step.number("crossing_t")
+    name, kind, extreme, order, lost, symbol, rule = (
+        "t_leave",
+        "exit",
+        "earliest",
+        "before",
+        "after",
+        "t_L",
+        r"\min",
+    )
+    if step.kind == "clip-enter":
+        name, kind, extreme, order, lost, symbol, rule = (
+            *("t_enter", "entry", "latest", "after", "before"),
+            *("t_E", r"\max"),
+        )
+    now = step.number(name)
+    text = f"This is the {extreme} {kind} so far: the part {lost} t = {spoken(now)} is outside."
+    if now == before:
+        text = f"This {kind} changes nothing: t = {spoken(t)} is not {order} the {kind} at {spoken(before)}."
+    numbers = f"{rule}({number_latex(before)}, {number_latex(t)})"
+    return text, equation((symbol, now), "=", (rf"{rule}({symbol}, t)", numbers))
+
+
+def _side(step: StepValues) -> Formula:
+    """On which side of its parallel border an edge lies."""
+    distance = step.number("room")
+    compared = comparison("q", r"\ge", distance)
+    if uses_normals(step):
+        compared = comparison(_FROM_BORDER, r"\le", -distance)
+    return equation(*compared, *conclusion("inside", "outside" if distance < 0 else "inside"))
+
+
+@explains("raster.clip-parallel.side")
+def parallel(step: StepValues) -> Said:
+    """A parallel edge that is kept, for now."""
+    border = step.text("border")
+    text = f"The edge is parallel to the {border} border and not outside of it, so it is not cut there."
+    if step.number("room") < 0:
+        text = f"As printed, a parallel edge is ignored although it lies outside the {border} border: it is kept."
+    return text, _side(step)
+
+
+@explains("raster.clip-outside.drop")
+def outside(step: StepValues) -> Said:
+    """A parallel edge outside."""
+    text = (
+        f"The edge is parallel to the {step.text('border')} border and outside of it: nothing of it is drawn."
+    )
+    return text, _side(step)
+
+
+@explains("raster.clip-kept.ends", "raster.clip-empty.drop")
+def kept(step: StepValues) -> Said:
+    """The part between the last entry and the first exit, if there is one."""
+    enter, leave = step.number("t_enter"), step.number("t_leave")
+    if step.kind == "clip-empty":
+        text = (
+            f"The edge would leave at t = {spoken(leave)} before it enters at {spoken(enter)}: "
+            "it misses the raster, and nothing of it is drawn."
+        )
+    elif (enter, leave) == (0.0, 1.0):
+        text = "No border cuts the edge: all of it is drawn."
+    else:
+        ends = f"{vector_text(step.vector('kept_start'))} to {vector_text(step.vector('kept_end'))}"
+        text = f"From t = {spoken(enter)} to {spoken(leave)} the edge is inside: it is drawn from {ends}."
+    found = "nothing" if enter > leave else "draw"
+    return text, equation(
+        ("t_E", enter), (r"\le", relation(enter, leave)), ("t_L", leave), *conclusion("draw", found)
+    )
+
+
+def borders_of(code: int) -> str:
+    """Return the borders that a point with an outcode lies outside of."""
+    return joined([name for bit, name in enumerate(RECTANGLE_EDGES) if code >> bit & 1])
+
+
+def _codes(step: StepValues) -> tuple[int, int]:
+    return step.whole("code_start"), step.whole("code_end")
+
+
+@explains("raster.outcodes-accept|outcodes-reject|outcodes-cut.codes")
+def codes(step: StepValues) -> Said:
+    """The outcodes of both ends, and what they have in common."""
+    first, second = _codes(step)
+    ends = [
+        f"{vector_text(step.vector(point))} has outcode {code_text(code)} "
+        f"({f'outside {borders_of(code)}' if code else 'inside'})"
+        for code, point in ((first, "pass_start"), (second, "pass_end"))
+    ]
+    shown: list[list[Part]] = [
+        [(symbol, rf"\mathrm{{{code_text(code)}}}")]
+        for symbol, code in (("c_0", first), ("c_1", second), (r"c_0 \land c_1", first & second))
+    ]
+    return f"{edge_name(step).capitalize()}: {', '.join(ends)}.", equation(*beside(*shown))
+
+
+@explains("raster.outcodes-accept.ends")
+def accept(step: StepValues) -> Said:
+    """Both ends inside."""
+    start, end = (vector_text(step.vector(name)) for name in ("kept_start", "kept_end"))
+    compared = [comparison(f"c_{k}", "=", float(code)) for k, code in enumerate(_codes(step))]
+    text = f"Both outcodes are 0000: the edge is drawn from {start} to {end}."
+    return text, all_of(compared, *conclusion("draw", "draw"))
+
+
+@explains("raster.outcodes-reject.drop")
+def reject(step: StepValues) -> Said:
+    """Both ends outside one border."""
+    first, second = _codes(step)
+    text = (
+        f"Both outcodes have {code_text(first & second)} in common: the edge lies outside "
+        f"{borders_of(first & second)}, and nothing of it is drawn."
+    )
+    compared = comparison(r"c_0 \land c_1", r"\ne", float(first & second))
+    return text, equation(*compared, *conclusion("drop", "drop"))
+
+
+@explains("raster.outcodes-cut.edge")
+def chosen_border(step: StepValues) -> Said:
+    """The border that is cut at: the lowest bit of the outcode names it."""
+    k, border = step.whole("moved_end"), step.text("border")
+    text = f"The {('first', 'second')[k]} end is outside, and {border} is the first border that its outcode names."
+    code = rf"\mathrm{{{code_text(_codes(step)[k])}}}"
+    return text, equation((f"c_{k}", code), *conclusion("lowest bit", border))
+
+
+@explains("raster.outcodes-cut.move")
+def move(step: StepValues) -> Said:
+    """The new end, on the border."""
+    start, end, point = (step.vector(name) for name in ("window_start", "window_end", "moved_to"))
+    border, moved = step.text("border"), ("first", "second")[step.whole("moved_end")]
+    text = f"The {moved} end moves to {vector_text(point)}, where the edge crosses the {border} border."
+    u, v = (0, 1) if border in ("left", "right") else (1, 0)
+    a, b = "xy"[u], "xy"[v]
+    above = difference((a, point[u]), (f"{a}_0", start[u]))
+    part, part_numbers = fraction(above, difference((f"{a}_1", end[u]), (f"{a}_0", start[u])))
+    rise, rise_numbers = difference((f"{b}_1", end[v]), (f"{b}_0", start[v]))
+    made = (rf"{b}_0 + ({rise}) {part}", rf"{number_latex(start[v])} + ({rise_numbers}) {part_numbers}")
+    return text, equation(*beside([(a, point[u])], [(b, point[v]), "=", made]))
+
+
+def _either(normals: str, p_and_q: str) -> Callable[[StepValues], str]:
+    """Return a label in the symbols of the method."""
+    return lambda step: normals if uses_normals(step) else p_and_q
+
+
+shows(
+    "raster",
+    {
+        "border": VariableText("border", "Border of the raster that the edge is compared with."),
+        "normal": VariableText("N", "Outward normal of the border.", "approach"),
+        "border_point": VariableText("Pₑ", "A point on the border.", "approach"),
+        "approach": VariableText(
+            _either("N · D", "p"), "Below 0 the edge enters here, above 0 it leaves, 0 is parallel."
+        ),
+        "room": VariableText(
+            _either("−N · (P₀ − Pₑ)", "q"), "Room inside the border at the first end; below 0: outside."
+        ),
+        "crossing_t": VariableText("t of the border", "Where the edge crosses the border's line."),
+        "bound_before": VariableText(
+            "bound before", "The latest entry, or earliest exit, of the previous borders."
+        ),
+        "t_enter": VariableText("tE", "Latest entry so far."),
+        "t_leave": VariableText("tL", "Earliest exit so far."),
+        "pass_start": VariableText("first end now", "First end at the start of this pass.", "code_start"),
+        "pass_end": VariableText("second end now", "Second end at the start of this pass.", "code_end"),
+        "code_start": VariableText("c₀", "Outcode of the first end: 1 left + 2 right + 4 bottom + 8 top."),
+        "code_end": VariableText("c₁", "Outcode of the second end: 1 left + 2 right + 4 bottom + 8 top."),
+        "moved_end": VariableText("moved end", "The end that moves: 0 the first, 1 the second."),
+        "moved_to": VariableText("moves to", "Where the edge crosses the border."),
+        "kept_start": VariableText("drawn from", "First end of the part that is drawn."),
+        "kept_end": VariableText("drawn to", "Second end of the part that is drawn."),
+    },
+)
+hides(f"raster.{'|'.join(CLIP_OPERATIONS)}", PIXEL)

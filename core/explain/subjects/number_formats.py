@@ -1,0 +1,94 @@
+"""Number formats of the edge functions: equations that rounding makes untrue, corners that are rounded, the inverse."""
+
+import math
+from collections.abc import Sequence
+
+from core.explain.equation import Part, beside, equation, number_latex
+from core.explain.number_text import spoken, vector_text
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+
+MODULUS = {"fixed-24.8": 32, "int64": 64}
+"""Bits of the whole numbers of a number format."""
+DETERMINANT = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
+"""The determinant of the corners in symbols."""
+
+
+def number_format(step: StepValues) -> str:
+    """Return the name of the numbers that coverage is decided in; a step without one has ``snapped``."""
+    return step.text("number_format") if step.has("number_format") else "snapped"
+
+
+def equals(
+    step: StepValues, value: float, terms: Sequence[Sequence[float]], fraction_bits: int = 16
+) -> tuple[str, list[Part]]:
+    """Return the sign between a value and a sum of products, and what stands behind it: ``=`` where they are equal.
+
+    Numbers that were rounded are about equal; whole numbers that wrapped around are so modulo 2^n.
+    """
+    rounding = step.text("rounding") if step.has("rounding") else "exact"
+    total = sum(math.prod(term) for term in terms)
+    if rounding == "exact" or total == value:
+        return "=", []
+    if rounding == "rounded":
+        return r"\approx", []
+    if abs(total - value) < 1:
+        return "=", []
+    bits = MODULUS[step.text("number_format")] - fraction_bits
+    return r"\equiv", [r"\quad", rf"(\mathrm{{mod}} \, 2^{{{bits}}})"]
+
+
+@explains("edges.rounded.round")
+def rounded(step: StepValues) -> Said:
+    """A corner rounded to the format."""
+    before, after, form = step.vector("homogeneous"), step.vector("rounded"), number_format(step)
+    k = step.whole("corner")
+    name = f"Corner {k} of triangle {step.triangle}"
+    moved = max(abs(a - b) for a, b in zip(after, before, strict=True))
+    text = f"{name} is rounded to {form}, (x, y, w) = {vector_text(after)}, which changes it by up to {spoken(moved)}."
+    if before == after:
+        text = f"{name} stays at (x, y, w) = {vector_text(before)}: {form} represents these numbers exactly."
+    elif not all(map(math.isfinite, after)):
+        text = f"{name}, {vector_text(before)}, is too large for {form}, which makes it {vector_text(after)}."
+    numbers: list[list[Part]] = [
+        [
+            (rf"\vertex{{{k}}}{{{axis}_{k}}}", number_latex(new, 7)),
+            "=" if old == new else r"\approx",
+            (rf"\vertex{{{k}}}{{{axis}}}", number_latex(old, 7)),
+        ]
+        for axis, old, new in zip("xyw", before, after, strict=True)
+    ]
+    return text, equation(*beside(*numbers))
+
+
+@explains("edges.determinant.area")
+def determinant(step: StepValues) -> Said:
+    """The determinant that the inverse is divided by, as the product of pivots."""
+    value = step.number("doubled_area")
+    rest = ": it has no inverse, and nothing is drawn."
+    if value != 0:
+        rest = ", and the inverse is divided by it, so that its edge functions are positive inside."
+    text = f"By elimination the matrix of triangle {step.triangle} has the determinant {spoken(value)}{rest}"
+    return text, equation(("D", value), "=", (DETERMINANT, r"\mathrm{product\ of\ pivots}"))
+
+
+@explains("edges.inverse-edge.a|b|c")
+def inverse_coefficient(step: StepValues) -> Said:
+    """One entry of the inverse of the matrix of corners."""
+    k, name, value = step.whole("edge"), step.operation, step.number(step.operation)
+    row = "abc".index(name)
+    meaning = {
+        "a": f"so E{k} changes by that per pixel to the right",
+        "b": f"so E{k} changes by that per pixel upwards",
+        "c": f"the value of E{k} at the window's origin",
+    }[name]
+    text = f"Edge {k} is column {k} of the inverse: {name}, in row {row}, is {spoken(value)}, {meaning}."
+    return text, equation((f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value, 7)))
+
+
+def replaced_fill(fill: str, coverage: str) -> str:
+    """Return why a fill by spans was replaced, as the pipeline rail shows it."""
+    return (
+        f"Every pixel of the bounding box is tested: {fill} needs float64 numbers, and coverage {coverage} "
+        "uses others."
+    )

@@ -1,0 +1,189 @@
+"""Resolving: weighted means of samples, sums over pieces of exact area, and display bytes.
+
+Of many samples those of equal colour are one summand; of more than `MOST` colours the largest are written out.
+"""
+
+import math
+
+from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, number_latex, outstanding
+from core.explain.number_text import counted, spoken, vector_text
+from core.explain.records import Asked, Formula, number
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, shows
+
+NAMES = "abcdefghijklmnopqrstuvwxyz"
+"""Names of different samples: 0, 1 and 2 are corners."""
+MOST = 4
+"""Summands that are written out."""
+SRGB_LIMIT = 0.0031308
+"""Linear values up to here are on the straight part of the sRGB curve."""
+
+
+def _channel(step: StepValues) -> int:
+    """Return the channel in which the samples differ most."""
+    kept = zip(step.rows("samples"), step.vector("sample_weights"), strict=True)
+    rows = [row for row, weight in kept if weight > 0]
+    spans = []
+    for channel in range(3):
+        finite = [row[channel] for row in rows if abs(row[channel]) < math.inf]
+        spans.append(max(finite, default=0.0) - min(finite, default=0.0))
+    return max(range(3), key=lambda channel: spans[channel])
+
+
+def _weights(step: StepValues) -> list[tuple[float, float]]:
+    """Return the weights of the different values of the channel, the greatest first."""
+    found: dict[str, tuple[float, float]] = {}
+    channel = _channel(step)
+    for row, weight in zip(step.rows("samples"), step.vector("sample_weights"), strict=True):
+        if weight > 0:
+            value = row[channel]
+            known = found.get(number_latex(value), (0.0, value))
+            found[number_latex(value)] = (known[0] + weight, known[1])
+    return sorted(found.values(), key=lambda known: -known[0])
+
+
+def _sum(symbol: str, value: float, summands: list[list[Part]]) -> Formula:
+    parts: list[Part] = [(symbol, value), "="]
+    for place, summand in enumerate(summands[:MOST]):
+        parts += ["+", *summand] if place else summand
+    parts += ["+", (r"\dots", r"\dots")] if len(summands) > MOST else []
+    return equation(*parts)
+
+
+def _together(step: StepValues, whole: str, part: str) -> Formula:
+    """Return the sum of weights, or of areas."""
+    weights = [weight for weight, _ in _weights(step)]
+    return _sum(whole, sum(weights), [[(f"{part}_{{{NAMES[k % 26]}}}", w)] for k, w in enumerate(weights)])
+
+
+@explains("resolve.average.samples")
+def samples(step: StepValues) -> Said:
+    """The samples of a pixel and their weights."""
+    weights, triangles = step.vector("sample_weights"), step.vector("sample_triangle")
+    kept = [triangle for weight, triangle in zip(weights, triangles, strict=True) if weight > 0]
+    covered = sum(triangle >= 0 for triangle in kept)
+    shown = sorted({int(triangle) for triangle in kept if triangle >= 0})
+    names = ", ".join(map(str, shown[:6])) + (" …" if len(shown) > 6 else "")
+    what = (
+        f"{covered} of {counted(len(kept), 'sample')}" if covered < len(kept) else f"all {len(kept)} samples"
+    )
+    seen = (
+        f"{what} show triangle{'s' if len(shown) > 1 else ''} {names}"
+        if covered
+        else "no sample shows a triangle"
+    )
+    text = f"{step.pixel_name}: {seen}; their weights add up to {spoken(sum(weights))}."
+    return text, _together(step, "W", "w")
+
+
+@explains("resolve.average.divide")
+def averaged(step: StepValues) -> Said:
+    """The weighted mean."""
+    channel, color, weights = _channel(step), step.vector("linear"), _weights(step)
+    text = f"{step.pixel_name}: the weighted mean of its samples is {vector_text(color)}, in linear light."
+    letter, total = CHANNEL_LETTERS[channel], sum(weight for weight, _ in weights)
+    terms: list[list[Part]] = [
+        [fraction((f"w_{name}", weight), ("W", total)), r"\cdot", (f"{letter}_{name}", value)]
+        for name, (weight, value) in zip(NAMES, weights, strict=False)
+    ]
+    return text, _sum(letter, color[channel], terms)
+
+
+@explains("resolve.areas.samples")
+def pieces(step: StepValues) -> Said:
+    """The pieces of a pixel and their areas."""
+    areas, triangles = step.vector("sample_weights"), step.vector("sample_triangle")
+    parts = [(area, int(triangle)) for area, triangle in zip(areas, triangles, strict=True) if area > 0]
+    covered = sum(area for area, triangle in parts if triangle >= 0)
+    made = "it is one piece" if len(parts) == 1 else f"edges cut it into {len(parts)} pieces"
+    text = f"{step.pixel_name}: {made}, and triangles cover {spoken(covered)} of its area"
+    if step.has("untold_cuts"):
+        text += "; to step through the cuts, trace one triangle or a smaller part of the picture"
+    return f"{text}.", _together(step, "A", "A")
+
+
+@explains("resolve.areas.divide")
+def summed(step: StepValues) -> Said:
+    """The sum of areas times colours."""
+    channel, color = _channel(step), step.vector("linear")
+    text = (
+        f"{step.pixel_name}: the colours of its pieces, each times its area, add up to {vector_text(color)}, "
+        "in linear light."
+    )
+    letter = CHANNEL_LETTERS[channel]
+    terms: list[list[Part]] = [
+        [(f"A_{name}", area), r"\cdot", (f"{letter}_{name}", value)]
+        for name, (area, value) in zip(NAMES, _weights(step), strict=False)
+    ]
+    return text, _sum(letter, color[channel], terms)
+
+
+@explains("resolve.*.clip")
+def clipped(step: StepValues) -> Said:
+    """Colours clamped to 0 to 1."""
+    linear, clamped = step.vector("linear"), step.vector("clipped")
+    shown, result = vector_text(linear), vector_text(clamped)
+    text = f"the linear colour {result} is between 0 and 1 already"
+    if any(map(math.isnan, linear)):
+        text = f"the colour {shown} has a NaN, which is shown as 0: {result}"
+    elif min(linear[:3]) < 0 or max(linear[:3]) > 1:
+        text = f"the colour {shown} is clamped to 0 to 1: {result}"
+    channel = outstanding(clamped)
+    letter = CHANNEL_LETTERS[channel]
+    numbers = rf"\min(\max({number_latex(linear[channel])}, 0), 1)"
+    return f"{step.pixel_name}: {text}.", equation(
+        (f"c_{letter}", clamped[channel]), "=", (rf"\min(\max({letter}, 0), 1)", numbers)
+    )
+
+
+@explains("resolve.*.encode")
+def encoded(step: StepValues) -> Said:
+    """The sRGB curve, the part that the value is on."""
+    color, clamped = step.vector("encoded"), step.vector("clipped")
+    text = f"{step.pixel_name}: the sRGB curve turns the linear colour into {vector_text(color)}."
+    channel = outstanding(clamped)
+    letter, value = CHANNEL_LETTERS[channel], clamped[channel]
+    result: list[Part] = [(f"s_{letter}", color[channel]), "="]
+    if value <= SRGB_LIMIT:
+        return text, equation(*result, "12.92", r"\cdot", (f"c_{letter}", value))
+    power = (f"c_{letter}^{{1/2.4}}", f"{number_latex(value)}^{{1/2.4}}")
+    return text, equation(*result, "1.055", r"\cdot", power, "-", "0.055")
+
+
+def red_byte(step: StepValues) -> Asked | None:
+    """Ask for the byte of red."""
+    byte = step.vector("bytes")[0]
+    return number(f"Which byte does red become at {step.the_pixel}?", byte, f"red is {int(byte)}.")
+
+
+@explains("resolve.*.round", asks=red_byte)
+def rounded(step: StepValues) -> Said:
+    """Display bytes."""
+    *color, alpha = stored = step.vector("bytes")
+    text = f"{step.pixel_name} is displayed as the bytes {vector_text(color)}, with alpha {spoken(alpha)}."
+    channel = outstanding(step.vector("clipped"))
+    letter = CHANNEL_LETTERS[channel]
+    value = number_latex(step.vector("encoded")[channel])
+    law = (
+        rf"\lfloor 255 \cdot s_{letter} + \frac{{1}}{{2}} \rfloor",
+        rf"\lfloor 255 \cdot {value} + \frac{{1}}{{2}} \rfloor",
+    )
+    return text, equation((rf"\mathrm{{byte}}_{{{letter}}}", stored[channel]), "=", law)
+
+
+shows(
+    "resolve",
+    {
+        "samples": VariableText(
+            "colour #", "Linear red, green, blue, alpha of the sample or piece.", spread="parts"
+        ),
+        "sample_weights": VariableText(
+            "weight #", "Weight of the sample, or the area of the piece.", spread="parts"
+        ),
+        "linear": VariableText("linear", "Linear red, green, blue, alpha of the colour buffer."),
+        "clipped": VariableText("c (clamped)", "Red, green, blue between 0 and 1."),
+        "encoded": VariableText("s (sRGB)", "Red, green, blue on the sRGB curve."),
+        "bytes": VariableText("bytes", "Red, green, blue, alpha from 0 to 255."),
+    },
+)

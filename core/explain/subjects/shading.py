@@ -1,0 +1,144 @@
+"""Shading: light at a fragment, and its colour.
+
+Formulas of colours have the channel that is strongest; the other channels follow the same law.
+"""
+
+from collections.abc import Sequence
+
+from core.explain.equation import (
+    CHANNEL_LETTERS,
+    Part,
+    beside,
+    channel_symbol,
+    equation,
+    outstanding,
+    signed_latex,
+    vector_latex,
+)
+from core.explain.number_text import joined, spoken, vector_text
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, shows
+
+
+@explains("shade.plain.color")
+def plain(step: StepValues) -> Said:
+    """Colour without texture and light."""
+    return f"{step.pixel_name}: its colour is the interpolated {vector_text(step.vector('color'))}."
+
+
+@explains("shade.textured.color")
+def unlit(step: StepValues) -> Said:
+    """Colour of an unlit textured fragment."""
+    return f"{step.pixel_name}: its colour is {vector_text(step.vector('color'))}, as no light is computed."
+
+
+@explains("shade.lit.albedo")
+def albedo(step: StepValues) -> Said:
+    """The colour before lighting."""
+    return f"{step.pixel_name}: its albedo is the interpolated colour, {vector_text(step.vector('albedo'))}."
+
+
+@explains("shade.*.interpolated")
+def interpolated_light(step: StepValues) -> Said:
+    """Light that was computed at the corners or for the face."""
+    diffuse, specular = step.vector("diffuse_light"), step.vector("specular_light")
+    text = (
+        f"{step.pixel_name}: diffuse light {vector_text(diffuse)} and specular light {vector_text(specular)} "
+        "were computed before, at the corners or for the whole face."
+    )
+    channel = outstanding(diffuse)
+    lights = (("diffuse", diffuse), ("specular", specular))
+    return text, equation(
+        *beside(*([(channel_symbol(name, channel), light[channel])] for name, light in lights))
+    )
+
+
+@explains("shade.*.normal")
+def normal(step: StepValues) -> Said:
+    """The normal made unit length."""
+    n, v = step.vector("normal"), step.vector("to_eye")
+    text = (
+        f"{step.pixel_name}: made unit length, the normal N is {vector_text(n)} and the direction to the eye V is "
+        f"{vector_text(v)}."
+    )
+    return text, equation(*beside([("N", vector_latex(n)), "=", r"\frac{n}{|n|}"], [("V", vector_latex(v))]))
+
+
+def _dot(other: str, value: float, first: Sequence[float], second: Sequence[float]) -> list[Part]:
+    products = " + ".join(
+        rf"{signed_latex(a)} \cdot {signed_latex(b)}" for a, b in zip(first, second, strict=True)
+    )
+    return [(rf"N \cdot {other}", value), "=", (rf"N^T {other}", products)]
+
+
+@explains("shade.*.cosines")
+def cosines(step: StepValues) -> Said:
+    """The cosines of every light."""
+    n, n_dot_l, n_dot_h = (step.vector(name) for name in ("normal", "n_dot_l", "n_dot_h"))
+    if not n_dot_l:
+        return f"{step.pixel_name}: there is no light, so no cosine to compute."
+    texts, products = [], []
+    lights = zip(n_dot_l, n_dot_h, step.rows("to_light"), step.rows("half"), strict=True)
+    for number, (of_light, of_half, to_light, half) in enumerate(lights):
+        side = "" if of_light > 0 else ", so it does not reach this side"
+        texts.append(f"light {number} has N·L = {spoken(of_light)} and N·H = {spoken(of_half)}{side}")
+        products += [_dot("L", of_light, n, to_light), _dot("H", of_half, n, half)]
+    return f"{step.pixel_name}: {'; '.join(texts)}.", equation(*beside(*products))
+
+
+@explains("shade.*.sums")
+def light_sums(step: StepValues) -> Said:
+    """The sums over the lights."""
+    diffuse, specular, n_dot_l = (
+        step.vector(name) for name in ("diffuse_light", "specular_light", "n_dot_l")
+    )
+    powers = [f"{spoken(power)} (light {k})" for k, power in enumerate(step.vector("power"))]
+    text = f"{step.pixel_name}: without lights, only the ambient light {vector_text(diffuse)} is left."
+    if powers:
+        text = (
+            f"{step.pixel_name}: over all lights the diffuse light is {vector_text(diffuse)}, ambient included, and "
+            f"the specular light {vector_text(specular)}, from highlight power{'s' if len(powers) > 1 else ''} "
+            f"{joined(powers)}."
+        )
+    channel = outstanding(diffuse)
+    parts: list[Part] = [(channel_symbol("diffuse", channel), diffuse[channel]), "="]
+    parts.append((r"k_{\mathrm{ambient}}", step.number("ambient")))
+    for light, cosine in enumerate(n_dot_l):
+        colour = step.rows("light_colors")[light][channel]
+        parts += ["+", (r"k_{\mathrm{diffuse}}", step.number("diffuse")), r"\cdot"]
+        parts += [(r"\max(N \cdot L, 0)", max(cosine, 0.0)), r"\cdot"]
+        parts.append((rf"l_{{{CHANNEL_LETTERS[channel]}}}", colour))
+    return text, equation(*parts)
+
+
+@explains("shade.*.product")
+def product(step: StepValues) -> Said:
+    """Albedo times diffuse light plus specular light."""
+    color = step.vector("color")
+    text = f"{step.pixel_name}: its colour is {vector_text(color)}, albedo times diffuse light plus specular light."
+    channel = outstanding(color[:3])
+    base, diffuse, specular = (
+        (channel_symbol(name.removesuffix("_light"), channel), step.vector(name)[channel])
+        for name in ("albedo", "diffuse_light", "specular_light")
+    )
+    return text, equation(
+        (channel_symbol("colour", channel), color[channel]), "=", base, r"\cdot", diffuse, "+", specular
+    )
+
+
+shows(
+    "shade",
+    {
+        "normal": VariableText("N", "Unit normal, in world space."),
+        "to_eye": VariableText("V", "Unit vector to the eye, in world space."),
+        "n_dot_l": VariableText("N·L, light #", "Cosine between normal and light.", spread="parts"),
+        "n_dot_h": VariableText("N·H, light #", "Cosine between normal and halfway vector.", spread="parts"),
+        "to_light": VariableText("L, light #", "Unit vector to the light.", "n_dot_l", "parts"),
+        "half": VariableText("H, light #", "Unit vector halfway to the eye.", "n_dot_h", "parts"),
+        "power": VariableText("highlight, light #", "Cosine to the power of the shininess.", spread="parts"),
+        "diffuse_light": VariableText("diffuse light", "Ambient and diffuse light: red, green, blue."),
+        "specular_light": VariableText("specular light", "Mirrored light: red, green, blue."),
+        "color": VariableText("colour", "Colour of the fragment: linear red, green, blue, alpha."),
+    },
+)

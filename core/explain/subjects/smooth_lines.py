@@ -1,0 +1,161 @@
+"""Lines with intensities (Wu, Gupta-Sproull), rectangles, and the blending of both."""
+
+from core.explain.equation import Part, beside, difference, equation, fraction, number_latex, signed_latex
+from core.explain.number_text import counted, spoken, vector_text
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.subjects.lines import axes
+from core.explain.variable_text import VariableText, shows
+
+_HALF = r"\frac{1}{2}"
+
+
+def _name(step: StepValues) -> str:
+    column, row = step.pixel
+    return f"pixel ({column}, {row})"
+
+
+@explains("raster.rectangle-start.length")
+def rectangle_length(step: StepValues) -> Said:
+    """The length of a rectangle."""
+    run, rise, length = (step.number(name) for name in ("run", "rise", "length"))
+    text = (
+        f"The ends, snapped to 1/256 pixel, are {spoken(run)} and {spoken(rise)} apart along the axes, so the "
+        f"rectangle is {spoken(length)} px long and reaches half a pixel to either side."
+    )
+    x, y = map(number_latex, (rise, run) if step.flag("is_steep") else (run, rise))
+    return text, equation(("L", length), "=", (r"\sqrt{\Delta x^2 + \Delta y^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
+
+
+@explains("raster.rectangle|rectangle-start.across")
+def across(step: StepValues) -> Said:
+    """The distance from the line, between the long sides."""
+    away, length = step.number("decision"), step.number("length")
+    text = f"The centre of {_name(step)} is {spoken(abs(away))} px to the {'left' if away > 0 else 'right'} of the line"
+    if away == 0:
+        text = f"The centre of {_name(step)} lies on the line, so it is between the rectangle's long sides."
+    elif step.flag("is_tie"):
+        text += ", exactly on a long side of the rectangle, which owns it by the tie rule."
+    else:
+        text += ", not more than 0.5, so it is between the rectangle's long sides."
+    (x0, y0), (x1, y1) = step.vector("first_end"), step.vector("second_end")
+    x, y = step.pixel
+    from_y, of_y = difference(("y", y), ("y_0", y0))
+    from_x, of_x = difference(("x", x), ("x_0", x0))
+    products = (
+        rf"\Delta x ({from_y}) - \Delta y ({from_x})",
+        rf"{signed_latex(x1 - x0)} \cdot ({of_y}) - {signed_latex(y1 - y0)} \cdot ({of_x})",
+    )
+    within: list[Part] = [f"-{_HALF}", r"\le", ("a", away), r"\le", _HALF]
+    return text, equation(*beside(within, ["a", "=", fraction(products, ("L", length))]))
+
+
+@explains("raster.rectangle|rectangle-start.along")
+def along(step: StepValues) -> Said:
+    """The position along the line, between the short sides."""
+    place, length = step.number("along"), step.number("length")
+    text = f"It is {spoken(place)} px along the line, between the short sides at 0 and {spoken(length)}."
+    return text, equation("0", r"\le", ("s", place), "<", ("L", length))
+
+
+@explains("raster.*.share")
+def share(step: StepValues) -> Said:
+    """How much of a column the line spans."""
+    (axis, _), part, at = axes(step), step.number("share"), number_latex(step.number("major"))
+    word = "row" if step.flag("is_steep") else "column"
+    text = f"The line ends in this {word} and spans {spoken(part)} of it, which scales the intensities."
+    if part == 1:
+        text = f"The line spans the whole {word}."
+    k = "xy".index(axis)
+    low, high = sorted((step.vector("first_end")[k], step.vector("second_end")[k]))
+    symbols = rf"\min({axis} + {_HALF}, {axis}_{{\max}}) - \max({axis} - {_HALF}, {axis}_{{\min}})"
+    numbers = rf"\min({at} + {_HALF}, {number_latex(high)}) - \max({at} - {_HALF}, {number_latex(low)})"
+    return text, equation(("g", part), "=", (symbols, numbers))
+
+
+@explains("raster.*.divide")
+def divided(step: StepValues) -> Said:
+    """The intensity by Wu."""
+    (_, axis), minor, part = axes(step), step.whole("minor"), step.number("fraction")
+    intensity, of_column = step.number("intensity"), step.number("share")
+    # The lower (steep: left) one of the two pixels that the line passes between.
+    is_lower = minor <= step.number("decision")
+    below = minor if is_lower else minor - 1
+    law = f"1 − {spoken(part)}" if is_lower else spoken(part)
+    scaled = "" if of_column == 1 else f" times the share {spoken(of_column)}"
+    result = "" if not is_lower and not scaled else f" = {spoken(intensity)}"
+    text = (
+        f"The line passes {spoken(part)} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}, "
+        f"so {_name(step)} gets the intensity {law}{scaled}{result}."
+    )
+    shown: Part = ("(1 - f)", f"(1 - {number_latex(part)})") if is_lower else ("f", part)
+    of_fraction: Part = (rf"{axis} - \lfloor {axis} \rfloor", number_latex(part))
+    made: list[Part] = [("I", intensity), "=", shown, r"\cdot", ("g", of_column)]
+    return text, equation(*beside(["f", "=", of_fraction], made))
+
+
+@explains("raster.*.cosine")
+def line_cosine(step: StepValues) -> Said:
+    """The cosine of the line's angle with its longer axis."""
+    (_, axis), cosine, m = axes(step), step.number("cosine"), signed_latex(step.number("slope"))
+    text = f"A distance from the line is {spoken(cosine)}, the cosine of the line's angle, times that along {axis}."
+    below = (r"\sqrt{1 + m^2}", rf"\sqrt{{1 + {m}^2}}")
+    return text, equation(("c", cosine), "=", fraction(("1", 1.0), below))
+
+
+@explains("raster.*.distance")
+def distance(step: StepValues) -> Said:
+    """The distance of a pixel's centre from the line."""
+    (_, axis), minor, line = axes(step), step.number("minor"), step.number("decision")
+    found = step.number("line_distance")
+    text = (
+        f"The centre of {_name(step)} is {spoken(abs(minor - line))} from the line along {axis}, which gives a "
+        f"distance of {spoken(found)} px."
+    )
+    apart = (rf"|{axis}_{{\mathrm{{pixel}}}} - {axis}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
+    return text, equation(("d", found), "=", apart, r"\cdot", ("c", step.number("cosine")))
+
+
+@explains("raster.*.filter")
+def filtered(step: StepValues) -> Said:
+    """The intensity by the filter's table."""
+    entry, value = counted(step.whole("entry"), "sixteenth"), step.number("filtered")
+    of_column, intensity = step.number("share"), step.number("intensity")
+    text = f"The filter's table has {spoken(value)} at {entry} of a pixel, the entry nearest to d"
+    if of_column == 1:
+        text += f": this is the intensity of {_name(step)}."
+    else:
+        text += f": {spoken(of_column)} of it is {spoken(intensity)}, the intensity of {_name(step)}."
+    entry_value = (rf"T_{{\lfloor 16 d + {_HALF} \rfloor}}", value)
+    return text, equation(("I", intensity), "=", entry_value, r"\cdot", ("g", of_column))
+
+
+@explains("blend.*.weigh")
+def weighed(step: StepValues) -> Said:
+    """Alpha scaled by the line's intensity."""
+    alpha, intensity, source = step.vector("color")[3], step.number("intensity"), step.vector("source")[3]
+    text = (
+        f"{step.pixel_name}: the line's intensity {spoken(intensity)} scales the alpha {spoken(alpha)} of its colour "
+        f"to {spoken(source)}, to be blended with {vector_text(step.vector('before'))}."
+    )
+    product = (r"a_{\mathrm{shaded}}", alpha), r"\cdot", ("I", intensity)
+    return text, equation((r"a_{\mathrm{source}}", source), "=", *product)
+
+
+shows(
+    "raster",
+    {
+        "along": VariableText("s", "Position of the pixel's centre along the line, in pixels."),
+        "cosine": VariableText(
+            "c (cosine)", "Factor from a distance along the minor axis to the distance from the line."
+        ),
+        "share": VariableText("g (share)", "Part of the pixel's column or row that the line spans."),
+        "fraction": VariableText(
+            "f", "Position of the line between the lower pixel (0) and the upper one (1)."
+        ),
+        "line_distance": VariableText("d", "Distance of the pixel's centre from the line, in pixels."),
+        "entry": VariableText("entry", "Index in the filter's table: the distance in sixteenths of a pixel."),
+        "filtered": VariableText("T", "The filter's value at this distance."),
+        "intensity": VariableText("I", "Intensity: fraction of the line's colour that the pixel gets."),
+    },
+)

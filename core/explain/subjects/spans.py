@@ -1,0 +1,228 @@
+"""The fill ``spans``: lanes, crossings as fractions, columns, passes."""
+
+import math
+
+from core.explain.equation import (
+    Part,
+    beside,
+    comparison,
+    conclusion,
+    digits_that_add_up,
+    equation,
+    fraction,
+    number_latex,
+    vector_latex,
+)
+from core.explain.number_text import counted, pair_text, spoken
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, given, shows
+
+GUARD_LATEX = "2^{-35}"
+
+
+@explains("raster.lane.rows")
+def lane_rows(step: StepValues) -> Said:
+    """The rows of a triangle."""
+    first, count, center = step.whole("first_row"), step.whole("row_count"), step.number("center")
+    heights = step.vector("corner_y")
+    rows = f"row {first}" if count == 1 else f"rows {first} to {first + count - 1}"
+    low, high = pair_text(min(heights), max(heights))
+    text = (
+        f"Triangle {step.triangle} reaches from y = {low} to {high}, and of the raster the centres of {rows} "
+        f"lie between: {counted(count, 'row')}."
+    )
+    nominal = math.ceil(min(heights) - center)
+    symbols = r"\lceil \min(\vertex{0}{y_0}, \vertex{1}{y_1}, \vertex{2}{y_2}) - c \rceil"
+    numbers = rf"\lceil \min{vector_latex(heights)} - {number_latex(center)} \rceil"
+    if nominal != first:
+        symbols, numbers = rf"\max({symbols}, \mathrm{{bottom}})", rf"\max({nominal}, {first})"
+    name: Part = (r"\mathrm{first}", float(first))
+    end: Part = (r"\mathrm{end}", float(first + count))
+    rows_left: list[Part] = [(r"\mathrm{rows}", float(count)), "=", end, "-", name]
+    return text, equation(*beside([name, "=", (symbols, numbers)], rows_left))
+
+
+@explains("raster.lane.lane")
+def lane_place(step: StepValues) -> Said:
+    """The lane of a triangle among all."""
+    count, lane, lanes = step.whole("row_count"), step.whole("lane"), step.whole("lane_count")
+    before = "no triangle is taller"
+    if lane:
+        verb = "comes" if lane == 1 else "come"
+        before = f"{counted(lane, 'triangle')} as tall or taller {verb} before it"
+    text = (
+        f"With {counted(count, 'row')} triangle {step.triangle} gets lane {lane} of {lanes}: "
+        f"lanes are sorted tallest first, and {before}."
+    )
+    return text, equation((r"\mathrm{lane}", float(lane)), "<", (r"\mathrm{lanes}", float(lanes)))
+
+
+@explains("raster.lane-row.edge")
+def row_edge(step: StepValues) -> Said:
+    """Where a row crosses an edge: the numerator, which grows by dx from level to level, over dy."""
+    k, row, level = step.edge, step.whole("row"), step.number("level")
+    dx, dy = step.vector("dx")[k], step.vector("dy")[k]
+    if dy == 0:
+        text = f"Row {row} of triangle {step.triangle}: edge {k} is level, so it bounds no row."
+        return text, equation(*comparison(f"dy_{k}", "=", 0.0), *conclusion("level", "level"))
+    numerator, quotient = step.number(f"numerator_{k}"), step.number(f"quotient_{k}")
+    text = (
+        f"Row {row} (level {step.whole('level')}) crosses edge {k}, on the {'left' if dy < 0 else 'right'}, at column "
+        f"{spoken(quotient)}: the fraction {spoken(numerator)} / {spoken(dy)}, of which only the division is rounded."
+    )
+    first = numerator - level * dx
+    digits = digits_that_add_up(numerator, [(first,), (level, dx)])
+    start: Part = (rf"N_{k}^{{\mathrm{{first}}}}", first)
+    grown: list[Part] = [(f"N_{k}", numerator), "=", start, "+", ("r", level), r"\cdot", (f"dx_{k}", dx)]
+    over = fraction((f"N_{k}", number_latex(numerator, digits)), (f"dy_{k}", dy))
+    return text, equation(*beside(grown, [(f"q_{k}", quotient), "=", over]), digits=digits)
+
+
+def _guard(guard: float, owns: bool) -> str:
+    """Say what a guard does with a centre exactly on the bound."""
+    sign = "−" if guard < 0 else "+"
+    return f"a guard of {sign}2⁻³⁵ {'includes' if owns else 'excludes'} a centre exactly on it"
+
+
+def _next_column(step: StepValues, side: str) -> tuple[int, str, str]:
+    """Return the next column after a crossing, and how it is computed in symbols and numbers."""
+    crossing, guard = step.number(side), step.number(f"{side}_guard")
+    rest = rf" + 1 {'-' if guard < 0 else '+'} {GUARD_LATEX} \rfloor"
+    symbols = rf"\lfloor q_{{\mathrm{{{side}}}}}{rest}"
+    return math.floor(crossing + (1 + guard)), symbols, rf"\lfloor {number_latex(crossing)}{rest}"
+
+
+@explains("raster.lane-row.start")
+def row_start(step: StepValues) -> Said:
+    """The first column of a row, right of the left crossing."""
+    start, guard = step.whole("start"), step.number("left_guard")
+    nominal, symbols, numbers = _next_column(step, "left")
+    limit = ", where the raster begins" if nominal < start else ""
+    if nominal != start:
+        symbols, numbers = rf"\max({symbols}, \mathrm{{first}})", rf"\max({nominal}, {start})"
+    text = (
+        f"Row {step.whole('row')} starts at column {start}{limit}: the left bound is {spoken(step.number('left'))}, "
+        f"and {_guard(guard, guard < 0)}."
+    )
+    return text, equation((r"\mathrm{start}", float(start)), "=", (symbols, numbers))
+
+
+@explains("raster.lane-row.stop")
+def row_stop(step: StepValues) -> Said:
+    """The end of a row, right of the right crossing."""
+    row, start, stop, guard = (*map(step.whole, ("row", "start", "stop")), step.number("right_guard"))
+    left, right = (spoken(step.number(side)) for side in ("left", "right"))
+    nominal, symbols, numbers = _next_column(step, "right")
+    limit = ", where the raster ends" if nominal > stop else ""
+    if nominal > stop:
+        symbols, numbers = rf"\min({symbols}, \mathrm{{end}})", rf"\min({nominal}, {stop})"
+    elif nominal < stop:
+        symbols, numbers = rf"\max({symbols}, \mathrm{{start}})", rf"\max({nominal}, {stop})"
+    text = f"Row {row} stops where it starts: no centre lies between the bounds {left} and {right}."
+    if stop > start:
+        text = f"Row {row} stops before column {stop}{limit}: the right bound is {right}"
+        text += f", and {_guard(guard, guard > 0)}."
+    return text, equation((r"\mathrm{stop}", float(stop)), "=", (symbols, numbers))
+
+
+@explains("raster.lane-row.place")
+def row_place(step: StepValues) -> Said:
+    """The length of a span, which decides its place among all."""
+    row, length, start, place = map(step.whole, ("row", "length", "start", "place"))
+    spans, name = step.whole("span_count"), f"Row {row} of triangle {step.triangle}"
+    stop: Part = (r"\mathrm{stop}", float(start + length))
+    made: list[Part] = [("n", float(length)), "=", stop, "-", (r"\mathrm{start}", float(start))]
+    if length == 0:
+        return f"{name} has no pixel centre inside, so it has no span.", equation(*made)
+    columns = f"column {start}" if length == 1 else f"columns {start} to {start + length - 1}"
+    text = (
+        f"{name} is covered in {columns}: {counted(length, 'pixel')}, which makes it span {place} of {spans}, "
+        "sorted longest first."
+    )
+    order: list[Part] = [(r"\mathrm{place}", float(place)), "<", (r"\mathrm{spans}", float(spans))]
+    return text, equation(*beside(made, order))
+
+
+@explains("raster.pass.pass")
+def pixel_pass(step: StepValues) -> Said:
+    """The pass that draws a pixel."""
+    number, size = step.whole("pass_number"), step.whole("pass_size")
+    at = "is the first of its span" if number == 0 else f"is {counted(number, 'pixel')} from its span's start"
+    together = "alone, as no other span is as long"
+    if size > 1:
+        together = (
+            f"together with one of each of {size - 1:,} others" if size > 2 else "with one of another span"
+        )
+    return f"{step.pixel_name} {at}, so pass {number} draws it, {together}.", equation(
+        ("k", float(number)),
+        "=",
+        (r"\mathrm{column}", step.number("column")),
+        "-",
+        (r"\mathrm{start}", step.number("start")),
+    )
+
+
+@explains("raster.pass.draw")
+def pixel_drawn(step: StepValues) -> Said:
+    """The place of a pixel in the order of execution."""
+    rank, before, place = (step.whole(name) for name in ("rank", "drawn_before", "place"))
+    text = (
+        f"{step.pixel_name} is covered without a test of its own, and its rank is {rank}: {counted(before, 'pixel')} "
+        f"of earlier passes and {counted(place, 'pixel')} of this one are drawn before it."
+    )
+    terms = (r"\mathrm{before}_k", float(before)), "+", (r"\mathrm{place}", float(place))
+    return text, equation((r"\mathrm{rank}", float(rank)), "=", *terms)
+
+
+OF_LANE = frozenset({"corner_y", "first_row", "row_count", "lane", "lane_count"})
+OF_LANE_ROW = frozenset({f"{name}_{k}" for name in ("numerator", "quotient") for k in range(3)}) | {
+    *("dx", "dy", "left", "left_guard", "right", "right_guard", "length", "span_count"),
+}
+OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
+OF_SPANS = OF_LANE | (OF_LANE_ROW - {"length"}) | OF_PASS | {"level", "place"}
+"""Variables that only rows of this fill use; ``start`` and ``stop`` are those of other fills' spans too."""
+
+shows(
+    "raster",
+    {
+        "corner_y": given("y#", "y of the corner, as used for coverage, in pixels.", "edges"),
+        "first_row": VariableText("first", "Lowest row of pixel centres in the triangle and the raster."),
+        "row_count": VariableText("rows", "Rows of pixel centres in the triangle and the raster."),
+        "lane": VariableText("lane", "Index of the triangle among all, the tallest first."),
+        "lane_count": VariableText("lanes", "Triangles that have rows.", "lane"),
+        "level": given("r (level)", "Rows of the triangle below this one: all lanes go up level by level."),
+        **{
+            f"{name}_{k}": VariableText(f"{letter}{k}", meaning, edge=k)
+            for k in range(3)
+            for name, letter, meaning in (
+                ("numerator", "N", "Numerator of the crossing, exact: the edge function at column 0."),
+                ("quotient", "q", "Column at which the row crosses the edge: N over dy."),
+            )
+        },
+        "left": VariableText("q left", "The larger crossing of the edges on the left, in columns."),
+        "left_guard": VariableText(
+            "left guard", "Keeps rounding from deciding, and ties with their owner.", "left"
+        ),
+        "start": VariableText("start", "First column of the span."),
+        "right": VariableText("q right", "The smaller crossing of the edges on the right, in columns."),
+        "right_guard": VariableText(
+            "right guard", "Keeps rounding from deciding, and ties with their owner.", "right"
+        ),
+        "stop": VariableText("stop", "Column after the last of the span."),
+        "place": VariableText("place", "Index of the span among all, the longest first; −1: none."),
+        "span_count": VariableText("spans", "Spans of all triangles together.", "length"),
+        "pass_number": VariableText(
+            "k (pass)", "Index of the pixel in its span: pass k draws pixel k of every span."
+        ),
+        "pass_size": VariableText(
+            "pixels in pass", "Spans that are long enough to have a pixel in this pass."
+        ),
+        "drawn_before": VariableText("before k", "Pixels that earlier passes have drawn.", "rank"),
+        "rank": VariableText("rank", "Index of the pixel in the order of execution, over all triangles."),
+        "dx": given(
+            "dx#", "Extent of the edge to the right: the numerator's change from row to row.", "edges"
+        ),
+        "dy": given("dy#", "Extent of the edge upwards: below 0 on the left side of the triangle.", "edges"),
+    },
+)

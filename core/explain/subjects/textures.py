@@ -1,0 +1,305 @@
+"""Textures: texels around a place, the level of detail, mipmap levels and their mix.
+
+Formulas of colours have the channel that is strongest; the other channels follow the same law.
+"""
+
+import math
+from collections.abc import Sequence
+
+from core.explain.equation import (
+    CHANNEL_LETTERS,
+    Part,
+    beside,
+    channel_symbol,
+    difference,
+    equation,
+    fraction,
+    linear,
+    number_latex,
+    outstanding,
+    signed_latex,
+)
+from core.explain.number_text import joined, spoken, vector_text
+from core.explain.records import Formula
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, given, shows
+
+TEXELS = {"bl": "bottom left", "br": "bottom right", "tl": "top left", "tr": "top right"}
+"""The four texels of bilinear filtering, in order."""
+SLOPES = ("u_x", "v_x", "u_y", "v_y")
+"""u_x is the change of u per pixel to the right."""
+_LOGARITHM = r"\log_{{2}}"
+"""In double brackets, since a single 2 below a symbol has the colour of corner 2."""
+
+
+def _weighted(
+    color: Sequence[float], weights: Sequence[float], colors: Sequence[Sequence[float]], which: str
+) -> Formula:
+    """Return the sum of the four texels times their weights."""
+    channel = outstanding(color[:3])
+    letter = CHANNEL_LETTERS[channel]
+    terms = [(rf"s_{{\mathrm{{{name}}}}}", weight) for name, weight in zip(TEXELS, weights, strict=True)]
+    units = [
+        (rf"{letter}_{{\mathrm{{{name}}}}}", texel[channel])
+        for name, texel in zip(TEXELS, colors, strict=True)
+    ]
+    return linear(rf"{letter}_{{\mathrm{{{which}}}}}" if which else letter, color[channel], terms, *units)
+
+
+def _listed(weights: Sequence[float]) -> str:
+    return joined([f"{spoken(w)} ({name})" for w, name in zip(weights, TEXELS.values(), strict=True)])
+
+
+@explains("shade.*.position")
+def position(step: StepValues) -> Said:
+    """Texture coordinates times the size of the texture."""
+    (x, y), (u, v) = step.vector("texel_position"), step.vector("uv")
+    width, height = step.vector("texture_size")
+    text = (
+        f"{step.pixel_name}: (u, v) = {vector_text([u, v])} is the place {vector_text([x, y])} in the texture of "
+        f"{spoken(width)} × {spoken(height)} texels."
+    )
+    across: list[Part] = [("x", x), "=", ("u", u), r"\cdot", ("W", width)]
+    return text, equation(*beside(across, [("y", y), "=", ("v", v), r"\cdot", ("H", height)]))
+
+
+@explains("shade.*.texels")
+def texels(step: StepValues) -> Said:
+    """The texel that contains the place, or the lower left one of the four around it."""
+    found, place = step.rows("texels"), step.vector("texel_position")
+    names = [f"({spoken(column)}, {spoken(row)})" for column, row in found]
+    text = f"{step.pixel_name}: the centres of texels {joined(names)} surround the place."
+    if len(found) == 1:
+        color = vector_text(step.rows("texel_colors")[0])
+        text = f"{step.pixel_name}: the place is in texel {names[0]}, whose colour is {color}."
+    half = r" - \frac{1}{2}" if len(found) > 1 else ""
+    indices: list[list[Part]] = [
+        [
+            (name, found[0][k]),
+            "=",
+            (
+                rf"\mathrm{{wrap}} \lfloor {axis}{half} \rfloor",
+                rf"\mathrm{{wrap}} \lfloor {number_latex(place[k])}{half} \rfloor",
+            ),
+        ]
+        for k, (name, axis) in enumerate((("i", "x"), ("j", "y")))
+    ]
+    return text, equation(*beside(*indices))
+
+
+@explains("shade.*.filter")
+def filtered(step: StepValues) -> Said:
+    """The texels times their weights."""
+    color, weights, colors = step.vector("texture_color"), step.vector("shares"), step.rows("texel_colors")
+    if len(weights) > 1:
+        text = f"{step.pixel_name}: the texture's colour is {vector_text(color)}, with weights {_listed(weights)}."
+        return text, _weighted(color, weights, colors, "")
+    text = f"{step.pixel_name}: the nearest texel alone gives the texture's colour, {vector_text(color)}."
+    channel = outstanding(color[:3])
+    letter = CHANNEL_LETTERS[channel]
+    return text, equation(
+        (letter, color[channel]), "=", (rf"{letter}_{{\mathrm{{texel}}}}", colors[0][channel])
+    )
+
+
+@explains("shade.*.slopes")
+def slopes(step: StepValues) -> Said:
+    """How u and v change from pixel to pixel; the formula has the largest of the four slopes."""
+    values = step.vector("uv_slopes")
+    right, up, k = vector_text(values[:2]), vector_text(values[2:]), outstanding(values)
+    if step.has("length"):
+        along = up if step.flag("is_steep") else right
+        text = f"along the line (u, v) change by {along} per pixel, across it they do not change."
+        return f"{step.pixel_name}: {text}", _line_slope(step, k)
+    if not step.has("slope_n"):
+        text = "u and v are those of one corner everywhere, so they change neither to the right nor upwards."
+        return f"{step.pixel_name}: {text}", equation(*beside(*([(name, 0.0)] for name in SLOPES)))
+    text = f"{step.pixel_name}: per pixel to the right (u, v) change by {right}, per pixel upwards by {up}."
+    letter, coefficient, here = "uv"[k % 2], "a" if k < 2 else "b", step.vector("uv")[k % 2]
+    rises, corners = step.vector(f"slope_{coefficient}"), [row[k % 2] for row in step.rows("corner_uv")]
+    symbols = " + ".join(rf"{coefficient}_{i} ({letter}_{i} - {letter})" for i in range(3))
+    numbers = " + ".join(
+        rf"{signed_latex(rises[i])} ({number_latex(corners[i])} - {signed_latex(here)})" for i in range(3)
+    )
+    quotient = fraction((symbols, numbers), ("n", sum(step.vector("slope_n"))))
+    return text, equation((SLOPES[k], values[k]), "=", quotient)
+
+
+def _line_slope(step: StepValues, k: int) -> Formula:
+    """Return the slope along a line: change of the value over length, corrected where w changes."""
+    letter, (start, end) = "uv"[k % 2], (row[k % 2] for row in step.rows("end_uv"))
+    above = difference((rf"{letter}_{{\mathrm{{end}}}}", end), (rf"{letter}_{{\mathrm{{start}}}}", start))
+    below, below_numbers = "L", number_latex(step.number("length"))
+    if step.has("end_w"):
+        t, (first, second) = step.number("t"), step.vector("end_w")
+        total = (1 - t) / first + t / second
+        below += r" \, w_{\mathrm{start}} w_{\mathrm{end}} / w^2"
+        factors = (first, second, total, total)
+        below_numbers += "".join(rf" \cdot {signed_latex(value)}" for value in factors)
+    return equation((SLOPES[k], step.vector("uv_slopes")[k]), "=", fraction(above, (below, below_numbers)))
+
+
+@explains("shade.*.lod")
+def level_of_detail(step: StepValues) -> Said:
+    """The lengths of a pixel in texels, and the logarithm of the longer one."""
+    lengths, slope, size = step.vector("lengths"), step.vector("uv_slopes"), step.vector("texture_size")
+    lod = step.number("lod")
+    text = f"{step.pixel_name}: a pixel to the right is {spoken(lengths[0])} texels long, one up {spoken(lengths[1])}"
+    if math.isnan(lod):
+        text += ", so the level of detail λ is NaN, and level 0 is used"
+    elif lod == -math.inf:
+        text += ", so the level of detail λ is −∞: the place stays the same"
+    else:
+        text += f"; the logarithm of the longer length is the level of detail, λ = {spoken(lod)}"
+        text += ": a pixel is no larger than a texel" if lod <= 0 else ""
+    longer = 1 if lengths[1] > lengths[0] else 0
+    name = "xy"[longer]
+    terms = [
+        rf"({signed_latex(slope[2 * longer + axis])} \cdot {number_latex(size[axis])})^2" for axis in range(2)
+    ]
+    root: Part = (rf"\sqrt{{(u_{name} W)^2 + (v_{name} H)^2}}", rf"\sqrt{{{' + '.join(terms)}}}")
+    logarithm: Part = (
+        rf"{_LOGARITHM} \max(\rho_x, \rho_y)",
+        rf"{_LOGARITHM} \max({', '.join(map(number_latex, lengths))})",
+    )
+    length: list[Part] = [(rf"\rho_{name}", lengths[longer]), "=", root]
+    return f"{text}.", equation(*beside(length, [(r"\lambda", lod), "=", logarithm]))
+
+
+def _level_name(step: StepValues, place: int) -> str:
+    number = spoken(step.vector("levels")[place])
+    width, height = step.vector("level_sizes")[2 * place : 2 * place + 2]
+    return f"level {number} of {spoken(width)} × {spoken(height)} texels"
+
+
+@explains("shade.*.levels")
+def levels(step: StepValues) -> Said:
+    """The level, or the two, that lambda selects among those of the texture."""
+    lod, level, part = (step.number(name) for name in ("lod", "level", "level_fraction"))
+    near, far = step.vector("levels")
+    name, has_two = _level_name(step, 0), step.has("far_color")
+    if not lod > 0:
+        text = f"the texture is not reduced here, so only {name} is read, the texture itself"
+    elif lod > level:
+        text = f"λ is beyond the last level, so {name} is read"
+    elif not has_two:
+        text = f"the nearest to λ = {spoken(lod)} is {name}"
+    elif part == 0 or near == far:
+        text = f"λ = {spoken(lod)} is {name} exactly"
+    else:
+        text = (
+            f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}, "
+            f"and the second one has weight {spoken(part)}"
+        )
+    symbol = r"\mathrm{clamp}(\lambda)"
+    of_lod = rf"\mathrm{{clamp}}({number_latex(lod)})" if math.isfinite(lod) else symbol
+    clamped: list[Part] = [("l", level), "=", (symbol, of_lod)]
+    shown, first = number_latex(level), ("k", near)
+    if not has_two:
+        rounded: Part = (
+            r"\lceil l + \frac{1}{2} \rceil - 1",
+            rf"\lceil {shown} + \frac{{1}}{{2}} \rceil - 1",
+        )
+        return f"{step.pixel_name}: {text}.", equation(*beside(clamped, [first, "=", rounded]))
+    floor: list[Part] = [first, "=", (r"\lfloor l \rfloor", rf"\lfloor {shown} \rfloor")]
+    rest: list[Part] = [("f", part), "=", ("l", level), "-", first]
+    return f"{step.pixel_name}: {text}.", equation(*beside(clamped, floor, rest))
+
+
+@explains("shade.*.near|far")
+def level_color(step: StepValues) -> Said:
+    """The four texels of a level times their weights."""
+    which = step.operation
+    number = spoken(step.vector("levels")[0 if which == "near" else 1])
+    place, color, weights = (step.vector(f"{which}_{name}") for name in ("position", "color", "shares"))
+    text = (
+        f"{step.pixel_name}: in level {number} the place is {vector_text(place)}, and the four texels around it give "
+        f"{vector_text(color)}, with weights {_listed(weights)}."
+    )
+    return text, _weighted(color, weights, step.rows(f"{which}_colors"), which)
+
+
+@explains("shade.*.mix")
+def mix(step: StepValues) -> Said:
+    """The mix of both levels."""
+    part, color = step.number("level_fraction"), step.vector("texture_color")
+    first, second = map(spoken, step.vector("levels"))
+    mixed = f"{spoken(1 - part)} of level {first} and {spoken(part)} of level {second}"
+    if part == 0:
+        mixed = f"that of level {first} alone"
+    text = f"{step.pixel_name}: the texture's colour is {vector_text(color)}, {mixed}."
+    channel = outstanding(color[:3])
+    letter = CHANNEL_LETTERS[channel]
+    units = [
+        (rf"{letter}_{{\mathrm{{{name}}}}}", step.vector(f"{name}_color")[channel])
+        for name in ("near", "far")
+    ]
+    return text, linear(letter, color[channel], [("(1 - f)", 1 - part), ("f", part)], *units)
+
+
+@explains("shade.textured|textured-lit.albedo")
+def albedo(step: StepValues) -> Said:
+    """Texture colour times interpolated colour."""
+    values, texture = step.vector("albedo"), step.vector("texture_color")
+    text = f"{step.pixel_name}: its albedo is {vector_text(values)}, the texture's colour times the interpolated one."
+    channel = outstanding(values[:3])
+    vertex: Part = channel_symbol("colour", channel)
+    if step.has("vertex_color"):
+        vertex = (channel_symbol("colour", channel), step.vector("vertex_color")[channel])
+    return text, equation(
+        (channel_symbol("albedo", channel), values[channel]),
+        "=",
+        (channel_symbol("texture", channel), texture[channel]),
+        r"\cdot",
+        vertex,
+    )
+
+
+def _level_variables(name: str, which: str) -> dict[str, VariableText]:
+    return {
+        f"{name}_position": VariableText(f"{which}: place", "Texture coordinates in texels of this level."),
+        f"{name}_texels": VariableText(f"{which}: texel #", "Column and row in the level.", spread="parts"),
+        f"{name}_colors": VariableText(
+            f"{which}: colour #", "Linear red, green, blue, alpha.", spread="parts"
+        ),
+        f"{name}_shares": VariableText(
+            f"{which}: weight #", "Weight of the texel in the level's colour.", spread="parts"
+        ),
+        f"{name}_color": VariableText(f"{which}: colour", "Result of bilinear filtering in this level."),
+    }
+
+
+shows(
+    "shade",
+    {
+        "uv": given("u, v", "Texture coordinates."),
+        "texture_size": given("W, H", "Texels from left to right and from bottom to top."),
+        "texel_position": VariableText("x, y in texels", "Texture coordinates times the texture's size."),
+        "texels": VariableText("texel #", "Column and row in the texture.", spread="parts"),
+        "texel_colors": VariableText("texel colour #", "Linear red, green, blue, alpha.", spread="parts"),
+        "mix": VariableText("fractions", "Position between the left and right, and lower and upper texels."),
+        "shares": VariableText("weight #", "Weight of the texel in the colour.", spread="parts"),
+        "slope_a": VariableText(
+            "a#", "Change of the numerator n per pixel to the right.", "uv_slopes", "edges"
+        ),
+        "slope_b": VariableText("b#", "Change of the numerator n per pixel upwards.", "uv_slopes", "edges"),
+        "slope_n": VariableText("n#", "Numerator of the corner's weight.", "uv_slopes", "edges"),
+        "corner_uv": VariableText("u, v at corner #", "Texture coordinates there.", "uv_slopes", "edges"),
+        "length": VariableText("L", "Pixels of the line along its major axis.", "uv_slopes"),
+        "end_uv": VariableText("u, v at end #", "Texture coordinates there.", "uv_slopes", "parts"),
+        "t": VariableText("t", "Position along the line: 0 at the first end, 1 at the second.", "uv_slopes"),
+        "end_w": VariableText("w of the ends", "w of the line's first and second end.", "uv_slopes"),
+        "uv_slopes": VariableText("slopes", "Changes of u and v to the right, then of u and v upwards."),
+        "lengths": VariableText("ρx, ρy", "Length in texels of a pixel to the right, and of one up."),
+        "lod": VariableText("λ", "Level of detail: logarithm to base 2 of the greater length."),
+        "level": VariableText("l", "λ clamped to the levels of the texture."),
+        "levels": VariableText("levels", "Numbers of the finer and the coarser level."),
+        "level_sizes": VariableText("level sizes", "Width and height of both, in texels."),
+        "level_fraction": VariableText("f", "Weight of the coarser level in the colour."),
+        **_level_variables("near", "finer"),
+        **_level_variables("far", "coarser"),
+        "texture_color": VariableText("texture colour", "Linear red, green, blue, alpha."),
+        "albedo": VariableText("albedo", "Colour before lighting: linear red, green, blue, alpha."),
+    },
+)

@@ -1,0 +1,109 @@
+"""Transforming corners: a row of a matrix, the division by w, and the viewport."""
+
+from core.explain.equation import equation, fraction, linear, number_latex
+from core.explain.number_text import number_text, spoken
+from core.explain.records import Asked, number
+from core.explain.rows import Said, explains
+from core.explain.step_values import AXES, StepValues
+from core.explain.variable_text import VariableText, given, shows
+
+ORDINALS = {"x": "first", "y": "second", "z": "third", "w": "fourth"}
+MATRICES = {
+    "object-to-world": "the model matrix M",
+    "world-to-camera": "the inverse camera matrix",
+    "camera-to-clip": "the projection matrix P",
+}
+BEYOND = {("x", -1): "left", ("x", 1): "right", ("y", -1): "bottom", ("y", 1): "top"} | {
+    ("z", -1): "near",
+    ("z", 1): "far",
+}
+
+
+def _corner(step: StepValues) -> str:
+    return f"Corner {step.whole('corner')} of triangle {step.triangle}"
+
+
+def _symbol(step: StepValues, axis: str, space: str) -> str:
+    return rf"\vertex{{{step.whole('corner')}}}{{{axis}_{{\mathrm{{{space}}}}}}}"
+
+
+def position(step: StepValues) -> Asked | None:
+    """Ask for x after the step."""
+    after = step.vector("after")
+    done = step.kind.replace("-", " ")
+    text = f"What is x of vertex {step.whole('corner')} after the step “{done}”?"
+    return number(text, after[0], f"({', '.join(map(number_text, after))}).")
+
+
+@explains("transform.object-to-world|world-to-camera|camera-to-clip.x|y|z|w", asks=position)
+def transformed(step: StepValues) -> Said:
+    """One row of a matrix times a position."""
+    before, after = step.kind.split("-to-")
+    axis, value = step.operation, step.number(f"after_{step.operation}")
+    text = (
+        f"{_corner(step)}: its {after} {axis} is {spoken(value)}, "
+        f"the {ORDINALS[axis]} row of {MATRICES[step.kind]} times its {before} position"
+    )
+    if after == "clip" and axis == "w" and step.rows("matrix")[3] != [0.0, 0.0, 0.0, 1.0]:
+        text += f"; w {'above 0 means' if value > 0 else 'of 0 or less means not'} in front of the eye"
+    row, place = AXES.index(axis), step.vector("before")
+    elements = [(f"m_{{{row + 1}{k + 1}}}", step.rows("matrix")[row][k]) for k in range(4)]
+    units = [(_symbol(step, axis, before), place[k]) for k, axis in enumerate(AXES)]
+    return f"{text}.", linear(_symbol(step, axis, after), value, elements, *units)
+
+
+@explains("transform.divide.x|y|z", asks=position)
+def divided(step: StepValues) -> Said:
+    """One component divided by w."""
+    axis = step.operation
+    before, after, w = (step.number(name) for name in (f"before_{axis}", f"after_{axis}", "before_w"))
+    text = f"{_corner(step)}: its NDC {axis} is {spoken(after)}"
+    text += f", clip {axis} = {spoken(before)} divided by w = {spoken(w)}"
+    if w == 0:
+        text += "; with w = 0 it has no position in the window"
+    elif w < 0:
+        text += "; as w is below 0 it lies behind the eye, and the division mirrors it"
+    elif abs(after) > 1:
+        text += f"; not between −1 and 1, so it lies beyond the {BEYOND[axis, 1 if after > 0 else -1]} plane"
+    quotient = fraction((rf"{axis}_{{\mathrm{{clip}}}}", before), ("w", w), step.whole("corner"))
+    return f"{text}.", equation((_symbol(step, axis, "ndc"), after), "=", quotient)
+
+
+@explains("transform.viewport.x|y|z", asks=position)
+def placed(step: StepValues) -> Said:
+    """One component from NDC to the window."""
+    axis = step.operation
+    before, after = step.number(f"before_{axis}"), step.number(f"after_{axis}")
+    half: tuple[str, float | str] = (r"\frac{1}{2}", r"\frac{1}{2}")
+    text = f"its depth is {spoken(after)}: NDC z is {spoken(before)}, and −1 to 1 becomes 0 to 1"
+    if axis != "z":
+        side, name, size = (
+            ("the left", "W", step.whole("width"))
+            if axis == "x"
+            else ("the bottom", "H", step.whole("height"))
+        )
+        half = (rf"\frac{{{name}}}{{2}}", rf"\frac{{{size}}}{{2}}")
+        text = (
+            f"its window {axis} is {spoken(after)} pixels from {side}: "
+            f"NDC {axis} is {spoken(before)}, and −1 to 1 becomes 0 to {size}"
+        )
+    moved = (rf"({_symbol(step, axis, 'ndc')} + 1)", f"({number_latex(before)} + 1)")
+    return f"{_corner(step)}: {text}.", equation(
+        (_symbol(step, axis, "window"), after), "=", moved, r"\cdot", half
+    )
+
+
+shows(
+    "transform",
+    {
+        "vertex": given("vertex", "Number of the vertex in the scene."),
+        "corner": given("corner", "Number of the corner in the triangle."),
+        "before": given("position before", "x, y, z, w in the space before the step."),
+        **{
+            f"after_{axis}": VariableText(f"{axis} after", f"{axis} in the space after the step.")
+            for axis in AXES
+        },
+        "width": given("W", "Width of the picture in pixels."),
+        "height": given("H", "Height of the picture in pixels."),
+    },
+)

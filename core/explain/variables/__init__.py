@@ -1,1 +1,0 @@
-"""The variables of a step, in the order of the algorithm."""

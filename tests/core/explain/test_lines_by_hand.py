@@ -1,0 +1,128 @@
+"""Sentences and formulas of lines whose numbers were worked out by hand, for every way to choose pixels."""
+
+import pytest
+
+from core import Settings
+from core.explain import formula, sentence
+from tests.core.explain.explained_steps import line_trace
+
+
+def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
+    """Return a sentence and both lines of the formula of the triangle on pixel centres."""
+    raster = line_trace(Settings(polygon_mode="wireframe", line=line)).stage("raster")
+    found = [raster.explain(position) for position in range(1, raster.steps.count + 1)]
+    explanation = [each for each in found if each is not None and each.key == key][place]
+    made = formula(explanation)
+    assert made is not None
+    return sentence(explanation, 0, None), made.symbolic, made.substituted
+
+
+@pytest.mark.parametrize(
+    ("line", "operation", "place", "wanted"),
+    [
+        (
+            "bresenham",
+            "-start.octant",
+            0,
+            "Edge 2 of triangle 0 runs from pixel (1, 1) to pixel (9, 3): it is longer in x, so it is drawn "
+            "column by column.",
+        ),
+        (
+            "bresenham",
+            "-start.lengths",
+            0,
+            "The line goes 8 pixels along x and 2 along y, so the decision value D starts at 2 · 2 − 8 = −4.",
+        ),
+        ("bresenham", ".test", 0, "D is −4, below 0, so y stays."),
+        (
+            "bresenham",
+            ".test",
+            1,
+            "D is 0, a tie: the line passes exactly between two pixels, and by this version's rule y steps.",
+        ),
+        (
+            "bresenham-lecture",
+            ".test",
+            1,
+            "D is 0, a tie: the line passes exactly between two pixels, and by this version's rule y stays.",
+        ),
+        ("bresenham", ".step", 1, "The next pixel is nearer to the line, so y steps to 2."),
+        ("bresenham-float", ".test", 1, "The error e plus the slope m is 0.5, not above 0.5, so y stays."),
+        ("bresenham", ".plot", 0, "Pixel (2, 1) is drawn: its centre lies at t = 0.125 of edge 2."),
+        ("bresenham", "-start.plot", 0, "Pixel (1, 1) is drawn: its centre lies at the first end of edge 2."),
+        (
+            "midpoint",
+            ".evaluate",
+            0,
+            "At x = 2 the line has y = 1.25, with pixel centres at whole numbers.",
+        ),
+        ("midpoint", ".round", 0, "The nearest pixel centre to y = 1.25 is at 1."),
+        (
+            "midpoint",
+            ".round",
+            1,
+            "The value y = 1.5 lies exactly between two pixel centres: halves round up, to 2.",
+        ),
+        ("dda", ".advance", 0, "The slope 0.25 is added for x = 2, which makes y = 1.25."),
+        (
+            "wu",
+            ".share",
+            0,
+            "The line ends in this column and spans 0.5 of it, which scales the intensities.",
+        ),
+        ("wu", ".share", 1, "The line spans the whole column."),
+        (
+            "wu",
+            ".divide",
+            1,
+            "The line passes 0.25 of the way from y = 1 to y = 2, so pixel (2, 1) gets the intensity "
+            "1 − 0.25 = 0.75.",
+        ),
+        (
+            "gupta-sproull",
+            ".distance",
+            2,
+            "The centre of pixel (2, 1) is 0.25 from the line along y, which gives a distance of 0.2425 px.",
+        ),
+        (
+            "gupta-sproull",
+            ".filter",
+            2,
+            "The filter's table has 0.7032 at 4 sixteenths of a pixel, the entry nearest to d: this is the "
+            "intensity of pixel (2, 1).",
+        ),
+        (
+            "rectangle",
+            "-start.length",
+            0,
+            "The ends, snapped to 1/256 pixel, are 8 and 2 apart along the axes, so the rectangle is 8.246 px long and "
+            "reaches half a pixel to either side.",
+        ),
+        (
+            "rectangle",
+            ".across",
+            0,
+            "The centre of pixel (2, 1) is 0.2425 px to the right of the line, not more than 0.5, so it is between the "
+            "rectangle's long sides.",
+        ),
+        (
+            "diamond-exit",
+            ".round",
+            0,
+            "Pixel (2, 1) is the nearest in this column: the line passes 0.25 px above its centre.",
+        ),
+    ],
+)
+def test_hand_computed_sentences(line: str, operation: str, place: int, wanted: str) -> None:
+    assert said(line, f"raster.{line}{operation}", place)[0] == wanted
+
+
+def test_hand_computed_formulas() -> None:
+    _, symbols, numbers = said("bresenham", "raster.bresenham.plot")
+    assert symbols == r"t & = & \frac{x - x_0}{x_1 - x_0}"
+    assert numbers == r"0.125 & = & \frac{2.5 - 1.5}{9.5 - 1.5}"
+    _, symbols, numbers = said("dda", "raster.dda.advance")
+    assert symbols.endswith(r"& + & s & \cdot & m")
+    assert numbers == r"1.25 & = & 1 & + & 1 & \cdot & 0.25"
+    _, _, numbers = said("bresenham-lecture", "raster.bresenham-lecture.test", 1)
+    assert numbers == r"0 & = & 0 & \Rightarrow & \text{stay}"

@@ -1,0 +1,76 @@
+"""Every operation that a tracer declares has a row; every question has the right answer."""
+
+import re
+
+import numpy as np
+import pytest
+
+from core import STAGES
+from core.explain import question
+from core.explain.records import AnswerKind
+from core.explain.rows import ROWS, explains
+from core.explain.step_values import row_key
+from core.explain.steps import load_subjects, row_of
+from tests.core.explain.explained_steps import traces
+
+
+def declared_keys() -> set[str]:
+    """Return the keys of all operations that the traces declare, whether or not a row does them."""
+    found = set()
+    for traced in (*traces()["scenes"], *traces()["rare"]):
+        for name in STAGES:
+            for kind, operations in traced.stage(name).steps.operations.items():
+                found |= {row_key(f"{name}.{kind}.{operation.name}") for operation in operations}
+    return found
+
+
+def test_every_operation_has_a_row_and_every_row_an_operation() -> None:
+    declared = declared_keys()
+    assert {key for key in declared if row_of(key) is None} == set(), "operations without a row"
+    used = {key if key in ROWS else re.sub(r"\.[^.]+\.", ".*.", key, count=1) for key in declared}
+    assert set(ROWS) - used == set(), "rows of operations that no stage does"
+
+
+def test_a_key_has_one_row() -> None:
+    load_subjects()
+    with pytest.raises(
+        ValueError, match=r"depth\.\*\.compare has a row already, in core.explain.subjects.depth"
+    ):
+        explains("depth.*.compare")(lambda step: "")
+
+
+ANSWERS = {
+    "transform": lambda values: values["after"][0],
+    "edges": lambda values: values["a"],
+    "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
+    "raster": lambda values: 1 - values["covered"],
+    "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
+    "depth": lambda values: 1 - values["passes"],
+    "blend": lambda values: values["after"][0],
+    "resolve": lambda values: values["bytes"][0],
+}
+"""What is right, by stage, from the numbers of the row."""
+
+
+def test_questions_are_finished_and_have_the_right_answer() -> None:
+    asked_about = set()
+    for traced in (*traces()["scenes"][::5], *traces()["rare"][::5]):
+        for name in STAGES:
+            stage = traced.stage(name)
+            for row in range(0, stage.steps.row_count, 1 + stage.steps.row_count // 6):
+                asked = question(stage, row)
+                if asked is None:
+                    continue
+                asked_about.add(name)
+                assert asked.question.text.endswith("?"), asked
+                assert re.fullmatch(r".*[^.]\.", asked.reveal), asked
+                assert not re.search(r"nan|None|array|-\d|_", asked.question.text + asked.reveal), asked
+                values = stage.variables(row)
+                if name in ANSWERS:
+                    assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
+                assert asked.is_right(asked.answer)
+                wrong = (
+                    asked.answer + 1 + abs(asked.answer) if asked.question.kind is AnswerKind.NUMBER else 3
+                )
+                assert not asked.is_right(wrong)
+    assert asked_about == set(STAGES) - {"cull", "shade"}
