@@ -19,7 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
-    from core.records.steps import Operation
+    from core.records.operation import Operation
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -16,6 +16,7 @@ from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.tested import effective_fill
+from core.raster.fills.traits import fill_traits
 from core.raster.lines.wireframe import (
     LineFragments,
     draw_outlines,
@@ -164,7 +165,7 @@ def covered(
         first_column, first_row, end_column, end_row = raster.bounds
         boxes = bound(edges, raster)
         area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
-        if settings.fill == "brute-force":
+        if fill_traits(settings.fill).looks_everywhere:
             area[:] = (end_row - first_row) * (end_column - first_column)
         ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
     for first, end in zip([0, *ends][:-1], ends, strict=True):

@@ -23,6 +23,7 @@ from app.files.open_any import Opened
 from app.session.document import Document, focus_on
 from core import STAGES, Trace, trace
 from core.raster.binning import bound
+from core.raster.fills.traits import fill_traits
 from core.trace import StageTrace
 
 DESCRIPTION = (
@@ -135,7 +136,7 @@ def check_length(traced: Trace) -> None:
         return
     boxes = bound(source.geometry.edges, source.raster)
     tests = int(((boxes.column_end - boxes.column) * (boxes.row_end - boxes.row)).sum())
-    if source.settings.fill == "brute-force":
+    if fill_traits(source.settings.fill).looks_everywhere:
         tests = len(source.geometry.edges) * source.raster.shape[0] * source.raster.shape[1]
     if tests > LONGEST_TRACE:
         raise ValueError(

@@ -6,8 +6,10 @@ import numpy as np
 
 from core import STAGES, Settings, Trace, trace
 from core.antialiasing.sample_counts import sample_count
+from core.raster.fills.traits import fill_traits
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
+from core.settings import no_effect
 from core.trace import TraceSource, scene_triangle_count
 
 TEACHING_LIMIT = (96, 72)
@@ -86,7 +88,7 @@ class Document:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
         pixels = self.raster.columns * self.raster.rows * sample_count(self.settings)
-        if self.settings.fill == "brute-force" and self.settings.polygon_mode == "fill":
+        if fill_traits(self.settings.fill).looks_everywhere and not no_effect(self.settings, "fill"):
             return triangles * pixels
         return min(triangles, 60) * pixels // 4
 
@@ -94,7 +96,7 @@ class Document:
     def estimated_seconds(self) -> float:
         """How long tracing takes, roughly."""
         drawn = self.triangle_count
-        if self.settings.fill == "brute-force":
+        if fill_traits(self.settings.fill).looks_everywhere:
             # The buffers that earlier triangles left are drawn as well, without being kept.
             drawn += self.triangle_count * self.raster.columns * self.raster.rows // 20
         is_exact = self.settings.coverage == "exact"

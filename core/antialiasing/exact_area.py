@@ -31,6 +31,7 @@ from core.antialiasing.pixel_pieces import (
     split_pieces,
     whole_pixels,
 )
+from core.antialiasing.sample_counts import SampleTraits
 from core.antialiasing.single_sample import draw_at_centers
 from core.antialiasing.supersampling import bands_of
 from core.fragments.interpolation import Interpolator, plane_value
@@ -62,6 +63,7 @@ BAND = 1 << 16
     source="Catmull 1978; Carpenter 1984, The A-buffer",
     exact_for="edges, overlaps and crossings of opaque triangles, and colours that change linearly",
     breaks_where="textures, highlights and perspective within a piece: one colour stands for it",
+    traits=SampleTraits(has_areas=True),
 )
 def draw_exact_areas(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None

@@ -10,6 +10,7 @@ all samples of their pixels, as OpenGL's lines without multisampling do.
 
 import numpy as np
 
+from core.antialiasing.sample_counts import SampleTraits
 from core.antialiasing.sampled import SampledPicture, resolve_region
 from core.antialiasing.single_sample import FoundFragments, find_fragments
 from core.framebuffer.blending import blend_stacks
@@ -34,6 +35,7 @@ from core.stages.vertices import Geometry, process_geometry, timed
     exact_for="edges, in quarters of a pixel",
     breaks_where="what lies inside triangles (textures, highlights), and colours that extrapolate beyond an edge",
     takes=("resolve_filter",),
+    traits=SampleTraits(positions=ROTATED_GRID),
 )
 def multisample(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw with four samples a pixel; ``chosen`` (T,) triangles, or all."""

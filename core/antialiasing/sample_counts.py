@@ -1,15 +1,37 @@
 """How many samples a pixel has, and where they lie, by the settings: nothing is drawn here."""
 
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
 import numpy as np
 
-from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
+from core.framebuffer.sample_positions import grid_positions
+from core.methods import table
 from core.records.arrays import Floats, read_only
 from core.settings import Settings
 
 CENTER = read_only(np.array([[0.5, 0.5]]))
 """(1, 2) the one sample of a picture without antialiasing."""
-FIXED_SIDES = {"ssaa-4": 2, "ssaa-16": 4}
-"""Methods of supersampling with a number of samples of their own."""
+
+
+@dataclass(frozen=True, eq=False)
+class SampleTraits:
+    """Where the samples of a method of the family ``antialiasing`` lie; without any of these, at the pixel's centre."""
+
+    side: Callable[[Settings], int] | None = None
+    """Samples on a side of a pixel, in a regular grid: each is drawn as a pixel of a finer picture."""
+    positions: Floats = field(default_factory=lambda: CENTER)
+    """(S, 2) where they lie otherwise, from the lower left corner of the pixel, 0 to 1."""
+    has_areas: bool = False
+    """Whether a pixel's colour is of areas, and its samples only of the buffers beside."""
+
+
+def sample_traits(settings: Settings) -> SampleTraits:
+    """Return where samples lie."""
+    if settings.antialiasing == Settings.antialiasing:
+        return SampleTraits()  # Looking in the table would import what draws.
+    traits: SampleTraits = table.get("antialiasing", settings.antialiasing).traits
+    return traits
 
 
 def side_of(settings: Settings) -> int:
@@ -20,9 +42,8 @@ def side_of(settings: Settings) -> int:
     >>> side_of(Settings(antialiasing="ssaa-n", samples_across=3)), side_of(Settings())
     (3, 0)
     """
-    if settings.antialiasing == "ssaa-n":
-        return settings.samples_across
-    return FIXED_SIDES.get(settings.antialiasing, 0)
+    side = sample_traits(settings).side
+    return 0 if side is None else side(settings)
 
 
 def positions_of(settings: Settings) -> Floats:
@@ -31,9 +52,7 @@ def positions_of(settings: Settings) -> Floats:
     Exact areas are of no samples: theirs is the centre, which the buffers beside the colour are of.
     """
     side = side_of(settings)
-    if side:
-        return grid_positions(side)
-    return ROTATED_GRID if settings.antialiasing == "msaa-4" else CENTER
+    return grid_positions(side) if side else sample_traits(settings).positions
 
 
 def sample_count(settings: Settings) -> int:

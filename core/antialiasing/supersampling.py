@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from core.antialiasing.sample_counts import side_of
+from core.antialiasing.sample_counts import SampleTraits, side_of
 from core.antialiasing.sampled import SampledPicture, resolve_region
 from core.antialiasing.single_sample import draw_geometry
 from core.framebuffer.sample_positions import grid_positions
@@ -38,6 +38,7 @@ GEOMETRY = STAGES[: STAGES.index("bin") + 1]
     exact_for="areas in quarters of a pixel, shading included",
     breaks_where="edges that are nearly level or upright: two steps a pixel; four times the work",
     takes=("resolve_filter",),
+    traits=SampleTraits(lambda _: 2),
 )
 def supersample_by_2(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
@@ -54,6 +55,7 @@ def supersample_by_2(
     exact_for="areas in sixteenths of a pixel, shading included",
     breaks_where="edges that are nearly level or upright: four steps a pixel; sixteen times the work",
     takes=("resolve_filter",),
+    traits=SampleTraits(lambda _: 4),
 )
 def supersample_by_4(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
@@ -73,6 +75,7 @@ def supersample_by_4(
         "resolve_filter",
         "samples_across",
     ),
+    traits=SampleTraits(lambda settings: settings.samples_across),
 )
 def supersample_by_n(
     scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None

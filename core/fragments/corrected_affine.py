@@ -20,6 +20,7 @@ import numpy as np
 from core.fragments.interpolation import Planes, perspective
 from core.methods import method
 from core.records.arrays import Floats, Integers
+from core.records.operation import Operation
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +68,33 @@ def place_anchors(planes: Planes, primitive: Integers, x: Floats, y: Floats, int
     return Anchors(row_left, row_right, grid, left, right, fraction)
 
 
+def interpolate_corrected_at(
+    a: Floats, b: Floats, c: Floats, determinant: float, x: float, y: float, interval: int, values: Floats
+) -> tuple[list[float], float]:
+    """Listing of affine interpolation corrected every ``interval`` pixels: adjugate (3,) each, corner values (3,)."""
+    row_left, row_right = -inf, inf
+    for k in range(3):
+        if a[k] * determinant > 0:
+            row_left = max(row_left, -(b[k] * y + c[k]) / a[k])  #: row
+        if a[k] * determinant < 0:
+            row_right = min(row_right, -(b[k] * y + c[k]) / a[k])
+    column = floor(x)
+    grid = floor(column / interval) * interval + (x - column)  #: grid
+    left, right = max(grid, row_left), min(grid + interval, row_right)  #: anchors
+    if not row_left <= x <= row_right:
+        left = right = x
+    t = (x - left) / (right - left) if right > left else 0.0  #: fraction
+    weights = []
+    at_left = [a[k] * left + (b[k] * y + c[k]) for k in range(3)]  #: corrected
+    at_right = [a[k] * right + (b[k] * y + c[k]) for k in range(3)]
+    for k in range(3):
+        first = at_left[k] / (at_left[0] + at_left[1] + at_left[2])
+        second = at_right[k] / (at_right[0] + at_right[1] + at_right[2])
+        weights.append(first * (1 - t) + second * t)  #: weights
+    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
+    return weights, value
+
+
 @method(
     "interpolation",
     "affine-n",
@@ -76,6 +104,17 @@ def place_anchors(planes: Planes, primitive: Integers, x: Floats, y: Floats, int
     breaks_where="w changes much within n pixels of a row: the error is that of affine over one interval",
     needs=("positive-w",),
     takes=("correction_interval",),
+    listing=interpolate_corrected_at,
+    operations={
+        "affine-n": (
+            Operation("row", "row", ("row_ends",)),
+            Operation("anchors", "anchors", ("grid", "anchor_x")),
+            Operation("fraction", "fraction", ("fraction",)),
+            Operation("corrected", "corrected", ("anchor_weights",)),
+            Operation("weights", "weights", ("inverse_w", "weights")),
+        )
+    },
+    traits="perspective",
 )
 @np.errstate(invalid="ignore", over="ignore")
 def corrected_affine(
@@ -117,30 +156,3 @@ def largest_affine_error(w_ratio: Floats) -> Floats:
     root = np.sqrt(w_ratio)
     error: Floats = np.abs(root - 1) / (root + 1)
     return error
-
-
-def interpolate_corrected_at(
-    a: Floats, b: Floats, c: Floats, determinant: float, x: float, y: float, interval: int, values: Floats
-) -> tuple[list[float], float]:
-    """Listing of affine interpolation corrected every ``interval`` pixels: adjugate (3,) each, corner values (3,)."""
-    row_left, row_right = -inf, inf
-    for k in range(3):
-        if a[k] * determinant > 0:
-            row_left = max(row_left, -(b[k] * y + c[k]) / a[k])  #: row
-        if a[k] * determinant < 0:
-            row_right = min(row_right, -(b[k] * y + c[k]) / a[k])
-    column = floor(x)
-    grid = floor(column / interval) * interval + (x - column)  #: grid
-    left, right = max(grid, row_left), min(grid + interval, row_right)  #: anchors
-    if not row_left <= x <= row_right:
-        left = right = x
-    t = (x - left) / (right - left) if right > left else 0.0  #: fraction
-    weights = []
-    at_left = [a[k] * left + (b[k] * y + c[k]) for k in range(3)]  #: corrected
-    at_right = [a[k] * right + (b[k] * y + c[k]) for k in range(3)]
-    for k in range(3):
-        first = at_left[k] / (at_left[0] + at_left[1] + at_left[2])
-        second = at_right[k] / (at_right[0] + at_right[1] + at_right[2])
-        weights.append(first * (1 - t) + second * t)  #: weights
-    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
-    return weights, value

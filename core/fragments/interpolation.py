@@ -17,6 +17,7 @@ import numpy as np
 from core.fragments.mixing import BLOCK, LocalNumbers, Mixer
 from core.methods import method, table
 from core.records.arrays import Floats, Integers
+from core.records.operation import Operation
 from core.records.primitives import CornerValues, own_corners
 
 DETERMINANT_ERROR = 2.0**-50
@@ -24,6 +25,12 @@ DETERMINANT_ERROR = 2.0**-50
 
 CORRECTION_INTERVAL = 16
 """Columns between corrections, as Quake has them."""
+
+_SUMMED = (
+    Operation("numerators", "numerators", ("numerators",)),
+    Operation("total", "total", ("total", "inverse_w")),
+    Operation("weights", "weights", ("weights",)),
+)
 
 FEW_PRIMITIVES = 1024
 """So many primitives fit the processor's nearest cache without being picked out."""
@@ -131,18 +138,43 @@ def _over_their_sum(parts: Floats) -> Floats:
     return parts.T
 
 
+def interpolate_at(
+    a: Floats, b: Floats, c: Floats, x: float, y: float, values: Floats
+) -> tuple[list[float], float, float]:
+    """Listing of perspective-correct interpolation of one value: adjugate (3,) each, corner values (3,)."""
+    n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]  #: numerators
+    total = n[0] + n[1] + n[2]  #: total
+    weights = [n[k] / total for k in range(3)]  #: weights
+    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
+    return weights, total, value
+
+
 @method(
     "interpolation",
     "perspective",
     "Perspective-correct",
     source="Zwicker 2016, Perspective correct interpolation; Olano and Greer 1997",
     exact_for="every triangle",
+    listing=interpolate_at,
+    operations={"perspective": _SUMMED},
+    traits="perspective",
 )
 def perspective(
     planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
 ) -> Floats:
     """Return weights (F, 3): alpha/w, beta/w, gamma/w over their sum 1/w."""
     return _over_their_sum(_numerator_rows(planes, primitive, x, y))
+
+
+def interpolate_affine_at(
+    a: Floats, b: Floats, c: Floats, w: Floats, x: float, y: float, values: Floats
+) -> tuple[list[float], float, float]:
+    """Listing of affine interpolation of one value: adjugate (3,) each, w (3,), corner values (3,)."""
+    n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]  #: numerators
+    total = n[0] + n[1] + n[2]  #: total
+    weights = [n[k] / total for k in range(3)]  #: weights
+    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
+    return weights, total, value
 
 
 @method(
@@ -153,6 +185,9 @@ def perspective(
     exact_for="triangles of one w",
     breaks_where="w differs between corners: the error grows to (sqrt r - 1)/(sqrt r + 1) of the edge",
     needs=("positive-w",),
+    listing=interpolate_affine_at,
+    operations={"affine": _SUMMED},
+    traits="affine",
 )
 def affine(
     planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
@@ -164,6 +199,12 @@ def affine(
     return _over_their_sum(parts)
 
 
+def take_provoking_value(provoking: int, values: Floats) -> tuple[list[float], float]:
+    """Listing of flat interpolation."""
+    weights = [1.0 if k == provoking else 0.0 for k in range(3)]  #: weights
+    return weights, values[provoking]  #: value
+
+
 @method(
     "interpolation",
     "flat",
@@ -171,6 +212,9 @@ def affine(
     source="OpenGL 4.6, 13.4 Flatshading",
     exact_for="values of one corner",
     takes=("provoking",),
+    listing=take_provoking_value,
+    operations={"flat": (Operation("weights", "weights", ("weights",)),)},
+    traits="flat",
 )
 def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int) -> Floats:
     """Return weights (F, 3): 1 for the provoking corner, 0 for the others."""
@@ -300,31 +344,3 @@ def _each_its_own(varyings: Floats) -> CornerValues:
     """Return varyings (P, 3, K) as corners that share no row."""
     count, _, width = varyings.shape
     return CornerValues(varyings.reshape(3 * count, width), {}, own_corners(np.arange(count)))
-
-
-def interpolate_at(
-    a: Floats, b: Floats, c: Floats, x: float, y: float, values: Floats
-) -> tuple[list[float], float, float]:
-    """Listing of perspective-correct interpolation of one value: adjugate (3,) each, corner values (3,)."""
-    n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]  #: numerators
-    total = n[0] + n[1] + n[2]  #: total
-    weights = [n[k] / total for k in range(3)]  #: weights
-    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
-    return weights, total, value
-
-
-def interpolate_affine_at(
-    a: Floats, b: Floats, c: Floats, w: Floats, x: float, y: float, values: Floats
-) -> tuple[list[float], float, float]:
-    """Listing of affine interpolation of one value: adjugate (3,) each, w (3,), corner values (3,)."""
-    n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]  #: numerators
-    total = n[0] + n[1] + n[2]  #: total
-    weights = [n[k] / total for k in range(3)]  #: weights
-    value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
-    return weights, total, value
-
-
-def take_provoking_value(provoking: int, values: Floats) -> tuple[list[float], float]:
-    """Listing of flat interpolation."""
-    weights = [1.0 if k == provoking else 0.0 for k in range(3)]  #: weights
-    return weights, values[provoking]  #: value

@@ -11,16 +11,25 @@ L. Williams, *Pyramidal parametrics*, SIGGRAPH 1983.
 M. Segal, K. Akeley, *The OpenGL Graphics System 4.6*, 2022, sections 8.14.1 (level of detail) and 8.14.3 (filters).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import sqrt
+from math import ceil, floor, sqrt
 
 import numpy as np
 from numpy import log2 as binary_logarithm
 
-from core.fragments.textures import uses_mipmaps
+from core.fragments.textures import bilinear_color, uses_mipmaps
 from core.methods import method, table
 from core.records.arrays import Floats, Integers
+from core.records.operation import Operation
+
+_CHOICE = (
+    Operation("slopes", "slopes", ("uv_slopes",)),
+    Operation("lod", "lod", ("lengths", "lod")),
+    Operation("levels", "levels", ("level", "levels", "level_sizes", "level_fraction")),
+)
+_NEAR = ("near_position", "near_texels", "near_colors", "near_shares", "near_color")
+_FAR = tuple(name.replace("near", "far") for name in _NEAR)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +50,19 @@ class LevelChoice:
     """(F,) float64, share of the coarser one, below 1."""
 
 
+def mipmap_color(
+    levels: Sequence[Sequence[Sequence[Sequence[float]]]], u: float, v: float, lod: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the mix of two levels ``levels[k][row][column]`` at (u, v) (listing of trilinear)."""
+    level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
+    near = floor(level)  #: levels
+    far = min(near + 1, len(levels) - 1)
+    fraction = level - near
+    fine = bilinear_color(levels[near], u, v, wrap)  #: near
+    coarse = bilinear_color(levels[far], u, v, wrap)  #: far
+    return tuple(c * (1 - fraction) + d * fraction for c, d in zip(fine, coarse, strict=True))  #: color
+
+
 @method(
     "texture_filter",
     "trilinear",
@@ -49,6 +71,15 @@ class LevelChoice:
     exact_for="a pixel that sees an even colour; square footprints, about",
     breaks_where="footprints that are long and narrow: the longer side decides, and the picture is blurred",
     needs=("mipmaps",),
+    listing=mipmap_color,
+    operations={
+        "texture": (
+            *_CHOICE,
+            Operation("near", "near", _NEAR),
+            Operation("far", "far", _FAR),
+            Operation("mix", "color", ("texture_color",)),
+        )
+    },
 )
 def trilinear(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
     """Choose the two levels around each level of detail, and mix them by nearness.
@@ -70,6 +101,16 @@ def trilinear(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
     return whole, np.minimum(whole + 1, top), level - near
 
 
+def nearest_mipmap_color(
+    levels: Sequence[Sequence[Sequence[Sequence[float]]]], u: float, v: float, lod: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the colour of the nearest of ``levels[k][row][column]`` at (u, v) (listing of mipmap-nearest)."""
+    level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
+    nearest = ceil(level + 0.5) - 1  #: levels
+    color = bilinear_color(levels[nearest], u, v, wrap)  #: near
+    return color  #: color
+
+
 @method(
     "texture_filter",
     "mipmap-nearest",
@@ -78,6 +119,8 @@ def trilinear(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
     exact_for="a pixel that sees an even colour; square footprints, about",
     breaks_where="the level changes: a line is seen; and as trilinear",
     needs=("mipmaps",),
+    listing=nearest_mipmap_color,
+    operations={"texture": (*_CHOICE, Operation("near", "near", (*_NEAR, "texture_color")))},
 )
 def mipmap_nearest(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
     """Choose the level nearest to each level of detail, halfway the finer one; see `trilinear`."""

@@ -1,14 +1,12 @@
 """Texture look-up in mipmaps: bilinear in one or two levels, and the mix of both."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, floor
 
 import numpy as np
 
 from core.fragments.level_of_detail import LevelChoice, choose_levels
 from core.fragments.mipmaps import mipmap_levels
-from core.fragments.textures import TextureSamples, bilinear_color, sample_texture, texture_colors
+from core.fragments.textures import TextureSamples, sample_texture, texture_colors
 from core.records.arrays import Floats, Integers, read_only
 from core.scene import Texture
 
@@ -112,26 +110,3 @@ def _sample_levels(texture: Texture, uv: Floats, level: Integers, wrap: str) -> 
         for name in vars(parts[0])
     }
     return LevelSamples(level, sizes[level], TextureSamples(**joined))
-
-
-def mipmap_color(
-    levels: Sequence[Sequence[Sequence[Sequence[float]]]], u: float, v: float, lod: float, wrap: str
-) -> tuple[float, ...]:
-    """Return the mix of two levels ``levels[k][row][column]`` at (u, v) (listing of trilinear)."""
-    level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
-    near = floor(level)  #: levels
-    far = min(near + 1, len(levels) - 1)
-    fraction = level - near
-    fine = bilinear_color(levels[near], u, v, wrap)  #: near
-    coarse = bilinear_color(levels[far], u, v, wrap)  #: far
-    return tuple(c * (1 - fraction) + d * fraction for c, d in zip(fine, coarse, strict=True))  #: color
-
-
-def nearest_mipmap_color(
-    levels: Sequence[Sequence[Sequence[Sequence[float]]]], u: float, v: float, lod: float, wrap: str
-) -> tuple[float, ...]:
-    """Return the colour of the nearest of ``levels[k][row][column]`` at (u, v) (listing of mipmap-nearest)."""
-    level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
-    nearest = ceil(level + 0.5) - 1  #: levels
-    color = bilinear_color(levels[nearest], u, v, wrap)  #: near
-    return color  #: color

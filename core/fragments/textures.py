@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.records.operation import Operation
 from core.scene import Texture
 
 COORDINATE_LIMIT = 2.0**32
@@ -74,6 +75,8 @@ def wrapped_index(index: int, size: int, wrap: str) -> int:
         return index % size  #: repeat
     if wrap == "clamp":
         return min(max(index, 0), size - 1)  #: clamp
+    if wrap != "mirror":
+        raise ValueError(f"no listing of the wrap {wrap}")
     there = index % (2 * size)  #: period
     return there if there < size else 2 * size - 1 - there  #: mirror
 
@@ -90,6 +93,34 @@ class Footprint:
     """(2, F) float64: w_u of the right column, w_v of the top row; 0 for nearest."""
 
 
+def texel_operations(label: str) -> dict[str, tuple[Operation, ...]]:
+    """Return what a row does to find a texture's colour; the texels are chosen in the listing's line ``label``."""
+    return {
+        "texture": (
+            Operation("position", "position", ("texel_position",)),
+            Operation("texels", label, ("texels", "texel_colors")),
+            Operation("filter", "color", ("mix", "shares", "texture_color")),
+        )
+    }
+
+
+def bilinear_color(
+    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the mean of the four texels of ``pixels[row][column]`` around (u, v) (listing of bilinear)."""
+    width, height = len(pixels[0]), len(pixels)
+    x, y = u * width - 0.5, v * height - 0.5  #: position
+    w_u, w_v = x - floor(x), y - floor(y)  #: weights
+    left, right = wrapped_index(floor(x), width, wrap), wrapped_index(floor(x) + 1, width, wrap)  #: columns
+    bottom, top = wrapped_index(floor(y), height, wrap), wrapped_index(floor(y) + 1, height, wrap)  #: rows
+    color = []
+    for channel in range(len(pixels[0][0])):
+        c_b = pixels[bottom][left][channel] * (1 - w_u) + pixels[bottom][right][channel] * w_u  #: bottom
+        c_t = pixels[top][left][channel] * (1 - w_u) + pixels[top][right][channel] * w_u  #: top
+        color.append(c_b * (1 - w_v) + c_t * w_v)  #: color
+    return tuple(color)
+
+
 @method(
     "texture_filter",
     "bilinear",
@@ -97,6 +128,8 @@ class Footprint:
     source="Zwicker 2016, Bilinear interpolation",
     exact_for="textures that are linear between texel centres",
     breaks_where="a pixel covers many texels: aliasing; much magnified: creases at texel centres",
+    listing=bilinear_color,
+    operations=texel_operations("columns"),
 )
 def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the four texels whose centres surround each position, weighted by nearness.
@@ -119,6 +152,16 @@ def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     return Footprint(columns, rows, weights)
 
 
+def nearest_color(
+    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
+) -> tuple[float, ...]:
+    """Return the texel of ``pixels[row][column]`` at (u, v) (listing of nearest)."""
+    x, y = u * len(pixels[0]), v * len(pixels)  #: position
+    column = wrapped_index(floor(x), len(pixels[0]), wrap)  #: column
+    row = wrapped_index(floor(y), len(pixels), wrap)  #: row
+    return tuple(pixels[row][column])  #: color
+
+
 @method(
     "texture_filter",
     "nearest",
@@ -126,6 +169,8 @@ def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     source="Zwicker 2016, Nearest-neighbor interpolation",
     exact_for="textures that are constant over each texel",
     breaks_where="a pixel covers many texels: aliasing; magnified: blocks",
+    listing=nearest_color,
+    operations=texel_operations("column"),
 )
 def nearest(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the texel that contains each position, on a border the right or upper one; see `bilinear`."""
@@ -322,30 +367,3 @@ def _fill_missing_channels(color: Floats, channels: int) -> None:
         color[..., 1] = color[..., 2] = color[..., 0]
     if channels < 4:
         color[..., 3] = 1.0
-
-
-def nearest_color(
-    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
-) -> tuple[float, ...]:
-    """Return the texel of ``pixels[row][column]`` at (u, v) (listing of nearest)."""
-    x, y = u * len(pixels[0]), v * len(pixels)  #: position
-    column = wrapped_index(floor(x), len(pixels[0]), wrap)  #: column
-    row = wrapped_index(floor(y), len(pixels), wrap)  #: row
-    return tuple(pixels[row][column])  #: color
-
-
-def bilinear_color(
-    pixels: Sequence[Sequence[Sequence[float]]], u: float, v: float, wrap: str
-) -> tuple[float, ...]:
-    """Return the mean of the four texels of ``pixels[row][column]`` around (u, v) (listing of bilinear)."""
-    width, height = len(pixels[0]), len(pixels)
-    x, y = u * width - 0.5, v * height - 0.5  #: position
-    w_u, w_v = x - floor(x), y - floor(y)  #: weights
-    left, right = wrapped_index(floor(x), width, wrap), wrapped_index(floor(x) + 1, width, wrap)  #: columns
-    bottom, top = wrapped_index(floor(y), height, wrap), wrapped_index(floor(y) + 1, height, wrap)  #: rows
-    color = []
-    for channel in range(len(pixels[0][0])):
-        c_b = pixels[bottom][left][channel] * (1 - w_u) + pixels[bottom][right][channel] * w_u  #: bottom
-        c_t = pixels[top][left][channel] * (1 - w_u) + pixels[top][right][channel] * w_u  #: top
-        color.append(c_b * (1 - w_v) + c_t * w_v)  #: color
-    return tuple(color)

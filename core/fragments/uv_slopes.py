@@ -14,7 +14,7 @@ import numpy as np
 
 from core.fragments.interpolation import Planes, numerators
 from core.records.arrays import Floats, Integers
-from core.records.primitives import CornerValues
+from core.records.primitives import CornerValues, interpolation_form
 
 BLOCK = 8192
 """Fragments that are looked at once, so that their numbers stay in the processor's cache."""
@@ -58,7 +58,7 @@ def uv_slopes(
     perspective-correct function that it stands for.
     """
     slopes = np.zeros((4, len(primitive)))
-    if interpolation == "flat":
+    if interpolation_form(interpolation) == "flat":
         return slopes
     columns = values.rows[:, values.layout["uv"]].T.copy()
     for start in range(0, len(primitive), BLOCK):
@@ -82,7 +82,7 @@ def slope_numerators(
     """Return the changes to the right and up, and the values, of the three numerators of the weights, (F,) each."""
     n = list(numerators(planes, primitive, x, y))
     across, up = ([rise[:, k].take(primitive) for k in range(3)] for rise in (planes.a, planes.b))
-    if interpolation == "affine":
+    if interpolation_form(interpolation) == "affine":
         w = [planes.w[:, k].take(primitive) for k in range(3)]
         n, across, up = ([values[k] * w[k] for k in range(3)] for values in (n, across, up))
     return across, up, n

@@ -17,12 +17,37 @@ F. Pellacini, Computer Graphics, lecture "Graphics pipeline", "framebuffer proce
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.framebuffer.stacks import PixelStacks
-from core.methods import method
+from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.operation import Operation
+
+MIXED = (
+    Operation("source", "color", ("source", "before")),
+    Operation("color", "color", ("after",)),
+    Operation("write", "store", ("after",)),
+)
+"""What a fragment that is mixed with what is there does."""
+
+
+@dataclass(frozen=True, eq=False)
+class BlendTraits:
+    """What is known of a blend method without running it."""
+
+    mixes: bool
+    """Whether what is there has a part in the new colour."""
+    hides: Callable[[Floats], Flags]
+    """Of the alphas (F,) of fragments, which leave nothing of what is there."""
+
+
+def blend_traits(blend: str) -> BlendTraits:
+    """Return what is known of a method of the family ``blend``."""
+    traits: BlendTraits = table.get("blend", blend).traits
+    return traits
 
 
 @method(
@@ -32,11 +57,21 @@ from core.records.arrays import Flags, Floats, Integers, Singles
     source="OpenGL 4.6 without GL_BLEND",
     exact_for="opaque surfaces",
     breaks_where="alpha below 1: it is stored, and hides what is behind as if it were 1",
+    operations={"opaque": (Operation("write", "store", ("source", "before", "after")),)},
+    traits=BlendTraits(False, lambda alpha: np.ones(alpha.shape, bool)),
 )
 def opaque(source: Floats, destination: Singles) -> Singles:
     """Return ``source`` as float32; what was there is gone. Arguments as in `over`."""
     del destination
     return source.astype(np.float32)
+
+
+def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel after one fragment (listing of `over`)."""
+    *color, alpha = source
+    result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]  #: color
+    result.append(alpha + destination[3] * (1 - alpha))  #: alpha
+    return [np.float32(value) for value in result]  #: store
 
 
 @method(
@@ -46,6 +81,9 @@ def opaque(source: Floats, destination: Singles) -> Singles:
     source="Porter and Duff 1984; Pellacini, framebuffer blending",
     exact_for="surfaces drawn from back to front",
     breaks_where="surfaces drawn in another order, or that cross each other",
+    listing=over_pixel,
+    operations={"over": MIXED},
+    traits=BlendTraits(True, lambda alpha: alpha == 1),
 )
 def over(source: Floats, destination: Singles) -> Singles:
     """Lay fragments over the colours of their pixels.
@@ -76,6 +114,14 @@ def over(source: Floats, destination: Singles) -> Singles:
     return result
 
 
+def additive_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel after one fragment (listing of `additive`)."""
+    *color, alpha = source
+    result = [color[k] * alpha + destination[k] for k in range(3)]  #: color
+    result.append(alpha + destination[3])  #: alpha
+    return [np.float32(value) for value in result]  #: store
+
+
 @method(
     "blend",
     "additive",
@@ -83,6 +129,9 @@ def over(source: Floats, destination: Singles) -> Singles:
     source="Porter and Duff 1984, plus; OpenGL 4.6, glBlendFunc(SRC_ALPHA, ONE)",
     exact_for="light that adds up (fire, glow), in any order, to the rounding of float32",
     breaks_where="opaque surfaces: all that lies behind shines through; sums above 1 are cut off by the display",
+    listing=additive_pixel,
+    operations={"additive": MIXED},
+    traits=BlendTraits(True, lambda alpha: np.zeros(alpha.shape, bool)),
 )
 def additive(source: Floats, destination: Singles) -> Singles:
     """Add fragments (F, 4) to the colours (F, 4) of their pixels, arguments as in `over`.
@@ -139,19 +188,3 @@ def blend_stacks(
             of_hit = source.T.take(number.take(fragment.take(hit)), axis=1)
             there[:, hit] = rule(of_hit.T, there.take(hit, axis=1).T).T
     color[stacks.pixel] = there.T
-
-
-def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
-    """Return the colour of a pixel after one fragment (listing of `over`)."""
-    *color, alpha = source
-    result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]  #: color
-    result.append(alpha + destination[3] * (1 - alpha))  #: alpha
-    return [np.float32(value) for value in result]  #: store
-
-
-def additive_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np.float32]:
-    """Return the colour of a pixel after one fragment (listing of `additive`)."""
-    *color, alpha = source
-    result = [color[k] * alpha + destination[k] for k in range(3)]  #: color
-    result.append(alpha + destination[3])  #: alpha
-    return [np.float32(value) for value in result]  #: store

@@ -114,7 +114,7 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
         "distance": float(distance[edge]),
         "subpixels": float(distance[edge] * SUBPIXELS),
         "ulps": float(tests.ulps[k, edge]),
-        "is_exact": bool(is_anchored) or edges.numbers.name in ("exact", "int64", "fixed-24.8"),
+        "is_exact": bool(is_anchored) or edges.numbers.is_whole,
         "doubled_area": float(edges.doubled_area[k]),
     }
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from core.framebuffer.blending import blend_traits
 from core.framebuffer.depth import DepthFormat
 from core.geometry.culling import REASONS
 from core.pixel_history.candidates import PixelCandidates
@@ -82,7 +83,7 @@ def _fragment_events(
         if passage.passes:
             values = {"by": hidden_by[k], "alpha": float(fragments.source[k, 3])}
             key = "overwritten" if hidden_by[k] >= 0 else "written"
-            if key == "written" and blend != "opaque":
+            if key == "written" and blend_traits(blend).mixes:
                 key = "blended"
             chain.append(Link("blend", key, values))
         event = PixelEvent(

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.framebuffer.blending import blend_traits
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import stack_fragments
 from core.methods import table
@@ -160,7 +161,7 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
     -----
     Opaque hides always, "over" hides what is below it where its alpha is 1, additive hides nothing.
     """
-    hides = fragments.passes & ((blend == "opaque") | ((blend == "over") & (fragments.source[:, 3] == 1)))
+    hides = fragments.passes & blend_traits(blend).hides(fragments.source[:, 3])
     found = []
     for k in range(len(hides)):
         later = np.flatnonzero(hides[k + 1 :])

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from core.framebuffer.blending import blend_traits
 from core.pixel_history.records import Link, PixelEvent
 
 
@@ -31,7 +32,7 @@ def pixel_verdict(events: Sequence[PixelEvent], counts: Mapping[str, int], blend
         values |= {"triangle": passed[-1].triangle}
         hidden = [event for event in passed if event.reason.key == "overwritten"]
         values["overwritten_count"] = len(hidden)
-        if blend != "opaque" and len(passed) - len(hidden) > 1:
+        if blend_traits(blend).mixes and len(passed) - len(hidden) > 1:
             return Link("verdict", "blended", values)
         return Link("verdict", "seen-over" if hidden else "seen", values)
     if fragments or lost:

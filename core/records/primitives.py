@@ -5,8 +5,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
+
+FORMS = ("perspective", "affine", "flat")
+"""How values change from pixel to pixel, and along lines: with perspective, linearly in the window, not at all."""
+
+
+def interpolation_form(interpolation: str) -> str:
+    """Return which of `FORMS` a method of the family ``interpolation`` follows: the ``traits`` of its row."""
+    form: str = table.get("interpolation", interpolation).traits
+    if form not in FORMS:
+        raise ValueError(
+            f"traits of interpolation {interpolation} must be one of {', '.join(FORMS)}, got {form}"
+        )
+    return form
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.records.arrays import Integers
 from core.records.cached import cached_property
+from core.records.operation import Operation
 
 
 class Level(IntEnum):
@@ -20,18 +21,6 @@ class Level(IntEnum):
     PIXEL = 3
     """One row of the trace."""
     OPERATION = 4
-
-
-@dataclass(frozen=True)
-class Operation:
-    """One thing that a row does."""
-
-    name: str
-    """Key of its sentence and formula, within the kind of its row."""
-    label: str
-    """Label of its line in the listing."""
-    sets: tuple[str, ...] = ()
-    """Variables that it gives a value."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ from core.raster.lines.slopes import line_slopes
 from core.raster.lines.wireframe import LineFragments
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats, Integers
+from core.records.primitives import interpolation_form
 from core.settings import Settings
 from core.stages.geometry import Geometry
 
@@ -19,7 +20,7 @@ def texture_slopes(
     ``None`` where no texture is looked up, or the texture filter does not ask for them.
     """
     interpolation = settings.interpolation
-    if isinstance(fragments, LineFragments) and interpolation != "flat":
+    if isinstance(fragments, LineFragments) and interpolation_form(interpolation) != "flat":
         if not _asks_for_slopes(geometry, settings):
             return None
         assert geometry.outlines is not None

@@ -5,7 +5,8 @@ import numpy as np
 from core.raster.binning import block_verdict
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 

@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from core.framebuffer.blending import additive_pixel, over_pixel
 from core.framebuffer.stacks import stack_fragments
 from core.methods import table
 from core.raster.lines.intensities import intensities_of, weigh_alpha, weighed_color
+from core.records.arrays import Floats
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.stages.blend_choice import blend_choice
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -21,7 +22,8 @@ def trace_blend(source: TraceSource) -> StageTrace:
     shaded = source.surface.color[passes]
     colors, intensity = weigh_alpha(shaded, fragments), intensities_of(fragments)
     mode, _ = blend_choice(source.settings)
-    rule = table.get("blend", mode).function
+    method = table.get("blend", mode)
+    rule = method.function
 
     # The colours before and after, one layer after another.
     before, after = np.empty((2, len(colors), 4), np.float32)
@@ -31,20 +33,8 @@ def trace_blend(source: TraceSource) -> StageTrace:
         before[fragment] = there[:count]
         after[fragment] = there[:count] = rule(colors.take(fragment, axis=0), there[:count])
     kind = np.zeros(len(fragments), np.int64)
-    operations = {
-        "opaque": (Operation("write", "store", ("source", "before", "after")),),
-        "over": (
-            Operation("source", "color", ("source", "before")),
-            Operation("color", "color", ("after",)),
-            Operation("write", "store", ("after",)),
-        ),
-        "additive": (
-            Operation("source", "color", ("source", "before")),
-            Operation("color", "color", ("after",)),
-            Operation("write", "store", ("after",)),
-        ),
-    }
-    name, weighed, listings = mode, {}, {"over": listing(over_pixel), "additive": listing(additive_pixel)}
+    name, weighed, operations = mode, dict[str, Floats](), dict(method.operations)
+    listings = {} if method.listing is None else {mode: listing(method.listing)}
     if intensity is not None:
         # The fragment of a line is weighed before it is blended.
         name, weighed = f"line-{mode}", {"color": shaded, "intensity": intensity}

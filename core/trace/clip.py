@@ -7,7 +7,8 @@ from core.geometry.polygon_clipping.methods import PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
 from core.methods import table
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.clip_divide import with_division
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels

@@ -6,7 +6,7 @@ from core.geometry.culling import PLANES
 from core.geometry.polygon_clipping.after_divide import divide_corner
 from core.records.arrays import Integers
 from core.records.listing import listing
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace

@@ -5,7 +5,8 @@ import numpy as np
 from core.geometry.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
 from core.raster.edges.snapping import place_corners
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 

@@ -6,7 +6,8 @@ from core.framebuffer.depth import depth_test
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.records.arrays import Flags, Integers
 from core.records.listing import Listing, listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
 from core.trace.depth_values import value_columns, value_constants, value_listings, value_operations
 from core.trace.rays import trace_rays

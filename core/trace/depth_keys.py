@@ -7,7 +7,7 @@ from core.framebuffer.packed_keys import NUMBER_BITS
 from core.framebuffer.stacks import stack_fragments
 from core.raster.lines.wireframe import LineFragments
 from core.records.arrays import Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.trace.source import TraceSource
 
 _KEY = (

@@ -8,7 +8,7 @@ import numpy as np
 from core.methods import table
 from core.raster.lines.wireframe import LineFragments, line_parameter
 from core.records.listing import Listing, listing
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.stages.fragment_depth import fragment_quantity, logarithm_range, outlines_of, reversed_ends
 from core.trace.source import TraceSource
 

@@ -7,7 +7,8 @@ from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
@@ -34,8 +35,8 @@ def trace_edges(source: TraceSource) -> StageTrace:
     index = np.array([0, 1, 2, 0, 0, 1, 2])[place]
     left_alone = KINDS.index("rounded" if numbers.corner_kind == "rounded" else "homogeneous")
     corner_kind = np.where(corners.is_projected[primitive, index], KINDS.index("snapped"), left_alone)
-    edge_kind = KINDS.index("inverse-edge" if numbers.name == "inverse" else "edge")
-    area_kind = KINDS.index("determinant" if numbers.name == "inverse" else "orientation")
+    edge_kind = KINDS.index("inverse-edge" if numbers.divides else "edge")
+    area_kind = KINDS.index("determinant" if numbers.divides else "orientation")
     kind = np.where(place < 3, corner_kind, np.where(place == 3, area_kind, edge_kind))
     following, last = (index + 1) % 3, (index + 2) % 3
     from_corner, to_corner = corners.is_projected[primitive, following], corners.is_projected[primitive, last]

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from core.records.arrays import Integers
 from core.records.listing import Listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.stage_trace import StageTrace, no_pixels
 
 

@@ -1,15 +1,13 @@
 """Trace of attribute interpolation: weights and values of every covered pixel."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
-from core.fragments.corrected_affine import interpolate_corrected_at, place_anchors
-from core.fragments.interpolation import (
-    interpolate_affine_at,
-    interpolate_at,
-    numerators,
-    perspective,
-    take_provoking_value,
-)
+from core.fragments.corrected_affine import place_anchors
+from core.fragments.interpolation import numerators, perspective
+from core.methods import table
 from core.raster.lines.wireframe import (
     LineFragments,
     interpolate_affine_along,
@@ -20,43 +18,28 @@ from core.raster.lines.wireframe import (
 )
 from core.records.arrays import Floats
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.primitives import interpolation_form
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 
-LISTINGS = {
-    "perspective": interpolate_at,
-    "affine": interpolate_affine_at,
-    "affine-n": interpolate_corrected_at,
-    "flat": take_provoking_value,
-    "line-perspective": interpolate_along,
-    "line-affine": interpolate_affine_along,
-}
-SUMMED = (
-    Operation("numerators", "numerators", ("numerators",)),
-    Operation("total", "total", ("total", "inverse_w")),
-    Operation("weights", "weights", ("weights",)),
-)
-OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "perspective": SUMMED,
-    "affine": SUMMED,
-    "affine-n": (
-        Operation("row", "row", ("row_ends",)),
-        Operation("anchors", "anchors", ("grid", "anchor_x")),
-        Operation("fraction", "fraction", ("fraction",)),
-        Operation("corrected", "corrected", ("anchor_weights",)),
-        Operation("weights", "weights", ("inverse_w", "weights")),
-    ),
-    "flat": (Operation("weights", "weights", ("weights",)),),
+ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
     "line-perspective": (
-        Operation("parts", "parts", ("t", "end_w", "parts")),
-        Operation("total", "total", ("total", "inverse_w")),
-        Operation("weight", "weight", ("s", "weights")),
+        interpolate_along,
+        (
+            Operation("parts", "parts", ("t", "end_w", "parts")),
+            Operation("total", "total", ("total", "inverse_w")),
+            Operation("weight", "weight", ("s", "weights")),
+        ),
     ),
-    "line-affine": (Operation("weight", "weight", ("t", "s", "weights")),),
+    "line-affine": (
+        interpolate_affine_along,
+        (Operation("weight", "weight", ("t", "s", "weights")),),
+    ),
 }
-"""Kind of row to what it does before the values: over areas, and along the lines of a wireframe."""
+"""Kind of row along the lines of a wireframe to its listing and to what it does before the values."""
 
 
 def trace_interpolate(source: TraceSource) -> StageTrace:
@@ -70,10 +53,13 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
     triangle = source.triangle_of_fragment
     kinds = (mode, f"line-{_along(mode)}") if along_lines else (mode,)
+    method = table.get("interpolation", mode)
+    operations = {**method.operations, **{kind: done for kind, (_, done) in ALONG_LINES.items()}}
+    listings = {mode: method.listing, **{kind: made for kind, (made, _) in ALONG_LINES.items()}}
     steps = Steps(
         kinds=kinds,
         kind=rows.kind,
-        operations={kind: (*OPERATIONS[kind], *values_of_layout) for kind in kinds},
+        operations={kind: (*operations[kind], *values_of_layout) for kind in kinds},
         triangle_ends=ends_of(triangle),
         group_ends=rows.group_ends,
     )
@@ -84,7 +70,7 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
         columns={**rows.columns, **of_layout},
         triangle=triangle,
         pixel=rows.pixel,
-        listings={kind: listing(LISTINGS[kind]) for kind in kinds},
+        listings={kind: listing(made) for kind in kinds if (made := listings[kind])},
         marks=rows.marks,
         buffers=_buffers(source),
         extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
@@ -93,7 +79,10 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
 
 def _is_along_lines(source: TraceSource) -> bool:
     """Return whether values are interpolated along the lines of a wireframe."""
-    return isinstance(source.fragments, LineFragments) and source.settings.interpolation != "flat"
+    return (
+        isinstance(source.fragments, LineFragments)
+        and interpolation_form(source.settings.interpolation) != "flat"
+    )
 
 
 def _rows(source: TraceSource) -> StageRows:
@@ -121,7 +110,9 @@ def _rows(source: TraceSource) -> StageRows:
     if along_lines:
         columns |= _along_lines(source)
     else:
-        is_corrected = source.settings.interpolation == "affine-n"
+        is_corrected = (
+            "correction_interval" in table.get("interpolation", source.settings.interpolation).takes
+        )
         columns |= _between_anchors(source) if is_corrected else _over_areas(source)
     return StageRows(
         columns,
@@ -134,7 +125,7 @@ def _rows(source: TraceSource) -> StageRows:
 
 def _along(interpolation: str) -> str:
     """Return how values are interpolated along the lines of a wireframe: there are no rows to be corrected along."""
-    return "affine" if interpolation == "affine" else "perspective"
+    return "affine" if interpolation_form(interpolation) == "affine" else "perspective"
 
 
 def _between_anchors(source: TraceSource) -> dict[str, np.ndarray]:
@@ -163,7 +154,7 @@ def _over_areas(source: TraceSource) -> dict[str, np.ndarray]:
     """Return the numbers from which the weights of fragments (F,) are made."""
     planes, primitive = source.geometry.planes, source.fragments.primitive
     n = np.stack(numerators(planes, primitive, *source.centers), axis=1)
-    if source.settings.interpolation == "affine":
+    if interpolation_form(source.settings.interpolation) == "affine":
         n = n * planes.w[primitive]
     return {"numerators": n, "total": n[:, 0] + n[:, 1] + n[:, 2]}
 

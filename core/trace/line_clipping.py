@@ -7,10 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.line_clipping.cohen_sutherland import cohen_sutherland_listing
-from core.geometry.line_clipping.cyrus_beck import cyrus_beck_listing
-from core.geometry.line_clipping.exact import exact_listing
-from core.geometry.line_clipping.liang_barsky import liang_barsky_listing
 from core.geometry.line_clipping.records import (
     ENTER,
     OUTCODE_CASES,
@@ -18,21 +14,13 @@ from core.geometry.line_clipping.records import (
     OutcodeRows,
     ParameterRows,
 )
+from core.methods import table
 from core.records.listing import listing
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.stages.clipped_outlines import OutlineClip
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace
-
-LISTINGS = {
-    "cohen-sutherland": cohen_sutherland_listing,
-    "liang-barsky": liang_barsky_listing,
-    "cyrus-beck": cyrus_beck_listing,
-    "cyrus-beck-lecture": cyrus_beck_listing,
-    "exact": exact_listing,
-}
-"""The scalar listing of each method that does something."""
 
 _ROOM = Operation("room", "edges", ("border", "approach", "room"))
 _CODES = Operation("codes", "outcodes", ("code_start", "code_end"))
@@ -74,6 +62,8 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
     prefix, cases = (
         ("outcodes", OUTCODE_CASES) if isinstance(rows, OutcodeRows) else ("clip", PARAMETER_CASES)
     )
+    algorithm = table.get("line_clipping", source.settings.line_clipping).listing
+    assert algorithm is not None, f"{source.settings.line_clipping} has no listing"
     kinds = tuple(f"{prefix}-{case}" for case in cases)
     pixel_segment = clip.kept[found.columns["segment"]]
     segment, whole = rows.segment, clip.whole
@@ -94,7 +84,7 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         kind=rows.case,
         operations={kind: CLIP_OPERATIONS[kind] for kind in kinds},
         columns=columns,
-        listings=dict.fromkeys(kinds, listing(LISTINGS[source.settings.line_clipping])),
+        listings=dict.fromkeys(kinds, listing(algorithm)),
     )
     # Edges are numbered among all of them, not among those that are left.
     numbered = replace(

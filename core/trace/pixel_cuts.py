@@ -24,7 +24,7 @@ from core.antialiasing.pixel_pieces import (
 from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import listing
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
 from core.trace.stage_trace import BufferTrack, StageTrace
 

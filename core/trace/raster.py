@@ -9,6 +9,7 @@ from core.raster.edges.edge_functions import covers
 from core.raster.fills.incremental import step_covers
 from core.raster.fills.scanline import span
 from core.raster.fills.scanline_lecture import draw_triangle
+from core.raster.fills.traits import fill_traits
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder, order_of_spans
 from core.records.arrays import Flags
@@ -40,7 +41,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         "value_layout": geometry.edges.numbers.value_layout,
     }
     order: SpanOrder | None = None
-    if fill == "spans":
+    if fill_traits(fill).has_lanes:
         # Where a triangle's lane stands among the others is known only of all of them.
         order = _order(source)
         table = rows_of_spans(source, order)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.records.arrays import Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from core.framebuffer.depth import depth_test
 from core.records.listing import Listing, listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, RayTests, hit_is_nearer

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.antialiasing.exact_area import DrawnLayer, piece_painter, piece_sum
-from core.antialiasing.sample_counts import positions_of
+from core.antialiasing.sample_counts import positions_of, sample_traits
 from core.antialiasing.sampled import grown, inner_of
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
@@ -13,7 +13,9 @@ from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.frame import STAGES, StageCount
 from core.records.listing import Listing, listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
+from core.settings import Settings
 from core.stages.vertices import process_geometry
 from core.trace.blend import trace_blend
 from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts
@@ -54,14 +56,13 @@ class Parts(NamedTuple):
 
 def trace_resolve(source: TraceSource) -> StageTrace:
     """Return one row for every pixel of the raster: its samples to a colour, linear colour to sRGB bytes."""
-    antialiasing = source.settings.antialiasing
     parts, cuts, kind, method = None, None, "encode", ""
-    if antialiasing == "none":
+    if source.settings.antialiasing == Settings.antialiasing:
         blend = trace_blend(source)
         linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)
-    elif antialiasing == "area":
+    elif sample_traits(source.settings).has_areas:
         parts, cuts = _pieces(source)
-        kind, method = "areas", "antialiasing=area"
+        kind, method = "areas", f"antialiasing={source.settings.antialiasing}"
         linear = _piece_sums(parts)
     else:
         parts, kind = _samples(source), "average"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.raster.fills.traits import fill_traits
 from core.raster.pixel_runs import EVALUATED
 from core.records.arrays import Floats, Integers
 from core.trace.raster_rows import FILL_OPERATIONS
@@ -48,7 +49,7 @@ def rows_of_runs(source: TraceSource) -> RowTable:
     test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
     order = np.argsort(run, kind="stable")
     run, test = run[order], test[order]
-    span_kind = KIND["line" if source.fill == "scanline-lecture" else "span"]
+    span_kind = KIND[fill_traits(source.fill).span_row]
     pixel_kind = np.where(
         runs.accepted[run], KIND["accept"], PIXEL_KINDS[np.append(tests.added, EVALUATED)[test]]
     )

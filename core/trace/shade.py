@@ -1,31 +1,25 @@
 """Trace of texturing and shading: texels, their mix, every light, and the colour of every fragment."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
-from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
 from core.fragments.shading import shaded_color
-from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
+from core.fragments.textures import uses_mipmaps
+from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.listing import Listing, listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
 from core.stages.vertex_light import material_of, viewpoint
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
-
-TEXTURE_LISTINGS: dict[str, Callable[..., Any]] = {
-    "nearest": nearest_color,
-    "bilinear": bilinear_color,
-    "trilinear": mipmap_color,
-    "mipmap-nearest": nearest_mipmap_color,
-}
 
 KINDS = ("plain", "textured", "lit", "textured-lit")
 """Kinds of rows: what has a texture stands at odd numbers."""
@@ -172,7 +166,9 @@ def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Opera
 def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     """Return the texture's listing, the light's and the product's, by kind of row and operation."""
     texture_filter = source.settings.texture_filter
-    texture, product = listing(TEXTURE_LISTINGS[texture_filter]), listing(shaded_color)
+    of_texture = table.get("texture_filter", texture_filter).listing
+    assert of_texture is not None, f"{texture_filter} has no listing"
+    texture, product = listing(of_texture), listing(shaded_color)
     light = listing(blinn_phong) if has_normals else product
     of_operation = {
         "normal": light,

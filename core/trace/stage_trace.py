@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from core.records.arrays import Flags, Integers, read_only
 from core.records.cached import cached_property
 from core.records.listing import Listing
-from core.records.steps import Operation, Steps
+from core.records.operation import Operation
+from core.records.steps import Steps
 
 Value = float | int | bool | str | NDArray[Any]
 MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 
 from core.fragments.mipmap_samples import LevelSamples, sample_mipmaps
-from core.fragments.textures import sample_texture, uses_mipmaps
+from core.fragments.textures import sample_texture
 from core.fragments.uv_slopes import slope_numerators, slopes_at, slopes_of_one_value
+from core.methods import table
 from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
 from core.raster.lines.wireframe import LineFragments, line_parameter, values_at_ends
 from core.records.arrays import Floats, Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
+from core.records.primitives import interpolation_form
 from core.scene import Texture
 from core.trace.source import TraceSource
 
@@ -26,38 +28,17 @@ SLOPE_LISTINGS: dict[str, Callable[..., Any]] = {
 
 def slope_kind(source: TraceSource) -> str:
     """Return how the slopes of u and v come about: over areas, along lines, or not at all."""
-    if source.settings.interpolation == "flat":
-        return "flat"
+    form = interpolation_form(source.settings.interpolation)
+    if form == "flat":
+        return form
     if not isinstance(source.fragments, LineFragments):
         return "area"
-    return "affine-line" if source.settings.interpolation == "affine" else "line"
+    return "affine-line" if form == "affine" else "line"
 
 
 def texture_operations(texture_filter: str) -> tuple[Operation, ...]:
     """Return what a row does to find the texture's colour."""
-    if uses_mipmaps(texture_filter):
-        near = ("near_position", "near_texels", "near_colors", "near_shares", "near_color")
-        choice = (
-            Operation("slopes", "slopes", ("uv_slopes",)),
-            Operation("lod", "lod", ("lengths", "lod")),
-            Operation("levels", "levels", ("level", "levels", "level_sizes", "level_fraction")),
-        )
-        if texture_filter == "mipmap-nearest":
-            return (*choice, Operation("near", "near", (*near, "texture_color")))
-        far = tuple(name.replace("near", "far") for name in near)
-        return (
-            *choice,
-            Operation("near", "near", near),
-            Operation("far", "far", far),
-            Operation("mix", "color", ("texture_color",)),
-        )
-    return (
-        Operation("position", "position", ("texel_position",)),
-        Operation(
-            "texels", "column" if texture_filter == "nearest" else "columns", ("texels", "texel_colors")
-        ),
-        Operation("filter", "color", ("mix", "shares", "texture_color")),
-    )
+    return table.get("texture_filter", texture_filter).operations["texture"]
 
 
 def sample_columns(
@@ -85,6 +66,7 @@ def _mipmap_columns(
     slopes, settings = source.uv_slopes[:, chosen], source.settings
     read = sample_mipmaps(texture, uv, slopes, settings.texture_filter, settings.wrap)
     choice = read.choice
+    reads_far = any(operation.name == "far" for operation in texture_operations(settings.texture_filter))
     height, width, _ = texture.pixels.shape
     return {
         "texel_position": uv * np.array([width, height]),
@@ -96,7 +78,7 @@ def _mipmap_columns(
         "level_sizes": np.concatenate([read.near.size, read.far.size], axis=1),
         "level_fraction": choice.fraction,
         **_level_columns("near", read.near),
-        **(_level_columns("far", read.far) if settings.texture_filter == "trilinear" else {}),
+        **(_level_columns("far", read.far) if reads_far else {}),
         "texture_color": read.color,
         **_slope_columns(source, chosen),
     }

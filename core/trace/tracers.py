@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from core.antialiasing.sample_counts import sample_traits
+from core.settings import Settings
 from core.trace.binning import trace_bin
 from core.trace.blend import trace_blend
 from core.trace.clip import trace_clip
@@ -39,8 +41,9 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
     Exact areas have their own rows where they are resolved; before, the pixels' centres are followed.
     """
     antialiasing = source.settings.antialiasing
-    if name == "resolve" or antialiasing == "none":
+    if name == "resolve" or antialiasing == Settings.antialiasing:
         return TRACERS[name](source)
-    if antialiasing == "area":
-        return TRACERS[name](replace(source, settings=replace(source.settings, antialiasing="none")))
+    if sample_traits(source.settings).has_areas:
+        at_centers = replace(source.settings, antialiasing=Settings.antialiasing)
+        return TRACERS[name](replace(source, settings=at_centers))
     return trace_samples(source, name, TRACERS[name])

@@ -4,7 +4,8 @@ import numpy as np
 
 from core.geometry.matrices import transform_component
 from core.records.listing import listing
-from core.records.steps import Operation, Steps, ends_of
+from core.records.operation import Operation
+from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 

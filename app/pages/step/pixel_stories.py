@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.window.message_words import sentence_case
-from core.antialiasing.sample_counts import sample_count
+from core.antialiasing.sample_counts import sample_count, sample_traits
 from core.explain.history.pieces import piece_reason, pieces_verdict
 from core.explain.history.samples import of_sample, samples_name, samples_verdict
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
@@ -28,7 +28,7 @@ def story_of(
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
     if sample_count(source.settings) > 1:
         return _story_of_samples(source, column, row, triangle)
-    pieces = pixel_pieces(source, column, row) if source.settings.antialiasing == "area" else None
+    pieces = pixel_pieces(source, column, row) if sample_traits(source.settings).has_areas else None
     if pieces is not None:
         return _story_of_pieces(source, pieces, triangle)
     history = why(source, column, row, triangle)

@@ -32,6 +32,35 @@ FIRST_EDGE = np.array([-1, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0])
 """(16,) int64, the first edge that an outcode names; -1: none."""
 
 
+def cohen_sutherland_listing(
+    x0: float, y0: float, x1: float, y1: float, left: float, bottom: float, right: float, top: float
+) -> tuple[list[list[float]], Listed]:
+    """Listing of Cohen-Sutherland on one segment: the ends that are left (none: nothing is), and the passes."""
+    ends, done = [[x0, y0], [x1, y1]], [0, 0]  #: whole
+    passes: Listed = []
+    while True:
+        codes = [
+            (x < left) | (x > right) << 1 | (y < bottom) << 2 | (y > top) << 3 for x, y in ends
+        ]  #: outcodes
+        if codes[0] | codes[1] == 0:  #: accept
+            return ends, [*passes, (0, 0, -1, -1)]
+        if codes[0] & codes[1] != 0:  #: reject
+            return [], [*passes, (codes[0], codes[1], -1, -1)]
+        end = 0 if codes[0] != 0 else 1  #: end
+        edge = (codes[end] & -codes[end]).bit_length() - 1  #: edge
+        if edge < 2:
+            border = left if edge == 0 else right
+            x, y = border, y0 + (y1 - y0) * ((border - x0) / (x1 - x0))  #: point-x
+        else:
+            border = bottom if edge == 2 else top
+            x, y = x0 + (x1 - x0) * ((border - y0) / (y1 - y0)), border  #: point-y
+        x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x  #: hold
+        y = max(y, bottom) if done[end] & 4 else min(y, top) if done[end] & 8 else y
+        ends[end] = [x, y]  #: move
+        done[end] |= 1 << edge
+        passes.append((codes[0], codes[1], edge, end))
+
+
 @method(
     "line_clipping",
     "cohen-sutherland",
@@ -41,6 +70,7 @@ FIRST_EDGE = np.array([-1, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0])
     breaks_where="segments that cross an edge within rounding of a corner: the rounded new end decides; a clipped "
     "Bresenham line starts at another pixel and may choose others than the unclipped one",
     needs=("rectangle",),
+    listing=cohen_sutherland_listing,
 )
 def cohen_sutherland(segments: Floats, window: ClipWindow) -> ClippedLines:
     """Clip segments (L, 2, 2) by outcodes, an end and an edge at a time.
@@ -120,32 +150,3 @@ def _join(passes: list[OutcodeRows]) -> OutcodeRows:
     columns = [np.concatenate([getattr(row, f.name) for row in passes]) for f in fields(OutcodeRows)]
     order = np.argsort(columns[0], kind="stable")
     return OutcodeRows(*(values[order] for values in columns))
-
-
-def cohen_sutherland_listing(
-    x0: float, y0: float, x1: float, y1: float, left: float, bottom: float, right: float, top: float
-) -> tuple[list[list[float]], Listed]:
-    """Listing of Cohen-Sutherland on one segment: the ends that are left (none: nothing is), and the passes."""
-    ends, done = [[x0, y0], [x1, y1]], [0, 0]  #: whole
-    passes: Listed = []
-    while True:
-        codes = [
-            (x < left) | (x > right) << 1 | (y < bottom) << 2 | (y > top) << 3 for x, y in ends
-        ]  #: outcodes
-        if codes[0] | codes[1] == 0:  #: accept
-            return ends, [*passes, (0, 0, -1, -1)]
-        if codes[0] & codes[1] != 0:  #: reject
-            return [], [*passes, (codes[0], codes[1], -1, -1)]
-        end = 0 if codes[0] != 0 else 1  #: end
-        edge = (codes[end] & -codes[end]).bit_length() - 1  #: edge
-        if edge < 2:
-            border = left if edge == 0 else right
-            x, y = border, y0 + (y1 - y0) * ((border - x0) / (x1 - x0))  #: point-x
-        else:
-            border = bottom if edge == 2 else top
-            x, y = x0 + (x1 - x0) * ((border - y0) / (y1 - y0)), border  #: point-y
-        x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x  #: hold
-        y = max(y, bottom) if done[end] & 4 else min(y, top) if done[end] & 8 else y
-        ends[end] = [x, y]  #: move
-        done[end] |= 1 << edge
-        passes.append((codes[0], codes[1], edge, end))

@@ -24,44 +24,6 @@ Listed = list[tuple[float, float, float, float, float]]
 """N . D, -N . (P0 - P_E), t, t_E and t_L of every edge looked at, from a listing."""
 
 
-@method(
-    "line_clipping",
-    "cyrus-beck",
-    "Cyrus-Beck",
-    source="Cyrus and Beck 1978; Jubair, Cyrus-Beck Parametric Line Clipping Algorithm",
-    exact_for="segments well inside or outside any convex window; elsewhere ends within 4 ulp of the largest "
-    "coordinate unless the segment is nearly parallel to the edge",
-    breaks_where="new ends may lie beside the edge by rounding; segments nearly parallel to a slanted edge; a clipped "
-    "Bresenham line may choose other pixels than the unclipped one",
-)
-def cyrus_beck(segments: Floats, window: ClipWindow) -> ClippedLines:
-    """Clip segments (L, 2, 2) by the table of entries (PE) and exits (PL)."""
-    return _clip(segments, window, None)
-
-
-@method(
-    "line_clipping",
-    "cyrus-beck-lecture",
-    "Cyrus-Beck, as printed",
-    source="Jubair, Cyrus-Beck Algorithm",
-    exact_for="segments that are parallel to no edge",
-    breaks_where="a segment parallel to an edge and outside of it is kept",
-)
-def cyrus_beck_lecture(segments: Floats, window: ClipWindow) -> ClippedLines:
-    """Clip segments (L, 2, 2) as the lecture prints it: parallel edges are ignored, points are clipped as points."""
-    ignores: Flags = (segments[:, 0] != segments[:, 1]).any(axis=1)
-    return _clip(segments, window, ignores)
-
-
-def _clip(segments: Floats, window: ClipWindow, ignores: Flags | None) -> ClippedLines:
-    (x, y), (dx, dy) = segments[:, 0].T, (segments[:, 1] - segments[:, 0]).T
-    (nx, ny), (ex, ey) = window.normals.T[..., None], window.points.T[..., None]
-    along = nx * dx + ny * dy
-    room = -(nx * (x - ex) + ny * (y - ey))
-    walk = walk_edges(along, room, stops_early=False, ignores=ignores)
-    return clipped_lines(segments, window, walk, points_at(segments, walk))
-
-
 def cyrus_beck_listing(
     p0: Floats, p1: Floats, normals: Floats, points: Floats, ignores_parallel: bool
 ) -> tuple[list[Floats], Listed]:
@@ -92,3 +54,43 @@ def cyrus_beck_listing(
     first = p0 + t_e * d if entry >= 0 else p0
     second = p0 + t_l * d if exit >= 0 else p1  #: ends
     return [np.asarray(first), np.asarray(second)], seen
+
+
+@method(
+    "line_clipping",
+    "cyrus-beck",
+    "Cyrus-Beck",
+    source="Cyrus and Beck 1978; Jubair, Cyrus-Beck Parametric Line Clipping Algorithm",
+    exact_for="segments well inside or outside any convex window; elsewhere ends within 4 ulp of the largest "
+    "coordinate unless the segment is nearly parallel to the edge",
+    breaks_where="new ends may lie beside the edge by rounding; segments nearly parallel to a slanted edge; a clipped "
+    "Bresenham line may choose other pixels than the unclipped one",
+    listing=cyrus_beck_listing,
+)
+def cyrus_beck(segments: Floats, window: ClipWindow) -> ClippedLines:
+    """Clip segments (L, 2, 2) by the table of entries (PE) and exits (PL)."""
+    return _clip(segments, window, None)
+
+
+@method(
+    "line_clipping",
+    "cyrus-beck-lecture",
+    "Cyrus-Beck, as printed",
+    source="Jubair, Cyrus-Beck Algorithm",
+    exact_for="segments that are parallel to no edge",
+    breaks_where="a segment parallel to an edge and outside of it is kept",
+    listing=cyrus_beck_listing,
+)
+def cyrus_beck_lecture(segments: Floats, window: ClipWindow) -> ClippedLines:
+    """Clip segments (L, 2, 2) as the lecture prints it: parallel edges are ignored, points are clipped as points."""
+    ignores: Flags = (segments[:, 0] != segments[:, 1]).any(axis=1)
+    return _clip(segments, window, ignores)
+
+
+def _clip(segments: Floats, window: ClipWindow, ignores: Flags | None) -> ClippedLines:
+    (x, y), (dx, dy) = segments[:, 0].T, (segments[:, 1] - segments[:, 0]).T
+    (nx, ny), (ex, ey) = window.normals.T[..., None], window.points.T[..., None]
+    along = nx * dx + ny * dy
+    room = -(nx * (x - ex) + ny * (y - ey))
+    walk = walk_edges(along, room, stops_early=False, ignores=ignores)
+    return clipped_lines(segments, window, walk, points_at(segments, walk))

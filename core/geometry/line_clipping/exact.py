@@ -35,6 +35,40 @@ Listed = list[tuple[float, ...]]
 """N . D, -N . (P0 - P_E), t, t_E and t_L of every edge looked at, rounded, from a listing."""
 
 
+def exact_listing(
+    p0: list[float], p1: list[float], normals: list[list[Fraction]], points: list[list[float]]
+) -> tuple[list[list[float]], Listed]:
+    """Listing of exact clipping on one segment: the ends that are left (none: nothing is), and the numbers."""
+    x, y, x1, y1 = (Fraction(value) for value in (*p0, *p1))  #: whole
+    dx, dy = x1 - x, y1 - y
+    t_e, t_l, entry, exit = Fraction(0), Fraction(1), -1, -1
+    seen: Listed = []
+    for k, ((nx, ny), (ex, ey)) in enumerate(zip(normals, points, strict=True)):
+        t = None
+        along = nx * dx + ny * dy  #: along
+        room = -(nx * (x - Fraction(ex)) + ny * (y - Fraction(ey)))  #: edges
+        if along == 0:
+            is_outside = room < 0  #: parallel
+        else:
+            is_outside = False
+            t = room / along  #: t
+            if along < 0 and t > t_e:
+                t_e, entry = t, k  #: enter
+            if along > 0 and t < t_l:
+                t_l, exit = t, k  #: leave
+        crossing = math.nan if t is None else rounded_quotient(*t.as_integer_ratio())
+        seen.append((float(along), float(room), crossing, float(t_e), float(t_l)))
+        if is_outside:
+            return [], seen  #: outside
+        if t_e > t_l:
+            return [], seen  #: empty
+    ends = [list(p0), list(p1)]
+    for end, (at, k) in enumerate([(t_e, entry), (t_l, exit)]):
+        if k >= 0:
+            ends[end] = [float(x + at * dx), float(y + at * dy)]  #: ends
+    return ends, seen
+
+
 @method(
     "line_clipping",
     "exact",
@@ -42,6 +76,7 @@ Listed = list[tuple[float, ...]]
     source="Yap 1997, exact geometric computation; Cyrus and Beck 1978",
     exact_for="every segment and every convex window, ties and corners too; new ends are correctly rounded",
     breaks_where="a clipped Bresenham line starts at another pixel and may choose others than the unclipped one",
+    listing=exact_listing,
 )
 def exact_clipping(segments: Floats, window: ClipWindow) -> ClippedLines:
     """Clip segments (L, 2, 2) with decisions by exact signs; touching the window in one point keeps that point."""
@@ -173,37 +208,3 @@ def _chosen(
 ) -> tuple[Wholes, Wholes]:
     """Return the fractions ``first`` where ``flags`` (L,) hold, else ``second``."""
     return np.where(flags, first[0], second[0]), np.where(flags, first[1], second[1])
-
-
-def exact_listing(
-    p0: list[float], p1: list[float], normals: list[list[Fraction]], points: list[list[float]]
-) -> tuple[list[list[float]], Listed]:
-    """Listing of exact clipping on one segment: the ends that are left (none: nothing is), and the numbers."""
-    x, y, x1, y1 = (Fraction(value) for value in (*p0, *p1))  #: whole
-    dx, dy = x1 - x, y1 - y
-    t_e, t_l, entry, exit = Fraction(0), Fraction(1), -1, -1
-    seen: Listed = []
-    for k, ((nx, ny), (ex, ey)) in enumerate(zip(normals, points, strict=True)):
-        t = None
-        along = nx * dx + ny * dy  #: along
-        room = -(nx * (x - Fraction(ex)) + ny * (y - Fraction(ey)))  #: edges
-        if along == 0:
-            is_outside = room < 0  #: parallel
-        else:
-            is_outside = False
-            t = room / along  #: t
-            if along < 0 and t > t_e:
-                t_e, entry = t, k  #: enter
-            if along > 0 and t < t_l:
-                t_l, exit = t, k  #: leave
-        crossing = math.nan if t is None else rounded_quotient(*t.as_integer_ratio())
-        seen.append((float(along), float(room), crossing, float(t_e), float(t_l)))
-        if is_outside:
-            return [], seen  #: outside
-        if t_e > t_l:
-            return [], seen  #: empty
-    ends = [list(p0), list(p1)]
-    for end, (at, k) in enumerate([(t_e, entry), (t_l, exit)]):
-        if k >= 0:
-            ends[end] = [float(x + at * dx), float(y + at * dy)]  #: ends
-    return ends, seen

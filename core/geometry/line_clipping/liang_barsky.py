@@ -21,40 +21,6 @@ Listed = list[tuple[float, float, float, float, float]]
 """p, q, t, t_enter and t_leave of every edge looked at, from a listing."""
 
 
-@method(
-    "line_clipping",
-    "liang-barsky",
-    "Liang-Barsky",
-    source="Liang and Barsky 1984; LMU 2020, Liang-Barsky Algorithm",
-    exact_for="segments wholly inside or outside; elsewhere ends within 4 ulp of the largest coordinate",
-    breaks_where="segments that pass a corner within rounding; a clipped Bresenham line starts at another pixel and "
-    "may choose others than the unclipped one",
-    needs=("rectangle",),
-)
-def liang_barsky(segments: Floats, window: ClipWindow) -> ClippedLines:
-    """Clip segments (L, 2, 2) by p, q and t; one that would leave before it enters is given up at once.
-
-    Notes
-    -----
-    The coordinate of the edge that cuts is taken from the edge, not from P(t): the new end lies on it exactly.
-    """
-    need_rectangle(window, "liang-barsky")
-    left, bottom, right, top = window.borders
-    (x0, y0), (x1, y1) = segments[:, 0].T, segments[:, 1].T
-    dx, dy = x1 - x0, y1 - y0
-    p = np.stack([-dx, dx, -dy, dy])
-    q = np.stack([x0 - left, right - x0, y0 - bottom, top - y0])
-    walk = walk_edges(p, q, stops_early=True)
-    return clipped_lines(segments, window, walk, on_borders(points_at(segments, walk), walk.cut_by, window))
-
-
-def on_borders(ends: Floats, cut_by: np.ndarray, window: ClipWindow) -> Floats:
-    """Return ends (L, 2, 2) with the coordinate of the edge that cut each, ``cut_by`` (L, 2), set to that edge's."""
-    axis = np.array([0, 0, 1, 1, -1])[cut_by]
-    border = np.array([*window.points[[0, 1], 0], *window.points[[2, 3], 1], np.nan])[cut_by]
-    return np.where(axis[..., None] == np.arange(2), border[..., None], ends)
-
-
 def liang_barsky_listing(
     x0: float, y0: float, x1: float, y1: float, left: float, bottom: float, right: float, top: float
 ) -> tuple[list[list[float]], Listed]:
@@ -83,3 +49,38 @@ def liang_barsky_listing(
             ends[end] = [x0 + t * dx, y0 + t * dy]  #: ends
             ends[end][k // 2] = [left, right, bottom, top][k]
     return ends, seen
+
+
+@method(
+    "line_clipping",
+    "liang-barsky",
+    "Liang-Barsky",
+    source="Liang and Barsky 1984; LMU 2020, Liang-Barsky Algorithm",
+    exact_for="segments wholly inside or outside; elsewhere ends within 4 ulp of the largest coordinate",
+    breaks_where="segments that pass a corner within rounding; a clipped Bresenham line starts at another pixel and "
+    "may choose others than the unclipped one",
+    needs=("rectangle",),
+    listing=liang_barsky_listing,
+)
+def liang_barsky(segments: Floats, window: ClipWindow) -> ClippedLines:
+    """Clip segments (L, 2, 2) by p, q and t; one that would leave before it enters is given up at once.
+
+    Notes
+    -----
+    The coordinate of the edge that cuts is taken from the edge, not from P(t): the new end lies on it exactly.
+    """
+    need_rectangle(window, "liang-barsky")
+    left, bottom, right, top = window.borders
+    (x0, y0), (x1, y1) = segments[:, 0].T, segments[:, 1].T
+    dx, dy = x1 - x0, y1 - y0
+    p = np.stack([-dx, dx, -dy, dy])
+    q = np.stack([x0 - left, right - x0, y0 - bottom, top - y0])
+    walk = walk_edges(p, q, stops_early=True)
+    return clipped_lines(segments, window, walk, on_borders(points_at(segments, walk), walk.cut_by, window))
+
+
+def on_borders(ends: Floats, cut_by: np.ndarray, window: ClipWindow) -> Floats:
+    """Return ends (L, 2, 2) with the coordinate of the edge that cut each, ``cut_by`` (L, 2), set to that edge's."""
+    axis = np.array([0, 0, 1, 1, -1])[cut_by]
+    border = np.array([*window.points[[0, 1], 0], *window.points[[2, 3], 1], np.nan])[cut_by]
+    return np.where(axis[..., None] == np.arange(2), border[..., None], ends)

@@ -13,6 +13,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.fills.traits import FillTraits
 from core.raster.pixel_runs import Boxes, Raster, Runs
 from core.records.arrays import Flags, Floats, Integers
 
@@ -25,6 +26,61 @@ def round_half_up(value: Floats) -> Floats:
     return np.asarray(np.floor(value + 0.5))
 
 
+def draw_triangle(
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+) -> list[tuple[int, float, float]]:
+    """Listing as printed, corners at whole pixels: returns row, x1, x2 of every drawn line."""
+    for order in SORTED:  #: sort
+        corners = [(v1, v2, v3)[k] for k in order]
+        if corners[0][1] > corners[1][1] > corners[2][1]:
+            v1, v2, v3 = corners
+            break
+    if v2[1] == v3[1]:  #: flat-bottom
+        return draw_bottom(v1, v2, v3)
+    if v1[1] == v2[1]:  #: flat-top
+        return draw_top(v1, v2, v3)
+    if v3[1] == v1[1]:  #: division-by-zero
+        return []
+    v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
+    return draw_top(v2, v4, v1) + draw_bottom(v3, v4, v2)  #: draw
+
+
+def draw_bottom(
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+) -> list[tuple[int, float, float]]:
+    """Listing of the part below a level side."""
+    height2, height3 = v2[1] - v1[1], v3[1] - v1[1]
+    slope1 = (v2[0] - v1[0]) / height2 if height2 else 0.0  #: slope1
+    slope2 = (v3[0] - v1[0]) / height3 if height3 else 0.0  #: slope2
+    x1 = x2 = v1[0]
+    lines = []
+    row = v1[1]
+    while row <= v2[1]:  #: rows
+        lines.append((int(row), x1, x2))  #: line
+        x1 += slope1  #: next1
+        x2 += slope2  #: next2
+        row += 1
+    return lines
+
+
+def draw_top(
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+) -> list[tuple[int, float, float]]:
+    """Listing of the part above a level side."""
+    height1, height2 = v3[1] - v1[1], v3[1] - v2[1]
+    slope1 = (v3[0] - v1[0]) / height1 if height1 else 0.0  #: slope1
+    slope2 = (v3[0] - v2[0]) / height2 if height2 else 0.0  #: slope2
+    x1 = x2 = v3[0]
+    lines = []
+    row = v3[1]
+    while row > v1[1]:  #: rows
+        lines.append((int(row), x1, x2))  #: line
+        x1 -= slope1  #: next1
+        x2 -= slope2  #: next2
+        row -= 1
+    return lines
+
+
 @method(
     "fill",
     "scanline-lecture",
@@ -33,6 +89,8 @@ def round_half_up(value: Floats) -> Floats:
     exact_for="nothing: rounded corners",
     breaks_where="shared edges (both drawn), flat sides (lost), level first and last corner (division by zero)",
     needs=("projected",),
+    listing=draw_triangle,
+    traits=FillTraits(span_row="line"),
 )
 def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the spans that the printed program draws, limited to the raster.
@@ -136,58 +194,3 @@ def _part(
         np.concatenate(rights),
         np.concatenate(steps),
     )
-
-
-def draw_triangle(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
-) -> list[tuple[int, float, float]]:
-    """Listing as printed, corners at whole pixels: returns row, x1, x2 of every drawn line."""
-    for order in SORTED:  #: sort
-        corners = [(v1, v2, v3)[k] for k in order]
-        if corners[0][1] > corners[1][1] > corners[2][1]:
-            v1, v2, v3 = corners
-            break
-    if v2[1] == v3[1]:  #: flat-bottom
-        return draw_bottom(v1, v2, v3)
-    if v1[1] == v2[1]:  #: flat-top
-        return draw_top(v1, v2, v3)
-    if v3[1] == v1[1]:  #: division-by-zero
-        return []
-    v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
-    return draw_top(v2, v4, v1) + draw_bottom(v3, v4, v2)  #: draw
-
-
-def draw_bottom(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
-) -> list[tuple[int, float, float]]:
-    """Listing of the part below a level side."""
-    height2, height3 = v2[1] - v1[1], v3[1] - v1[1]
-    slope1 = (v2[0] - v1[0]) / height2 if height2 else 0.0  #: slope1
-    slope2 = (v3[0] - v1[0]) / height3 if height3 else 0.0  #: slope2
-    x1 = x2 = v1[0]
-    lines = []
-    row = v1[1]
-    while row <= v2[1]:  #: rows
-        lines.append((int(row), x1, x2))  #: line
-        x1 += slope1  #: next1
-        x2 += slope2  #: next2
-        row += 1
-    return lines
-
-
-def draw_top(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
-) -> list[tuple[int, float, float]]:
-    """Listing of the part above a level side."""
-    height1, height2 = v3[1] - v1[1], v3[1] - v2[1]
-    slope1 = (v3[0] - v1[0]) / height1 if height1 else 0.0  #: slope1
-    slope2 = (v3[0] - v2[0]) / height2 if height2 else 0.0  #: slope2
-    x1 = x2 = v3[0]
-    lines = []
-    row = v3[1]
-    while row > v1[1]:  #: rows
-        lines.append((int(row), x1, x2))  #: line
-        x1 -= slope1  #: next1
-        x2 -= slope2  #: next2
-        row -= 1
-    return lines

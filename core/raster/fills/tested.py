@@ -15,6 +15,7 @@ from core.methods import method, table
 from core.raster.binning import bound, one_level, runs_of_blocks, two_levels
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.incremental import step_to
+from core.raster.fills.traits import FillTraits
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
 
@@ -66,6 +67,7 @@ def blocks(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) 
     "Brute force",
     source="Zwicker 2016, Pixel inside/outside test; Jubair, Triangle Rasterization 3/7",
     exact_for="every triangle",
+    traits=FillTraits(looks_everywhere=True),
 )
 def brute_force(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Test every pixel of the image for every triangle that has an area."""

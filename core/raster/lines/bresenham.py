@@ -30,7 +30,7 @@ from core.raster.lines.records import (
 from core.raster.lines.traits import OCTANT, PLOT, Coefficients, LineTraits, line_rows
 from core.raster.spans.lines import find_line_pixels
 from core.records.arrays import Flags, Floats, Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
 
 Listed = list[tuple[int, int, float]]
 """Column, row and decision of each pixel, from a listing."""

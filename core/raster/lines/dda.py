@@ -39,7 +39,7 @@ from core.raster.lines.traits import (
     line_rows,
 )
 from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.steps import Operation
+from core.records.operation import Operation
 
 BATCH = 2**20
 """Sums held at one time while the DDA runs along lines that begin far outside the raster."""

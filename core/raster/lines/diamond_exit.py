@@ -25,7 +25,7 @@ from core.methods import method
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
 from core.raster.lines.traits import OCTANT, PLOT, line_rows
 from core.records.arrays import Flags, Floats, Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
 
 SUBPIXELS = 256
 """Steps of the lattice that the line's ends are snapped to, in one pixel."""

@@ -4,6 +4,7 @@ import numpy as np
 
 from core.raster.lines.wireframe import LineFragments, Outlines, inverse_w_parts, values_at_ends
 from core.records.arrays import Floats
+from core.records.primitives import interpolation_form
 
 
 @np.errstate(divide="ignore", invalid="ignore", over="ignore")
@@ -30,7 +31,7 @@ def line_slopes(
     is_steep = np.abs(length[:, 1]) > np.abs(length[:, 0])
     whole = np.where(is_steep, length[:, 1], length[:, 0])
     per_pixel = np.where(whole == 0, 0.0, 1 / whole).take(segment)
-    if interpolation != "affine":
+    if interpolation_form(interpolation) != "affine":
         start, end = inverse_w_parts(outlines, fragments, center)
         total = start + end
         w0, w1 = outlines.w.T

@@ -46,7 +46,7 @@ from core.raster.lines.traits import (
     line_rows,
 )
 from core.records.arrays import Flags, Floats, Integers, read_only
-from core.records.steps import Operation
+from core.records.operation import Operation
 
 TABLE_STEPS = 16
 """Entries of the filter table in one pixel of distance, as in the paper."""

@@ -8,7 +8,7 @@ import numpy as np
 from core.methods import table
 from core.raster.lines.records import BLENDING, LineSteps, Segments, major_first
 from core.records.arrays import Floats, Integers
-from core.records.steps import Operation
+from core.records.operation import Operation
 
 OCTANT = Operation("octant", "octant", ("first_end", "second_end", "is_steep"))
 SLOPE = Operation("slope", "slope", ("slope", "intercept"))

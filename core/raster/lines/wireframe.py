@@ -25,7 +25,7 @@ from core.raster.lines.records import PIXEL_CENTERS, LinePixels, LineSteps
 from core.raster.lines.traits import has_intensities
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
-from core.records.primitives import Primitives
+from core.records.primitives import Primitives, interpolation_form
 
 MARGIN = 2.0**15
 """Pixels around the window within which segments keep their ends: every line method takes such long ones."""
@@ -271,7 +271,7 @@ def inverse_w_parts(outlines: Outlines, fragments: LineFragments, center: float)
 
 def values_at_ends(outlines: Outlines, varyings: Floats, interpolation: str) -> Floats:
     """Return varyings (P, 3, K) at both ends of the segments, (L, 2, K): those of the corners, or mixed at a cut."""
-    shares = outlines.window_shares if interpolation == "affine" else outlines.shares
+    shares = outlines.window_shares if interpolation_form(interpolation) == "affine" else outlines.shares
     corners = varyings[outlines.primitive, None]
     first, second, third = (shares[:, :, k, None] * corners[:, :, k] for k in range(3))
     return np.asarray(first + second + third)
@@ -285,7 +285,7 @@ def interpolate_outlines(
     ``affine`` is linear in the window, any other ``interpolation`` perspective-correct.
     """
     t = line_parameter(outlines, fragments, center)
-    is_affine = interpolation == "affine"
+    is_affine = interpolation_form(interpolation) == "affine"
     shares = outlines.window_shares if is_affine else outlines.shares
     w = None if is_affine else outlines.w
     values = values_at_ends(outlines, varyings, interpolation)

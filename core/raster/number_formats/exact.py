@@ -149,8 +149,8 @@ def decide_filtered(
     return inside
 
 
-EXACT = ExactFormat("exact", object, "homogeneous", "exact", "", bounds_outward=True)
-EXACT_SNAPPED = ExactFormat("exact", object, "snapped", "exact", "", uses_lattice=True)
+EXACT = ExactFormat("exact", object, "homogeneous", "exact", "", bounds_outward=True, is_whole=True)
+EXACT_SNAPPED = ExactFormat("exact", object, "snapped", "exact", "", is_whole=True, uses_lattice=True)
 """The referee of formats that snap: exact on snapped corners, whatever the signs of w."""
 
 

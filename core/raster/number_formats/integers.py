@@ -44,11 +44,11 @@ class FixedFormat(NumberFormat):
 
 
 FIXED_24_8 = FixedFormat(
-    "fixed-24.8", np.int32, "snapped", "wrapped", "fixed-16.16", limit=2.0**23 - 1
+    "fixed-24.8", np.int32, "snapped", "wrapped", "fixed-16.16", is_whole=True, limit=2.0**23 - 1
 ).scaled(-8, -16, -16)
-INT64 = FixedFormat("int64", np.int64, "snapped", "wrapped", "fixed-48.16", limit=2.0**55).scaled(
-    -8, -16, -16
-)
+INT64 = FixedFormat(
+    "int64", np.int64, "snapped", "wrapped", "fixed-48.16", is_whole=True, limit=2.0**55
+).scaled(-8, -16, -16)
 
 
 @method(

@@ -85,7 +85,9 @@ def inverse_coefficients(matrix: list[list[float]]) -> tuple[list[list[float]], 
     return [row[3:] for row in rows], determinant  #: inverse
 
 
-INVERSE = InverseFormat("inverse", np.float64, "homogeneous", "exact", "float64", bounds_outward=True)
+INVERSE = InverseFormat(
+    "inverse", np.float64, "homogeneous", "exact", "float64", bounds_outward=True, divides=True
+)
 
 
 @method(

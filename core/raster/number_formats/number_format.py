@@ -58,6 +58,10 @@ class NumberFormat:
     """Whether closed-form spans give its pixels: values are monotone along rows and computed in float64."""
     bounds_outward: bool = False
     """Whether the box of a triangle is rounded outward to whole pixels, since its corners are not on a lattice."""
+    divides: bool = False
+    """Whether edges are rows of an inverse matrix, divided by a determinant."""
+    is_whole: bool = False
+    """Whether values are whole numbers: as long as they fit, none is rounded."""
     slope_exponent: int = 0
     """Power of two that one unit of a and b is worth, in value per pixel."""
     value_exponent: int = 0

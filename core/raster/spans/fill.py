@@ -10,6 +10,7 @@ import numpy as np
 from core.methods import method
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.scanline import scanline
+from core.raster.fills.traits import FillTraits
 from core.raster.pixel_runs import Boxes, Raster, Runs
 from core.raster.spans.lane_rows import is_in_lane, lane_rows, owners_of
 
@@ -21,6 +22,7 @@ from core.raster.spans.lane_rows import is_in_lane, lane_rows, owners_of
     source="Wylie et al. 1967 (spans); Pineda 1988 and Fuchs et al. 1985 (linear expressions in parallel)",
     exact_for="every triangle",
     needs=("float64-edges",),
+    traits=FillTraits(has_lanes=True),
 )
 def spans(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the span of inside pixels of every row that has one."""

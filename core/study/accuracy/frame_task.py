@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from core.methods import table
 from core.pipeline import render
+from core.raster.fills.traits import fill_traits
 from core.records.arrays import Flags, Floats, Singles, read_only
 from core.records.frame import Frame
 from core.scene import AnyScene
@@ -73,7 +74,7 @@ class FrameTask(Task):
 def check_pixel_tests(scene: AnyScene, settings: Settings) -> None:
     """Refuse, with a sentence, a drawing that tests every pixel for every triangle where that would take minutes."""
     tests = scene_triangle_count(scene) * scene.size[0] * scene.size[1]
-    if settings.fill == "brute-force" and tests > MOST_TESTS:
+    if fill_traits(settings.fill).looks_everywhere and tests > MOST_TESTS:
         raise ValueError(
             f"brute force would test {tests:,} pixels, and at most {MOST_TESTS:,} are measured: choose fewer triangles "
             "or a smaller picture"

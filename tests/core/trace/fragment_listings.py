@@ -5,9 +5,8 @@ import numpy as np
 from core import Scene
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
-from core.fragments.level_of_detail import level_of_detail
+from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
 from core.fragments.lighting import blinn_phong
-from core.fragments.mipmap_samples import mipmap_color, nearest_mipmap_color
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps

@@ -13,7 +13,7 @@ from core.methods import table
 from core.raster.lines.traits import line_traits
 from core.records.steps import Level
 from core.trace import StageTrace
-from core.trace.line_clipping import CLIP_OPERATIONS, LISTINGS
+from core.trace.line_clipping import CLIP_OPERATIONS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.test_line_trace import check_fold, check_values
 from tests.core.trace.trace_cases import SCENES, small_region
@@ -69,13 +69,14 @@ def check_listings(found: StageTrace, source) -> None:
 
 
 def listed(method: str, clipper: str, segment, window):
+    listing = table.get("line_clipping", clipper).listing
     ends = segment.ravel().tolist()
     if clipper in ("cohen-sutherland", "liang-barsky"):
-        return LISTINGS[clipper](*ends, *window.borders)
+        return listing(*ends, *window.borders)
     if clipper == "exact":
         normals = [[Fraction(value) for value in normal] for normal in window.normals.tolist()]
-        return LISTINGS[clipper](ends[:2], ends[2:], normals, window.points.tolist())
-    return LISTINGS[clipper](*segment, window.normals, window.points, clipper == "cyrus-beck-lecture")
+        return listing(ends[:2], ends[2:], normals, window.points.tolist())
+    return listing(*segment, window.normals, window.points, clipper == "cyrus-beck-lecture")
 
 
 def check_numbers(found: StageTrace, own: np.ndarray, seen) -> None:

@@ -1,0 +1,23 @@
+"""What is known of a fill without running it."""
+
+from dataclasses import dataclass
+
+from core.methods import table
+
+
+@dataclass(frozen=True)
+class FillTraits:
+    """How a fill differs from looking at the pixels of a triangle's box."""
+
+    looks_everywhere: bool = False
+    """Whether it tests every pixel of the raster for every triangle."""
+    has_lanes: bool = False
+    """Whether it sets all rows of a triangle up in one lane, and draws rows of the same length of all triangles."""
+    span_row: str = "span"
+    """Kind of row in a trace that stands before the pixels of a span."""
+
+
+def fill_traits(fill: str) -> FillTraits:
+    """Return what is known of a method of the family ``fill``."""
+    traits: FillTraits | None = table.get("fill", fill).traits
+    return traits or FillTraits()
