@@ -1,4 +1,14 @@
-"""Run the test that the shrinker writes."""
+"""Cells that are shrunk once for all tests, and the tests that the shrinker writes."""
+
+from functools import cache
+
+from core.study.stability.shrink import Shrunk, shrink_cell
+
+
+@cache
+def shrunk_of(name: str, method: str, place: tuple[float, ...]) -> Shrunk:
+    """Return what is left of a cell."""
+    return shrink_cell(name, method, place)
 
 
 def run_test(text: str) -> None:

@@ -6,12 +6,10 @@ import pytest
 import core
 from core import ClipScene, Settings
 from core.study.stability import Outcome, StressCancelledError, Verdict, experiments
-from core.study.stability.minimization.numbers import digit_count, simpler_numbers
-from core.study.stability.minimization.search import Search
-from core.study.stability.minimization.segments import SEGMENTS, Segment, first_edge, simpler_coordinates
-from core.study.stability.minimization.triangles import TRIANGLES
+from core.study.stability.kinds import SEGMENTS, TRIANGLES, first_edge, scene_of_segment
+from core.study.stability.minimization import digit_count, minimize, simpler_numbers
 from core.study.stability.shrink import shrink_cell
-from tests.stability.shrunk_tests import run_test
+from tests.stability.shrunk_tests import run_test, shrunk_of
 
 CASES = [
     ("slivers", "coverage=snapped", (2.0**-12, 2.0**-14)),
@@ -28,7 +26,7 @@ CASES = [
 def test_what_is_left_fails_in_the_same_way_and_is_no_larger(name: str, method: str, place: tuple) -> None:
     experiment = experiments.get(name)
     before, _ = experiment.case(method, place, 0)
-    shrunk = shrink_cell(name, method, place)
+    shrunk = shrunk_of(name, method, place)
     assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
     assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
     assert len(shrunk.scene.clip) <= len(before.clip)
@@ -46,7 +44,7 @@ def test_what_is_left_fails_in_the_same_way_and_is_no_larger(name: str, method: 
 def test_the_test_fails_now_and_holds_for_a_method_that_is_right(
     name: str, method: str, place: tuple
 ) -> None:
-    text = shrink_cell(name, method, place).test
+    text = shrunk_of(name, method, place).test
     with pytest.raises(AssertionError):
         run_test(text)
     family, wrong = method.split("=")
@@ -66,7 +64,7 @@ def test_the_test_fails_now_and_holds_for_a_method_that_is_right(
 
 
 def test_a_mesh_shrinks_to_two_triangles_on_one_pixel() -> None:
-    shrunk = shrink_cell("shared-edges", "fill_rule=inclusive", (1.0, 8.0))
+    shrunk = shrunk_of("shared-edges", "fill_rule=inclusive", (1.0, 8.0))
     assert len(shrunk.scene.clip) == 2
     assert shrunk.scene.size == (1, 1)
     assert shrunk.pixel == (0, 0)
@@ -79,7 +77,7 @@ def test_a_mesh_shrinks_to_two_triangles_on_one_pixel() -> None:
 
 
 def test_no_triangle_and_no_digit_can_be_left_out() -> None:
-    shrunk = shrink_cell("coordinates", "coverage=fixed-24.8", (1024.0, 2.0))
+    shrunk = shrunk_of("coordinates", "coverage=fixed-24.8", (1024.0, 2.0))
     assert (shrunk.scene.clip == np.rint(shrunk.scene.clip)).all()
     assert max(digit_count(value) for value in shrunk.scene.clip.ravel()) <= 4
 
@@ -108,10 +106,14 @@ def test_candidates_that_are_no_scene_are_passed_over() -> None:
         return inner.judge(scene, settings)
 
     scene, settings = inner.case("coverage=snapped", (2.0**-12, 2.0**-14), 0)
-    search = Search(TRIANGLES, settings, judge, 3000, None)
-    found, verdict = search.smallest(ClipScene(2 * scene.clip, size=scene.size))
-    assert verdict.outcome == Outcome.HOLE
-    assert not (found.vertices[:, 3] == 1).any()
+    found = minimize(
+        TRIANGLES,
+        ClipScene(2 * scene.clip, size=scene.size),
+        lambda scene: judge(scene, settings),
+        3000,
+    )
+    assert found.verdict.outcome == Outcome.HOLE
+    assert not (found.parts.numbers["vertices"][:, 3] == 1).any()
 
 
 def test_numbers_get_simpler_from_the_simplest_on() -> None:
@@ -120,34 +122,31 @@ def test_numbers_get_simpler_from_the_simplest_on() -> None:
     assert list(simpler_numbers(2.0, 1.0, 1)) == [1.0]
 
 
-def test_coordinates_get_simpler_in_the_middle_of_a_pixel_too() -> None:
-    found = list(simpler_coordinates(8192.5))
-    assert found[:3] == [0.0, 0.5, 1.0]
+def test_numbers_get_simpler_in_the_middle_of_a_pixel_too() -> None:
+    found = list(simpler_numbers(8192.25, 0.5, digit_count(8192.25), (0.0, 0.5)))
+    assert found[0] == 0.5
     assert 8000.5 in found
-    assert 8192.0 in found
-    assert all(abs(candidate) < 1e4 for candidate in found)
-    # Of as many digits, what has more noughts is simpler; of as many noughts nothing is.
-    assert list(simpler_coordinates(10.0)) == [0.0, 1.0]
+    assert 8000.0 in found
 
 
 def test_a_segment_is_the_first_edge_of_a_triangle_that_is_seen() -> None:
     ends = np.array([[2.5, 3.5], [9.5, 5.5]])
-    scene = SEGMENTS.put_together(Segment(ends, (16, 8)))
+    scene = scene_of_segment(ends, (16, 8))
     assert np.array_equal(first_edge(scene), ends)
     assert SEGMENTS.take_apart(scene).size == (16, 8)
     # The third corner lies in the picture, and beside the segment, wherever that is.
     for ends in ([[0.0, 1.0], [16.0, 1.0]], [[4.0, 0.0], [4.0, 8.0]], [[-2.0, -0.5], [6.0, 1.5]]):
-        (third,) = SEGMENTS.put_together(Segment(np.array(ends), (16, 8))).clip[:, 2, :2]
+        (third,) = scene_of_segment(np.array(ends), (16, 8)).clip[:, 2, :2]
         assert (np.abs(third) < 1).all()
         first, second = 2 * np.array(ends) / (16, 8) - 1
         assert np.cross([*(second - first), 0], [*(third - first), 0])[2] != 0
     with pytest.raises(ValueError, match="exact in clip space"):
-        SEGMENTS.put_together(Segment(np.array([[0.1, 1.0], [0.3, 2.0]]), (1, 1)))
+        scene_of_segment(np.array([[0.1, 1.0], [0.3, 2.0]]), (1, 1))
     with pytest.raises(ValueError, match="as a triangle in clip space, got a scene of meshes"):
         SEGMENTS.take_apart(experiments.get("lost-highlight").case("shading=flat", (4.0, 4.0), 0)[0])
 
 
 def test_the_names_of_a_test_are_those_of_core() -> None:
-    text = shrink_cell(*CASES[0]).test
+    text = shrunk_of(*CASES[0]).test
     names = text.split("from core import ")[1].splitlines()[0].split(", ")
     assert set(names) <= set(core.__all__)

@@ -5,15 +5,13 @@ import pytest
 
 from core import ClipScene, Settings
 from core.study.accuracy.workloads import flat_scene
-from core.study.stability import Outcome, experiments
+from core.study.stability import Experiment, Outcome, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.fragments.blending_order import LayersCase, layered_glass
-from core.study.stability.fragments.nearest import NearestCase
-from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
+from core.study.stability.fragments.cases import NearestCase
 from core.study.stability.fragments.thin_triangles import ThinCase, needle
-from core.study.stability.minimization.triangles import in_clip_space
-from core.study.stability.shrink import shrink_cell
-from tests.stability.shrunk_tests import run_test
+from core.study.stability.kinds import in_clip_space
+from tests.stability.shrunk_tests import run_test, shrunk_of
 
 CASES = [
     ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), 1, "interpolation", "perspective"),
@@ -36,7 +34,7 @@ def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_t
     name: str, method: str, place: tuple, most: int, family: str, right: str
 ) -> None:
     experiment = experiments.get(name)
-    shrunk = shrink_cell(name, method, place)
+    shrunk = shrunk_of(name, method, place)
     assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
     assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
     assert len(shrunk.scene.clip) <= most
@@ -55,7 +53,7 @@ def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_t
 
 
 @pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.info.name)
-def test_the_truth_of_any_such_scene_is_that_of_the_cell(experiment: ShrinkableCases) -> None:
+def test_the_truth_of_any_such_scene_is_that_of_the_cell(experiment: Experiment) -> None:
     place = tuple(axis.values[len(axis.values) // 2] for axis in experiment.info.axes)
     for method in experiment.info.methods:
         cell = experiment.run(method, place, 0)

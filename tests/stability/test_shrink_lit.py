@@ -7,18 +7,18 @@ import pytest
 
 from core import ClipScene, Material, Settings, Texture, render
 from core.study.stability import Outcome, experiments
+from core.study.stability.case_text import scene_text
 from core.study.stability.fragments.highlights import HighlightCase, highlight_case, shining_sphere
 from core.study.stability.fragments.opposite_normals import NormalsCase, flattened_tube
 from core.study.stability.fragments.texels import TextureCase, textured_square
-from core.study.stability.minimization.meshes import LIT_MESHES, with_smaller_picture
-from core.study.stability.minimization.textures import (
+from core.study.stability.kinds import (
+    LIT_MESHES,
     TEXTURED_TRIANGLES,
-    with_simpler_texels,
+    camera_of,
+    nearer_looks,
     with_smaller_texture,
 )
-from core.study.stability.scene_text import scene_text
-from core.study.stability.shrink import shrink_cell
-from tests.stability.shrunk_tests import run_test
+from tests.stability.shrunk_tests import run_test, shrunk_of
 from tests.stability.tube import evenly_lit
 
 CASES = [
@@ -38,7 +38,7 @@ def test_a_triangle_on_one_pixel_is_left_and_its_test_fails(
     name: str, method: str, place: tuple[float, float], right: str
 ) -> None:
     experiment = experiments.get(name)
-    shrunk = shrink_cell(name, method, place)
+    shrunk = shrunk_of(name, method, place)
     assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
     assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
     assert (shrunk.scene.size, shrunk.pixel) == ((1, 1), (0, 0))
@@ -54,13 +54,13 @@ def test_a_triangle_on_one_pixel_is_left_and_its_test_fails(
 
 
 def test_numbers_of_what_is_left_are_short() -> None:
-    small = shrink_cell("lost-highlight", "shading=gouraud", (8.0, 128.0)).scene
+    small = shrunk_of("lost-highlight", "shading=gouraud", (8.0, 128.0)).scene
     (mesh,) = small.meshes
     assert (mesh.positions == np.round(mesh.positions, 2)).all()
     assert np.array_equal(mesh.positions, mesh.normals)
     assert (small.camera.eye == np.round(small.camera.eye, 2)).all()
     assert mesh.material.ambient == mesh.material.diffuse == 0
-    textured = shrink_cell("minification", "texture_filter=nearest", (4.0, 0.0)).scene
+    textured = shrunk_of("minification", "texture_filter=nearest", (4.0, 0.0)).scene
     assert textured.texture.pixels.size <= 4
     assert set(textured.texture.pixels.ravel().tolist()) == {0.0, 1.0}
     assert (textured.attributes == np.rint(textured.attributes)).all()
@@ -75,7 +75,7 @@ def test_light_of_normals_that_turn_evenly_is_that_of_the_whole_strip_and_of_a_p
         _, wanted = NormalsCase(scene)._shown_and_wanted(Settings())
         assert wanted == pytest.approx(evenly_lit(angle), abs=1e-12)
     half = LIT_MESHES.take_apart(flattened_tube(180.0, 2))
-    half = replace(half, triangles=half.triangles[:2])
+    half = replace(half, elements=half.elements[:2])
     _, wanted = NormalsCase(LIT_MESHES.put_together(half))._shown_and_wanted(Settings())
     assert wanted[:, :32] == pytest.approx(evenly_lit(180.0)[:, :32], abs=1e-12)
     assert not wanted[:, 33:].any()
@@ -155,7 +155,7 @@ def test_textures_in_perspective_or_of_two_layouts_have_no_truth() -> None:
 def test_a_part_of_the_picture_of_an_orthographic_camera_is_the_very_same() -> None:
     scene = flattened_tube(170.0, 3)
     colors = render(scene, Settings()).color
-    parts = list(with_smaller_picture(LIT_MESHES.take_apart(scene)))
+    parts = list(nearer_looks(LIT_MESHES.take_apart(scene)))
     assert [each.size for each in parts] == [(32, 1), *3 * [(32, 3)], *3 * [(65, 1)]]
     for each, first in zip(parts[1:4], (0, 16, 33), strict=True):
         seen = render(LIT_MESHES.put_together(each), Settings()).color
@@ -164,11 +164,11 @@ def test_a_part_of_the_picture_of_an_orthographic_camera_is_the_very_same() -> N
 
 def test_a_part_of_the_picture_of_a_perspective_camera_looks_there() -> None:
     scene = shining_sphere(8, 64.0, 0)
-    parts = list(with_smaller_picture(LIT_MESHES.take_apart(scene)))
+    parts = list(nearer_looks(LIT_MESHES.take_apart(scene)))
     lower = LIT_MESHES.put_together(parts[4])
     assert lower.size == (96, 48)
     # The middle of the lower half is where the camera looks now, and it sees half as high.
-    assert np.tan(lower.camera.field_of_view / 2) == pytest.approx(np.tan(np.pi / 8) / 2)
+    assert np.tan(camera_of(parts[4]).field_of_view / 2) == pytest.approx(np.tan(np.pi / 8) / 2)
     seen, before = (render(each, Settings()).color[..., 3] for each in (lower, scene))
     assert seen.mean() == pytest.approx(before[:48].mean(), abs=0.08)
 
@@ -188,17 +188,18 @@ def test_half_a_texture_keeps_its_texels_where_they_are() -> None:
     clip = np.array([[[-1.0, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]]])
     values = np.array([[[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]]])
     parts = TEXTURED_TRIANGLES.take_apart(ClipScene(clip, values, (4, 4), texture))
-    halves = list(with_smaller_texture(parts))
-    assert [each.texture.pixels.shape for each in halves] == [(1, 4, 1)] * 4 + [(2, 2, 1)] * 4
-    assert halves[4].values[..., 0].max() == 1.0
-    assert halves[4].values[..., 1].max() == 0.5
+    found = list(with_smaller_texture(parts))
+    halves = [each.numbers["values"] for each in found]
+    assert [each.numbers["texels"].shape for each in found] == [(1, 4, 1)] * 4 + [(2, 2, 1)] * 4 + [(2, 4, 1)]
+    assert halves[4][..., 0].max() == 1.0
+    assert halves[4][..., 1].max() == 0.5
     whole, half = (
         render(TEXTURED_TRIANGLES.put_together(each), Settings(texture_filter="nearest")).color[:2, :2]
-        for each in (parts, halves[4])
+        for each in (parts, found[4])
     )
     assert np.array_equal(whole, half)
-    texels = [each.texture.pixels.ravel().tolist() for each in with_simpler_texels(parts)]
-    assert texels[0] == [0, 0, 0, 0, 1, 1, 1, 1]
+    assert found[-1].numbers["texels"].ravel().tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
+    texels = [each.numbers["texels"].ravel().tolist() for each in TEXTURED_TRIANGLES.with_fewer_digits(parts)]
     assert [0, 0, 2, 3, 4, 5, 6, 7] in texels
 
 

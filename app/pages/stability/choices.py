@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from core.explain.number_text import counted
 from core.study.stability import Atlas, Experiment, ExperimentInfo, experiments
-from core.study.stability.resolution import axes_at
+from core.study.stability.stress import axes_at
 from widgets.atlas.records import CellPlace
 from widgets.charts.family_list import FamilyEntry
 

@@ -32,7 +32,7 @@ from core.records.arrays import Floats
 from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.open_scene import watertightness
-from core.study.stability.resolution import axes_at
+from core.study.stability.stress import axes_at
 from widgets.atlas.records import UNKNOWN, CellPlace
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView

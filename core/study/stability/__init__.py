@@ -1,10 +1,18 @@
 """Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
 
 from core.study.stability.coverage import COVERAGE_EXPERIMENTS
-from core.study.stability.experiment import Experiment, Verdict, experiments
+from core.study.stability.experiment import Experiment, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
-from core.study.stability.record import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
-from core.study.stability.stress import StressCancelledError, count_outcomes, stress
+from core.study.stability.record import (
+    Atlas,
+    Axis,
+    ExperimentInfo,
+    Outcome,
+    StabilityMap,
+    StressCancelledError,
+    Verdict,
+)
+from core.study.stability.stress import count_outcomes, stress
 
 __all__ = [
     "Atlas",

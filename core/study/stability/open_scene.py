@@ -6,7 +6,11 @@ from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
 from core.study.accuracy.workloads import flat_scene
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_lattice
+from core.study.stability.coverage.covered_pixels import (
+    CoverageExperiment,
+    coverage_experiment,
+    on_its_lattice,
+)
 from core.study.stability.record import Axis, ExperimentInfo
 
 NAME = "open-scene"
@@ -65,7 +69,7 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
         there[..., 0] += 2.0 * place[1] / columns * there[..., 3]
         return flat_scene(there, (columns, rows))
 
-    return CoverageExperiment(
+    return coverage_experiment(
         ExperimentInfo(
             NAME,
             "Watertightness of the open scene",

@@ -29,6 +29,21 @@ class Outcome(IntEnum):
 
 
 @dataclass(frozen=True)
+class Verdict:
+    """What came of one run."""
+
+    outcome: Outcome
+    severity: float = 0.0
+    """How wrong, in the experiment's own unit: pixels, ulp, levels of colour; 0: not at all."""
+    remark: str = ""
+    """One sentence with the numbers of this run: ``3 pixels of 96 are drawn twice``."""
+
+
+class StressCancelledError(Exception):
+    """Whoever asked for the experiment does not want it any more."""
+
+
+@dataclass(frozen=True)
 class Axis:
     """One parameter of an experiment."""
 

@@ -11,13 +11,15 @@ A. Zeller, R. Hildebrandt, *Simplifying and isolating failure-inducing input*, 2
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.record import Opening
 from core.study.stability.case_text import case_text
-from core.study.stability.experiment import Experiment, Verdict, experiments
-from core.study.stability.minimization.search import Search
+from core.study.stability.experiment import Experiment, experiments
+from core.study.stability.minimization import minimize
+from core.study.stability.record import Verdict
 
 MOST_RUNS = 3000
 """Runs after which shrinking stops with what it has."""
@@ -55,7 +57,7 @@ def shrink_cell(
     seed: int = 0,
     *,
     most_runs: int = MOST_RUNS,
-    is_cancelled: Callable[[], bool] | None = None,
+    is_cancelled: Callable[[], bool] = lambda: False,
 ) -> Shrunk:
     """Make one failing cell as small as it can be and still fail in the same way.
 
@@ -88,11 +90,10 @@ def shrink_cell(
         )
     scene, settings = experiment.case(method, place, seed)
     kind = experiment.kind
-    search = Search(kind, settings, experiment.judge, most_runs, is_cancelled)
-    parts, verdict = search.smallest(scene)
-    small = kind.put_together(parts)
-    sentence = f"{method} at {kind.words(parts)}: {verdict.remark}."
+    found = minimize(kind, scene, partial(experiment.judge, settings=settings), most_runs, is_cancelled)
+    small = kind.put_together(found.parts)
+    sentence = f"{method} at {kind.words(found.parts)}: {found.verdict.remark}."
     title = "_".join([name, *(part.partition("=")[2] for part in method.split())])
     test = case_text(title, sentence, experiment.test_body(small, settings))
     pixel = experiment.wrong_pixel(small, settings)
-    return Shrunk(small, settings, verdict, sentence, experiment.stage, pixel, search.run_count, test)
+    return Shrunk(small, settings, found.verdict, sentence, experiment.stage, pixel, found.run_count, test)

@@ -5,7 +5,7 @@ import numpy as np
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.workloads import flat_scene, random_source
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
+from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIZE = (32, 32)
@@ -64,7 +64,7 @@ def pair_over_the_border(place: tuple[float, ...], seed: int) -> ClipScene:
 
 RATIOS = (0.1, 0.2, 0.3, 0.7, 1.0, 1.3, 2.9, 4.7, 9.1)
 SIGNS = tuple((np.arange(-8, 9) / 4).tolist())
-SIGNS_OF_W = CoverageExperiment(
+SIGNS_OF_W = coverage_experiment(
     ExperimentInfo(
         "signs-of-w",
         "w through 0, mixed signs",
@@ -80,7 +80,7 @@ SIGNS_OF_W = CoverageExperiment(
     signs_of_w,
     base=NOT_SNAPPED,
 )
-AFTER_DIVIDE = CoverageExperiment(
+AFTER_DIVIDE = coverage_experiment(
     ExperimentInfo(
         "clip-after-divide",
         "Clipping after the division by w",
@@ -96,7 +96,7 @@ AFTER_DIVIDE = CoverageExperiment(
     through_small_w,
     base=NOT_SNAPPED,
 )
-CLIP_ORDER = CoverageExperiment(
+CLIP_ORDER = coverage_experiment(
     ExperimentInfo(
         "clip-order",
         "An edge clipped from A to B and from B to A",

@@ -1,9 +1,8 @@
-"""An experiment on coverage: triangles made from a place on the axes, drawn, and counted pixel by pixel."""
+"""Experiments on coverage: triangles are drawn, and how often each pixel is covered is counted."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import ClassVar
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -16,13 +15,10 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.stages.vertices import Geometry, process_geometry
 from core.study.accuracy.family import settings_of
-from core.study.accuracy.record import Opening
 from core.study.exact.coverage import count_pixels, exact_spans
 from core.study.stability.case_text import clip_text, cover_text, settings_text
-from core.study.stability.experiment import Verdict
-from core.study.stability.minimization.kind import Kind
-from core.study.stability.minimization.triangles import TRIANGLES, Triangles
-from core.study.stability.record import ExperimentInfo, Outcome
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.record import ExperimentInfo, Outcome, Verdict
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""
@@ -51,57 +47,84 @@ def _exact_cover(scene: ClipScene, is_snapped: bool) -> Integers:
     return count_pixels(column, row, scene.size)
 
 
-@dataclass(frozen=True, eq=False)
-class CoverageExperiment:
-    """Triangles that every method draws; wrong is a pixel that is covered more or less often than it should."""
+class CoverCase(Case):
+    """Triangles; wrong is a pixel that is covered more or less often than ``wanted``."""
 
-    info: ExperimentInfo
-    scene: Callable[[tuple[float, ...], int], ClipScene]
-    """The triangles at a place of the axes, for a seed."""
-    wanted: Wanted = as_given
-    base: Settings = EVERY_PIXEL
-    """What the methods share."""
-    stage: ClassVar[str] = "raster"
-    kind: ClassVar[Kind[Triangles]] = TRIANGLES
+    scene: ClipScene
 
-    def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
-        """Draw the triangles of one place with one method."""
-        scene, settings = _scene(self, place, seed), settings_of(self.base, method)
-        return judge_cover(scene, settings, self.wanted(scene, settings))
+    def __init__(self, scene: ClipScene, wanted: Wanted = as_given) -> None:
+        self.scene, self.wanted = scene, wanted
 
-    def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
-        """Return the triangles, at the first pixel that goes wrong."""
-        scene, settings = _scene(self, place, seed), settings_of(self.base, method)
-        pixel = first_wrong_pixel(scene, settings, self.wanted(scene, settings))
-        return Opening(scene, settings, self.stage, pixel)
+    def judge(self, settings: Settings) -> Judgement:
+        """Draw the triangles and say how many pixels are missing or drawn too often, and why."""
+        cover, geometry = count_cover(self.scene, settings)
+        error = cover - self.wanted(self.scene, settings)
+        missing, extra = int(np.maximum(-error, 0).sum()), int(np.maximum(error, 0).sum())
+        if not missing and not extra:
+            verdict = Verdict(Outcome.RIGHT, 0.0, f"all {error.size} pixels are right")
+        else:
+            verdict = self.fault(settings, geometry, cover, missing, extra)
+        return Judgement(verdict, error != 0)
 
-    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
-        """Return the triangles of one place, and how one method draws them."""
-        return _scene(self, place, seed), settings_of(self.base, method)
+    def fault(
+        self, settings: Settings, geometry: Geometry, cover: Integers, missing: int, extra: int
+    ) -> Verdict:
+        """Return what is wrong with the cover (H, W): the numbers themselves, or pixels missing or drawn too often."""
+        outcome = _number_trouble(self.scene, settings, geometry, cover)
+        if outcome is None:
+            outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
+        remark = f"{missing:,} of {cover.size:,} pixels missing, {extra:,} drawn too often"
+        return Verdict(outcome, float(missing + extra), remark)
 
-    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
-        """Draw any triangles; a mesh may have lost some of its own."""
-        if self.wanted is once_everywhere:
-            return judge_mesh(scene, settings)
-        return judge_cover(scene, settings, self.wanted(scene, settings))
-
-    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+    def test_body(self, settings: Settings) -> str:
         """Return the statements of a test: how often each pixel should be covered."""
-        return cover_test(scene, settings, self._wanted_of_part(scene, settings))
+        rows = "\n".join(f'    "{row}",' for row in cover_text(self.wanted(self.scene, settings)))
+        return (
+            f"clip = {clip_text(self.scene.clip)}\n"
+            f"scene = ClipScene(np.array(clip, float), size={self.scene.size})\n"
+            f"cover = render(scene, {settings_text(settings)}).cover_count\n"
+            f'rows = ["".join(".123456789"[min(count, 9)] for count in row) for row in cover[::-1]]\n'
+            f"assert rows == [\n{rows}\n]"
+        )
 
-    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
-        """Return the first pixel that is covered too often or too seldom."""
-        return first_wrong_pixel(scene, settings, self._wanted_of_part(scene, settings))
 
-    def _wanted_of_part(self, scene: ClipScene, settings: Settings) -> Integers:
-        """Return how often each pixel is to be covered where a mesh may have lost triangles."""
-        return (as_given if self.wanted is once_everywhere else self.wanted)(scene, settings)
+class MeshPartCase(CoverCase):
+    """Part of a mesh without gaps; wrong is a pixel that several triangles draw and one has, or one has and none draws.
+
+    Notes
+    -----
+    One triangle that draws a pixel of its neighbour is not wrong by itself: only together they tell.
+    """
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Draw the triangles and say how many pixels are lost or drawn twice."""
+        cover, geometry = count_cover(self.scene, settings)
+        wanted = self.wanted(self.scene, settings)
+        extra = int(np.maximum(cover - np.maximum(wanted, 1), 0).sum())
+        missing = int(((cover == 0) & (wanted > 0)).sum())
+        verdict = Verdict(Outcome.RIGHT, 0.0, "no pixel is lost or drawn twice")
+        if missing or extra:
+            verdict = self.fault(settings, geometry, cover, missing, extra)
+        return Judgement(verdict, cover != wanted)
 
 
-@lru_cache(maxsize=1024)
-def _scene(experiment: CoverageExperiment, place: tuple[float, ...], seed: int) -> ClipScene:
-    """Return the triangles of one place: the same, with the same referee, for all methods."""
-    return experiment.scene(place, seed)
+@dataclass(frozen=True, eq=False)
+class CoverageExperiment(Experiment):
+    """An experiment that knows how often each pixel of its scenes is to be covered."""
+
+    wanted: Wanted = as_given
+
+
+def coverage_experiment(
+    info: ExperimentInfo,
+    make: Callable[[tuple[float, ...], int], ClipScene],
+    wanted: Wanted = as_given,
+    base: Settings = EVERY_PIXEL,
+) -> CoverageExperiment:
+    """Return an experiment on triangles; of a mesh that covers everything once, parts are judged as parts."""
+    whole = partial(CoverCase, wanted=wanted)
+    part = MeshPartCase if wanted is once_everywhere else whole
+    return CoverageExperiment(info, make, part, "raster", base, whole=whole, wanted=wanted)
 
 
 def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometry]:
@@ -119,82 +142,6 @@ def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometr
     for fragments in covered(geometry, settings, raster, counts):
         cover += count_pixels(fragments.column, fragments.row, scene.size)
     return cover, geometry
-
-
-def first_wrong_pixel(scene: ClipScene, settings: Settings, wanted: Integers) -> tuple[int, int] | None:
-    """Return column and row of the first pixel that is not as ``wanted``, (H, W) int64, row by row from below.
-
-    ``None``: all are right, or the method refuses the scene.
-    """
-    try:
-        cover, _ = count_cover(scene, settings)
-    except ValueError:
-        # A method that refuses the scene draws nothing that could be wrong.
-        return None
-    rows, columns = np.nonzero(cover != wanted)
-    return (int(columns[0]), int(rows[0])) if len(rows) else None
-
-
-def judge_cover(scene: ClipScene, settings: Settings, wanted: Integers) -> Verdict:
-    """Draw triangles and say what came of it: how many pixels are missing or drawn too often, and why.
-
-    Parameters
-    ----------
-    scene : ClipScene
-    settings : Settings
-    wanted : (H, W) int64
-        How often each pixel is to be covered.
-    """
-    try:
-        cover, geometry = count_cover(scene, settings)
-    except ValueError as problem:
-        return Verdict(Outcome.REFUSED, np.nan, str(problem))
-    error = cover - wanted
-    missing, extra = int(np.maximum(-error, 0).sum()), int(np.maximum(error, 0).sum())
-    if not missing and not extra:
-        return Verdict(Outcome.RIGHT, 0.0, f"all {error.size} pixels are right")
-    outcome = _number_trouble(scene, settings, geometry, cover)
-    if outcome is None:
-        outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
-    remark = _counted(missing, extra, error.size)
-    return Verdict(outcome, float(missing + extra), remark)
-
-
-def _counted(missing: int, extra: int, count: int) -> str:
-    """Return in words how many pixels are wrong."""
-    return f"{missing:,} of {count:,} pixels missing, {extra:,} drawn too often"
-
-
-def judge_mesh(scene: ClipScene, settings: Settings) -> Verdict:
-    """Draw part of a mesh; wrong is a pixel that several triangles draw and one has, or that one has and none draws.
-
-    Notes
-    -----
-    One triangle that draws a pixel of its neighbour is not wrong by itself: only together they tell.
-    """
-    cover, geometry = count_cover(scene, settings)
-    wanted = as_given(scene, settings)
-    extra = int(np.maximum(cover - np.maximum(wanted, 1), 0).sum())
-    missing = int(((cover == 0) & (wanted > 0)).sum())
-    if not missing and not extra:
-        return Verdict(Outcome.RIGHT, 0.0, "no pixel is lost or drawn twice")
-    outcome = _number_trouble(scene, settings, geometry, cover)
-    if outcome is None:
-        outcome = Outcome.HOLE if missing >= extra else Outcome.DOUBLE_HIT
-    remark = _counted(missing, extra, wanted.size)
-    return Verdict(outcome, float(missing + extra), remark)
-
-
-def cover_test(scene: ClipScene, settings: Settings, wanted: Integers) -> str:
-    """Return the statements of a test that triangles cover each pixel as often as ``wanted``, (H, W) int64."""
-    rows = "\n".join(f'    "{row}",' for row in cover_text(wanted))
-    return (
-        f"clip = {clip_text(scene.clip)}\n"
-        f"scene = ClipScene(np.array(clip, float), size={scene.size})\n"
-        f"cover = render(scene, {settings_text(settings)}).cover_count\n"
-        f'rows = ["".join(".123456789"[min(count, 9)] for count in row) for row in cover[::-1]]\n'
-        f"assert rows == [\n{rows}\n]"
-    )
 
 
 def _number_trouble(

@@ -23,7 +23,7 @@ from core.stages.vertices import process_geometry
 from core.study.stability.coverage.covered_pixels import Wanted, count_cover
 from core.study.stability.coverage.number_formats import FORMATS
 from core.study.stability.coverage.precision_dial import DialReading, precision_dial, read_format
-from core.study.stability.stress import StressCancelledError
+from core.study.stability.record import StressCancelledError
 
 MOST_SHOWN = 4
 """Triangles of a pixel that are read operation by operation; those that are decided wrongly come first."""

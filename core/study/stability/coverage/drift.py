@@ -1,14 +1,25 @@
-"""Edge functions by additions, whose sums drift over thousands of pixels."""
+"""Sums that drift over thousands of pixels: edge functions by additions, and lines by an added slope.
+
+What is right of a line follows from its ends in whole numbers, so any such line can be judged, and made smaller.
+"""
 
 import numpy as np
 
+from core.raster.lines.drawing import draw_lines
+from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
-from core.study.accuracy.workloads import on_lattice
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_lattice
+from core.settings import Settings
+from core.study.accuracy.record import Opening
+from core.study.accuracy.workloads import on_lattice, outline_scene
+from core.study.stability.coverage.covered_pixels import coverage_experiment, on_its_lattice
 from core.study.stability.coverage.number_formats import powers, scene_of_window
-from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 LENGTHS = powers(4, 13)
+FIRST_ROW = 8192.0
+"""Far from the origin a float has fewer bits behind the point."""
 
 
 def long_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
@@ -18,7 +29,7 @@ def long_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
     return scene_of_window(on_lattice(window, 1 << 16)[None], (int(length), 8))
 
 
-INCREMENTAL = CoverageExperiment(
+INCREMENTAL = coverage_experiment(
     ExperimentInfo(
         "incremental-drift",
         "Edge functions by additions",
@@ -42,4 +53,109 @@ INCREMENTAL = CoverageExperiment(
     long_triangle,
     on_its_lattice,
 )
-EXPERIMENTS = (INCREMENTAL,)
+
+
+class LineCase(Case):
+    """One line between pixel centres; wrong is a step that does not take a nearest pixel."""
+
+    scene: ClipScene
+
+    def __init__(self, scene: ClipScene) -> None:
+        self.scene, self.ends = scene, first_edge(scene)
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Draw the line; severity is in pixels."""
+        _, off = _line_distances(self.ends, settings.line, self.scene.size)
+        wrong, farthest = int(np.count_nonzero(off)), int(off.max(initial=0))
+        remark = f"{wrong} of {len(off)} steps do not take a nearest pixel, by up to {farthest} pixels"
+        return Judgement(Verdict(Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT, float(farthest), remark))
+
+    def wrong_pixel(self, settings: Settings) -> tuple[int, int] | None:
+        """Return column and row of the first step that misses a nearest pixel; ``None``: none does."""
+        pixels, off = _line_distances(self.ends, settings.line, self.scene.size)
+        wrong = np.flatnonzero(off)
+        if not len(wrong):
+            return None
+        column, row = pixels[wrong[0]].tolist()
+        return column, row
+
+    def opening(self, settings: Settings, stage: str, pixel: tuple[int, int] | None) -> Opening | None:
+        """Return the line on a raster that reaches to its first wrong step; the stepper shows a part around it."""
+        pixel = pixel or (int(self.ends[0, 0]), int(self.ends[0, 1]))
+        # Powers of two, so that the ends are the same numbers in clip space.
+        near = size_around(np.array(pixel, float))
+        return Opening(outline_scene(self.ends, near), settings, stage, pixel)
+
+    def test_body(self, settings: Settings) -> str:
+        """Return the statements of a test: twice the distance from the line, across, is at most a pixel's."""
+        (x0, y0), (x1, y1) = np.floor(self.ends).astype(int).tolist()
+        width, height = self.scene.size
+        return (
+            f'pixels = draw_lines([{self.ends.tolist()}], {width}, {height}, "{settings.line}").pixels\n'
+            f"across, up = {x1 - x0}, {y1 - y0}\n"
+            f"for column, row in pixels:\n"
+            f"    distance = abs((row - {y0}) * across - (column - {x0}) * up)\n"
+            f"    assert 2 * distance <= max(abs(across), abs(up)), (column, row)"
+        )
+
+
+def long_line(place: tuple[float, ...]) -> Floats:
+    """Return the ends (2, 2) of a line between pixel centres: ``length`` columns wide, from row 8,192 on.
+
+    Notes
+    -----
+    It climbs one row less than ``slope`` times its length, so that the slope is no short fraction.
+    """
+    length, slope = place
+    rise = int(slope * length) - 1
+    return np.array([[0.5, FIRST_ROW + 0.5], [length + 0.5, FIRST_ROW + rise + 0.5]])
+
+
+def size_around(place: Floats) -> tuple[int, int]:
+    """Return the least powers of two for the columns and rows of a raster that holds a place (2,) in pixels."""
+    column, row = np.floor(place).astype(int).tolist()
+    return 1 << (column + 1).bit_length(), 1 << (row + 1).bit_length()
+
+
+def line_at(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return the line of one place as an edge of an outlined triangle."""
+    ends = long_line(place)
+    return scene_of_segment(ends, size_around(ends.max(axis=0)))
+
+
+def _line_distances(ends: Floats, line: str, size: tuple[int, int]) -> tuple[Integers, Integers]:
+    """Draw a line; return its pixels (P, 2) and by how many whole pixels (P,) each misses a nearest one."""
+    if (ends - np.floor(ends) != 0.5).any() or (ends[0] == ends[1]).all():
+        raise ValueError(f"the line must lead from one pixel centre to another, got {ends.tolist()}")
+    if (ends < 0).any() or (ends > size).any():
+        raise ValueError(f"the line must lie in {size[0]}x{size[1]} pixels, got {ends.tolist()}")
+    (x0, y0), (x1, y1) = np.floor(ends).astype(int).tolist()
+    pixels = draw_lines(ends[None], *size, line).pixels
+    columns, rows = pixels.T
+    # In whole numbers: right is a distance of at most half a pixel across the longer axis, ties either way.
+    across, up = x1 - x0, y1 - y0
+    longer = max(abs(across), abs(up))
+    distance = np.abs(2 * ((rows - y0) * across - (columns - x0) * up))
+    return pixels, np.maximum(-((longer - distance) // (2 * longer)), 0)
+
+
+LINES = Experiment(
+    ExperimentInfo(
+        "line-drift",
+        "Lines by an added slope",
+        "A line is drawn by adding its slope from column to column: how long may it be?",
+        (
+            Axis("length", "Length of the line", "columns", LENGTHS, True),
+            Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
+        ),
+        ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
+        "Slopes added in float32 drift off the line within thousands of columns; sums in float64 and whole "
+        "numbers always take a nearest pixel.",
+    ),
+    line_at,
+    LineCase,
+    "raster",
+    Settings(polygon_mode="wireframe"),
+    SEGMENTS,
+)
+EXPERIMENTS = (INCREMENTAL, LINES)

@@ -4,10 +4,9 @@ What is right follows from the triangles themselves, so any triangles can be jud
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from math import floor
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -15,57 +14,30 @@ from core.raster.fills.scanline_lecture import draw_triangle
 from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.accuracy.family import settings_of
-from core.study.accuracy.record import Opening
 from core.study.exact.coverage import facing, whole_corner
-from core.study.stability.coverage.covered_pixels import count_cover, cover_test, on_its_lattice
+from core.study.stability.coverage.covered_pixels import CoverCase, count_cover, on_its_lattice
 from core.study.stability.coverage.number_formats import scene_of_window
-from core.study.stability.experiment import Verdict
-from core.study.stability.minimization.kind import Kind
-from core.study.stability.minimization.triangles import TRIANGLES, Triangles, put_together, take_apart
-from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.experiment import Experiment, Judgement
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 
-@dataclass(frozen=True, eq=False)
-class SlopeSumExperiment:
-    """Spans of a triangle; wrong is a pixel that its own rule does not give in rational numbers."""
+class SlopeCase(CoverCase):
+    """Spans of triangles; wrong is a pixel that the fill's own rule does not give in rational numbers."""
 
-    info: ExperimentInfo
-    stage: ClassVar[str] = "raster"
-    kind: ClassVar[Kind[Triangles]] = TRIANGLES
+    def __init__(self, scene: ClipScene) -> None:
+        super().__init__(scene, lambda scene, settings: RULES[settings.fill](scene, settings))
 
-    def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
-        """Fill the triangle of one place and compare its spans."""
-        return self.judge(level_triangle(place), settings_of(Settings(), method))
-
-    def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
-        """Return the triangle, at the first pixel that is wrong."""
-        scene, settings = level_triangle(place), settings_of(Settings(), method)
-        return Opening(scene, settings, self.stage, self.wrong_pixel(scene, settings))
-
-    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
-        """Return the triangle of one place, and how it is filled."""
-        return put_together(take_apart(level_triangle(place))), settings_of(Settings(), method)
-
-    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
-        """Fill any triangles and compare."""
-        cover, _ = count_cover(scene, settings)
-        wrong = int(np.abs(cover - RULES[settings.fill](scene, settings)).sum())
+    def judge(self, settings: Settings) -> Judgement:
+        """Fill the triangles and compare."""
+        cover, _ = count_cover(self.scene, settings)
+        error = cover - self.wanted(self.scene, settings)
+        wrong = int(np.abs(error).sum())
         remark = f"{wrong} pixels of {cover.size} are too many or missing"
-        return Verdict(Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT, float(wrong), remark)
-
-    def test_body(self, scene: ClipScene, settings: Settings) -> str:
-        """Return the statements of a test: how often each pixel should be covered."""
-        return cover_test(scene, settings, RULES[settings.fill](scene, settings))
-
-    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
-        """Return the first pixel that is too many or missing."""
-        cover, _ = count_cover(scene, settings)
-        rows, columns = np.nonzero(cover != RULES[settings.fill](scene, settings))
-        return (int(columns[0]), int(rows[0])) if len(rows) else None
+        outcome = Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT
+        return Judgement(Verdict(outcome, float(wrong), remark), error != 0)
 
 
-def level_triangle(place: tuple[float, ...]) -> ClipScene:
+def level_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
     """Return a triangle ``height`` rows high with a level upper side, whose far corner is ``shift`` columns away."""
     height, shift = (int(value) for value in place)
     side = 1 << (height + 2).bit_length()
@@ -105,7 +77,7 @@ RULES: dict[str, Callable[[ClipScene, Settings], Integers]] = {
 }
 """Name of a fill to how often it should cover each pixel."""
 
-SLOPES = SlopeSumExperiment(
+SLOPES = Experiment(
     ExperimentInfo(
         "inverse-slopes",
         "Spans by an added inverse slope",
@@ -117,6 +89,9 @@ SLOPES = SlopeSumExperiment(
         ("fill=scanline-lecture", "fill=scanline"),
         "Inverse slopes added in float64 fall beside ties and round another way; spans in closed form do "
         "not.",
-    )
+    ),
+    level_triangle,
+    SlopeCase,
+    "raster",
 )
 EXPERIMENTS = (SLOPES,)

@@ -1,9 +1,7 @@
 """Line clippers on segments that are parallel to a border, have no length, or pass a corner: all within a few ulp."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
 
 import numpy as np
 
@@ -11,15 +9,12 @@ from core.geometry.line_clipping.clipping import clip_lines
 from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.accuracy.family import settings_of
 from core.study.accuracy.record import Opening
-from core.study.accuracy.workloads import on_lattice, outline_scene
+from core.study.accuracy.workloads import on_lattice
 from core.study.exact.segments import Ends, clipped_ends
-from core.study.stability.experiment import Verdict
-from core.study.stability.minimization import segments
-from core.study.stability.minimization.kind import Kind
-from core.study.stability.minimization.segments import SEGMENTS, Segment, first_edge
-from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 SIDE = 64
 ULP = 2.0**-46
@@ -35,47 +30,24 @@ CLIPPERS = (
 )
 WIREFRAME = Settings(polygon_mode="wireframe", coverage="exact")
 """Outlines of triangles however thin: snapped, those of a few ulp would be culled."""
-INSIDE = np.array([17.25, 8.75])
-"""The third corner of the triangle that is stepped: it has to be seen, or it would be culled."""
 
 
-@dataclass(frozen=True, eq=False)
-class LineClipExperiment:
+class ClippedSegmentCase(Case):
     """One segment and the raster's border; wrong is a segment that is lost or kept, or ends in the wrong place."""
 
-    info: ExperimentInfo
-    segment: Callable[[tuple[float, ...]], Floats]
-    """The segment (2, 2) in pixels at a place of the axes."""
-    stage: ClassVar[str] = "raster"
-    kind: ClassVar[Kind[Segment]] = SEGMENTS
+    scene: ClipScene
 
-    def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
-        """Clip the segment of one place."""
-        return judge_clip(self.segment(place), method.partition("=")[2])
+    def __init__(self, scene: ClipScene) -> None:
+        self.scene, self.segment = scene, first_edge(scene)
 
-    def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
-        """Return the segment as an edge of an outlined triangle; ``None`` for a segment without length."""
-        segment = self.segment(place)
-        if (segment[0] == segment[1]).all():
-            return None
-        return Opening(
-            outline_scene(segment, (SIDE, SIDE), INSIDE), settings_of(WIREFRAME, method), self.stage
-        )
+    def judge(self, settings: Settings) -> Judgement:
+        """Clip the segment to the raster; it is about no pixel, but about the ends."""
+        return Judgement(judge_clip(self.segment, settings.line_clipping, self.scene.size))
 
-    def case(self, method: str, place: tuple[float, ...], seed: int) -> tuple[ClipScene, Settings]:
-        """Return the segment of one place as an edge of a triangle, and the clipper's settings."""
-        scene = segments.put_together(Segment(self.segment(place), (SIDE, SIDE)))
-        return scene, settings_of(WIREFRAME, method)
-
-    def judge(self, scene: ClipScene, settings: Settings) -> Verdict:
-        """Clip the first edge of a triangle to the raster."""
-        return judge_clip(first_edge(scene), settings.line_clipping, scene.size)
-
-    def test_body(self, scene: ClipScene, settings: Settings) -> str:
+    def test_body(self, settings: Settings) -> str:
         """Return the statements of a test: what is left of the segment."""
-        segment, (width, height) = first_edge(scene), scene.size
-        wanted = clipped_ends(segment, (0.0, 0.0, width, height))
-        window = (0, 0, width, height)
+        segment, window = self.segment, (0, 0, *self.scene.size)
+        wanted = clipped_ends(segment, (0.0, 0.0, *self.scene.size))
         call = f'clip_lines([segment], {window}, "{settings.line_clipping}")'
         clipping = f"segment = {segment.tolist()}\nclipped = {call}"
         if wanted is None:
@@ -86,9 +58,20 @@ class LineClipExperiment:
             f"np.testing.assert_allclose(clipped.segments[0], wanted, rtol=0, atol={tolerance})"
         )
 
-    def wrong_pixel(self, scene: ClipScene, settings: Settings) -> tuple[int, int] | None:
-        """Return no pixel: it is about the ends of a segment."""
-        return None
+    def opening(self, settings: Settings, stage: str, pixel: tuple[int, int] | None) -> Opening | None:
+        """Return the segment as an edge of an outlined triangle; ``None`` for a segment without length."""
+        if (self.segment[0] == self.segment[1]).all():
+            return None
+        return super().opening(settings, stage, pixel)
+
+
+def segment_experiment(info: ExperimentInfo, segment: Callable[[tuple[float, ...]], Floats]) -> Experiment:
+    """Return an experiment on a segment (2, 2) in pixels, made from a place of the axes."""
+
+    def make(place: tuple[float, ...], seed: int) -> ClipScene:
+        return scene_of_segment(segment(place), (SIDE, SIDE))
+
+    return Experiment(info, make, ClippedSegmentCase, "raster", WIREFRAME, SEGMENTS)
 
 
 def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:
@@ -158,7 +141,7 @@ def past_the_corner(place: tuple[float, ...]) -> Floats:
 
 
 STEPS = tuple(map(float, range(-6, 7)))
-PARALLEL = LineClipExperiment(
+PARALLEL = segment_experiment(
     ExperimentInfo(
         "parallel-segments",
         "Segments along a border",
@@ -172,7 +155,7 @@ PARALLEL = LineClipExperiment(
     ),
     along_the_border,
 )
-SHORT = LineClipExperiment(
+SHORT = segment_experiment(
     ExperimentInfo(
         "zero-length-segments",
         "Segments of no length, or of a few ulp",
@@ -187,7 +170,7 @@ SHORT = LineClipExperiment(
     ),
     beside_the_corner,
 )
-CORNER = LineClipExperiment(
+CORNER = segment_experiment(
     ExperimentInfo(
         "segments-past-a-corner",
         "Segments past a corner",

@@ -9,8 +9,8 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.workloads import flat_scene, on_lattice, random_source, window_mesh
 from core.study.stability.coverage.covered_pixels import (
-    CoverageExperiment,
     count_cover,
+    coverage_experiment,
     once_everywhere,
 )
 from core.study.stability.coverage.number_formats import powers, scene_of_window
@@ -98,7 +98,7 @@ def audit(mesh: str, settings: Settings, seed: int = 0) -> Integers:
     return cover
 
 
-SHARED_EDGES = CoverageExperiment(
+SHARED_EDGES = coverage_experiment(
     ExperimentInfo(
         "shared-edges",
         "Shared edges of a mesh",
@@ -125,7 +125,7 @@ SHARED_EDGES = CoverageExperiment(
     lambda place, seed: uneven_grid(int(place[1]), int(place[0]), seed),
     once_everywhere,
 )
-THROUGH_THE_EYE = CoverageExperiment(
+THROUGH_THE_EYE = coverage_experiment(
     ExperimentInfo(
         "mesh-through-the-eye",
         "A mesh that goes on behind the eye",

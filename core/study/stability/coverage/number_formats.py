@@ -5,7 +5,7 @@ import numpy as np
 from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
+from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIZE = (64, 64)
@@ -102,7 +102,7 @@ def crowded_mesh(place: tuple[float, ...], seed: int) -> ClipScene:
     return scene_of_window(pairs.reshape(-1, 3, 2), (side, side))
 
 
-SLIVERS = CoverageExperiment(
+SLIVERS = coverage_experiment(
     ExperimentInfo(
         "slivers",
         "Slivers by width and offset",
@@ -118,7 +118,7 @@ SLIVERS = CoverageExperiment(
     ),
     sliver,
 )
-COORDINATES = CoverageExperiment(
+COORDINATES = coverage_experiment(
     ExperimentInfo(
         "coordinates",
         "Coordinates from 1 to 2^30 pixels",
@@ -138,7 +138,7 @@ COORDINATES = CoverageExperiment(
     ),
     far_corners,
 )
-SINGULAR = CoverageExperiment(
+SINGULAR = coverage_experiment(
     ExperimentInfo(
         "singular-matrix",
         "Triangles seen almost edge-on",
@@ -153,7 +153,7 @@ SINGULAR = CoverageExperiment(
     ),
     edge_on,
 )
-SNAPPING = CoverageExperiment(
+SNAPPING = coverage_experiment(
     ExperimentInfo(
         "snapping",
         "Corners snapped or not",

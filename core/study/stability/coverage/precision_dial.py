@@ -17,7 +17,7 @@ from core.raster.number_formats.number_format import NumberFormat
 from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
 from core.study.exact.coverage import Corner, facing, homogeneous_corner
-from core.study.stability.coverage.covered_pixels import CoverageExperiment
+from core.study.stability.coverage.covered_pixels import coverage_experiment
 from core.study.stability.coverage.edge_steps import EdgeStep, edge_steps
 from core.study.stability.coverage.number_formats import FORMATS, powers, sliver
 from core.study.stability.record import Axis, ExperimentInfo
@@ -189,7 +189,7 @@ def _bits(value: float, numbers: NumberFormat) -> str:
     return bit_pattern(value, numbers.value_layout)
 
 
-DIAL = CoverageExperiment(
+DIAL = coverage_experiment(
     ExperimentInfo(
         "precision-dial",
         "The precision dial",

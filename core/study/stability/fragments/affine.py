@@ -14,16 +14,10 @@ from core.records.cached import cached_property
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.values import exact_values
-from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Judgement
-from core.study.stability.fragments.shrinkable_cases import (
-    AnyCase,
-    ShrinkableCases,
-    check_in_view_volume,
-    pixels_text,
-)
-from core.study.stability.minimization.triangles import VALUED_TRIANGLES
-from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.case_text import pixels_text
+from core.study.stability.experiment import Case, Experiment, Judgement, check_in_view_volume
+from core.study.stability.kinds import VALUED_TRIANGLES
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 ROWS = 4
 """Rows of the picture: all of them are alike."""
@@ -31,7 +25,7 @@ HALF_TEXEL = 1 / 512
 """Half a texel of a texture of 256: a coordinate that strays less takes the same texel, about."""
 
 
-class StripCase(AnyCase):
+class StripCase(Case):
     """Triangles that lead away, u their first value; right is u with perspective, by fractions.
 
     Raises
@@ -96,13 +90,7 @@ def leaning_strip(w_ratio: float, width: int) -> ClipScene:
     return ClipScene(corners[index], u[index], (width, ROWS), shared=index)
 
 
-def make_strip(place: tuple[float, ...], seed: int) -> StripCase:
-    """Make the strip; nothing in it is random."""
-    del seed
-    return StripCase(leaning_strip(place[0], int(place[1])))
-
-
-AFFINE = ShrinkableCases(
+AFFINE = Experiment(
     ExperimentInfo(
         "affine-w-ratio",
         "Affine interpolation by the ratio of w",
@@ -129,8 +117,8 @@ AFFINE = ShrinkableCases(
         "Affine strays by up to (sqrt r - 1)/(sqrt r + 1) of the edge at every length; corrected every n pixels by as "
         "much with the ratio of w within n pixels only; perspective holds.",
     ),
-    make_strip,
+    lambda place, _: leaning_strip(place[0], int(place[1])),
+    StripCase,
     "interpolate",
-    case_of=StripCase,
     kind=VALUED_TRIANGLES,
 )

@@ -15,9 +15,10 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.workloads import COLORS
 from core.study.exact.values import exact_fragments
-from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
-from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
-from core.study.stability.minimization.triangles import VALUED_TRIANGLES
+from core.study.stability.case_text import pixels_text
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.fragments.cases import drawn_colors, judge_colors
+from core.study.stability.kinds import VALUED_TRIANGLES
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 4
@@ -32,7 +33,7 @@ ORDERS = {
 """Every order of two and of three layers; 0 is the farthest layer, and the first order is from back to front."""
 
 
-class LayersCase(AnyCase):
+class LayersCase(Case):
     """Triangles of one colour each; right is the colour from back to front, whatever the order of drawing.
 
     Raises
@@ -100,15 +101,14 @@ def layered_glass(order: tuple[int, ...], alpha: float) -> ClipScene:
     )
 
 
-def make_layers(place: tuple[float, ...], seed: int) -> LayersCase:
-    """Make the layers; nothing in them is random."""
-    del seed
+def glass_at(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return the layers of one place; nothing in them is random."""
     number = int(place[0])
     order = ORDERS[2][number] if number < 2 else ORDERS[3][number - 2]
-    return LayersCase(layered_glass(order, place[1]))
+    return layered_glass(order, place[1])
 
 
-BLENDING = ShrinkableCases(
+BLENDING = Experiment(
     ExperimentInfo(
         "blending-order",
         "Blending by the order of drawing",
@@ -133,8 +133,8 @@ BLENDING = ShrinkableCases(
         "Over is wrong in every order but from back to front, with a z-buffer too, unless alpha is 0 or 1; sorted "
         "it is always right. Light that is added is the same in any order. Opaque is wrong for any alpha below 1.",
     ),
-    make_layers,
+    glass_at,
+    LayersCase,
     "blend",
-    case_of=LayersCase,
     kind=VALUED_TRIANGLES,
 )

@@ -1,85 +1,18 @@
-"""An experiment on what covered pixels show: a scene made from a place on the axes, drawn, and judged as a picture."""
-
-from abc import ABC, abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import lru_cache
+"""What the pictures of covered pixels are judged by: colours, order, which of any triangles is the nearest."""
 
 import numpy as np
 
+from core.geometry.vertex_stage import transform_vertices
+from core.methods import table
 from core.pipeline import render
-from core.records.arrays import Flags, Floats
-from core.scene import AnyScene
+from core.records.arrays import Flags, Floats, Integers
+from core.records.cached import cached_property
+from core.scene import AnyScene, ClipScene, Mesh, Scene
 from core.settings import Settings
-from core.study.accuracy.family import settings_of
-from core.study.accuracy.frame_task import first_pixel
-from core.study.accuracy.record import Opening
-from core.study.stability.experiment import Verdict
-from core.study.stability.record import ExperimentInfo, Outcome
-
-
-@dataclass(frozen=True, eq=False)
-class Judgement:
-    """What came of one picture, and where."""
-
-    verdict: Verdict
-    wrong: Flags
-    """(H, W) bool, the pixels that are wrong."""
-
-
-class Case(ABC):
-    """One place on the axes: a scene, and what is right for it. The same for all methods."""
-
-    scene: AnyScene
-
-    @abstractmethod
-    def judge(self, settings: Settings) -> Judgement:
-        """Draw the scene, and compare the picture with the reference.
-
-        Raises
-        ------
-        ValueError
-            If a method does not take the scene.
-        """
-
-
-@dataclass(frozen=True, eq=False)
-class CaseExperiment:
-    """Scenes that every method draws."""
-
-    info: ExperimentInfo
-    make: Callable[[tuple[float, ...], int], Case]
-    """The case at a place of the axes, for a seed."""
-    stage: str
-    """Where the stepper opens."""
-    base: Settings = field(default_factory=Settings)
-    """What the methods share."""
-
-    def run(self, method: str, place: tuple[float, ...], seed: int) -> Verdict:
-        """Draw the scene of one place with one method, and judge it."""
-        judgement = self._judge(method, place, seed)
-        return judgement.verdict if isinstance(judgement, Judgement) else judgement
-
-    def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
-        """Return the scene with these settings, at the first pixel that is wrong; ``None``: it is refused there too."""
-        judgement = self._judge(method, place, seed)
-        if not isinstance(judgement, Judgement):
-            return None
-        scene = _case(self, place, seed).scene
-        return Opening(scene, settings_of(self.base, method), self.stage, first_pixel(judgement.wrong))
-
-    def _judge(self, method: str, place: tuple[float, ...], seed: int) -> Judgement | Verdict:
-        case = _case(self, place, seed)
-        try:
-            return case.judge(settings_of(self.base, method))
-        except ValueError as problem:
-            return Verdict(Outcome.REFUSED, np.nan, str(problem))
-
-
-@lru_cache(maxsize=512)
-def _case(experiment: CaseExperiment, place: tuple[float, ...], seed: int) -> Case:
-    """Return the case of one place: its reference is worked out once for all methods."""
-    return experiment.make(place, seed)
+from core.study.exact.values import exact_fragments, exact_visible
+from core.study.stability.case_text import pixels_text
+from core.study.stability.experiment import Case, Judgement
+from core.study.stability.record import Outcome, Verdict
 
 
 def judge_colors(
@@ -126,3 +59,78 @@ def judge_order(wrong: Flags, what: str) -> Judgement:
 def drawn_colors(scene: AnyScene, settings: Settings) -> Floats:
     """Draw a scene, and return its colours (H, W, 4) float64."""
     return render(scene, settings).color.astype(np.float64)
+
+
+class NearestCase(Case):
+    """Triangles given in clip space; right is the nearest one at every pixel. Of two as near, either is right."""
+
+    scene: ClipScene
+
+    def __init__(self, scene: ClipScene) -> None:
+        self.scene = scene
+
+    @cached_property
+    def nearest(self) -> Integers:
+        """(H, W) int64, the triangle that is seen; of those as near, the first."""
+        return exact_visible(exact_fragments(self.scene.clip, self.scene.size), self.scene.size)
+
+    @cached_property
+    def is_decided(self) -> Flags:
+        """(H, W) bool, False where several triangles are exactly as near: the last of them is not the first."""
+        return np.asarray(self._last(self.scene.clip) == self.nearest)
+
+    @cached_property
+    def is_decided_by_w(self) -> Flags:
+        """(H, W) bool, where the same triangle is the nearest by w as by z, for formats that store w.
+
+        Notes
+        -----
+        After projection z and w tell the same; with digits left out they need not any more.
+        """
+        clip = self.scene.clip.copy()
+        # The depth -c/w grows with w, and with c so small it is between the planes.
+        clip[..., 2] = -np.abs(clip[..., 3]).min() / 2
+        first = exact_visible(exact_fragments(clip, self.scene.size), self.scene.size)
+        return np.asarray((first == self.nearest) & (self._last(clip) == self.nearest))
+
+    def _last(self, clip: Floats) -> Integers:
+        """Return the nearest triangle, (H, W) int64; of those as near, the last."""
+        backwards = exact_visible(exact_fragments(clip[::-1], self.scene.size), self.scene.size)
+        return np.where(backwards < 0, -1, len(clip) - 1 - backwards)
+
+    def judge(self, settings: Settings) -> Judgement:
+        """Count the pixels that show a triangle which is hidden."""
+        wrong = np.asarray(render(self.scene, settings).primitive != self.nearest)
+        if wrong.any():
+            wrong = wrong & self.is_decided
+        if wrong.any() and "perspective" in table.get("depth", settings.depth).needs:
+            wrong = wrong & self.is_decided_by_w
+        return judge_order(wrong, "a triangle that should be hidden")
+
+    def assertions(self, settings: Settings, wrong: Flags) -> str:
+        """Return statements that ``wrong`` pixels, (H, W) bool, show the nearest triangle."""
+        return pixels_text(wrong, self.nearest, "frame.primitive[row, column] == wanted")
+
+
+def clip_corners(scene: Scene) -> Floats:
+    """Return the corners (T, 3, 4) of all triangles in clip space."""
+    vertices = transform_vertices(scene)
+    return np.asarray(vertices.clip[vertices.corners])
+
+
+def faces_the_eye(scene: Scene) -> Flags:
+    """Return which triangles, (T,) bool, are seen from the front, where they are in front of the eye."""
+    return np.asarray(np.linalg.det(clip_corners(scene)[..., [0, 1, 3]]) > 0)
+
+
+def mesh_and_normals(scene: Scene) -> tuple[Mesh, Floats]:
+    """Return the mesh of a scene that has one, and its normals (N, 3), which need not be unit.
+
+    Raises
+    ------
+    ValueError
+        If it has several, or no normals.
+    """
+    if len(scene.meshes) != 1 or scene.meshes[0].normals is None:
+        raise ValueError("one mesh with normals is wanted, got another scene")
+    return scene.meshes[0], scene.meshes[0].normals

@@ -18,9 +18,8 @@ from core.scene import Camera, Scene
 from core.settings import Settings
 from core.study.accuracy.hidden_surfaces import visible_triangles
 from core.study.accuracy.workloads import layered_walls, random_source, wall_scene
-from core.study.stability.fragments.cases import Case, Judgement, judge_order
-from core.study.stability.fragments.nearest import NearestCase
-from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.fragments.cases import NearestCase, judge_order
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 32
@@ -99,20 +98,9 @@ def _between(farther: Floats, nearer: Floats, camera: Camera) -> Scene:
     return Scene(layered_walls(farther, nearer, halves, np.array([True, False])), camera, (), (SIDE, SIDE))
 
 
-def make_by_distance(place: tuple[float, ...], seed: int) -> HiddenCase:
-    """Make two walls in perspective; the seed chooses how they lean."""
-    return HiddenCase(facing_walls(place[0], place[1], random_source(seed).uniform(0.1, 0.2)))
-
-
-def make_by_range(place: tuple[float, ...], seed: int) -> HiddenCase:
-    """Make two walls at all distances; nothing in them is random."""
-    del seed
-    return HiddenCase(wall_scene(place[0], place[1], SIDE))
-
-
-def make_orthographic(place: tuple[float, ...], seed: int) -> HiddenCase:
-    """Make two walls without perspective; the seed chooses how they lean."""
-    return HiddenCase(orthographic_walls(place[0], place[1], random_source(seed).uniform(0.1, 0.2)))
+def leaning(seed: int) -> float:
+    """Return how walls lean, by chance."""
+    return float(random_source(seed).uniform(0.1, 0.2))
 
 
 def decades(first: int, last: int) -> tuple[float, ...]:
@@ -123,7 +111,7 @@ def decades(first: int, last: int) -> tuple[float, ...]:
 BASE = Settings(shading="unlit", fill="bounding-box")
 """What the depth formats share: nothing but depth matters."""
 
-BY_DISTANCE = ShrinkableCases(
+BY_DISTANCE = Experiment(
     ExperimentInfo(
         "z-fighting-distance",
         "Z-fighting by gap and distance",
@@ -138,12 +126,13 @@ BY_DISTANCE = ShrinkableCases(
         "and with float32, 2^-31 with 38 bits on planes. 1/w, the logarithm and reversed z need one that grows "
         "with the distance only; ray casting needs none.",
     ),
-    make_by_distance,
+    lambda place, seed: facing_walls(place[0], place[1], leaning(seed)),
+    NearestCase,
     "depth",
     BASE,
-    case_of=NearestCase,
+    whole=HiddenCase,
 )
-BY_RANGE = ShrinkableCases(
+BY_RANGE = Experiment(
     ExperimentInfo(
         "z-fighting-range",
         "Z-fighting by gap and depth range",
@@ -157,12 +146,13 @@ BY_RANGE = ShrinkableCases(
         "Z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap; 1/w, the logarithm and "
         "reversed z hold for a gap of 10^-6 of the distance at any range up to 10^6, and 38 bits of z do so far.",
     ),
-    make_by_range,
+    lambda place, _: wall_scene(place[0], place[1], SIDE),
+    NearestCase,
     "depth",
     BASE,
-    case_of=NearestCase,
+    whole=HiddenCase,
 )
-ORTHOGRAPHIC = ShrinkableCases(
+ORTHOGRAPHIC = Experiment(
     ExperimentInfo(
         "orthographic-depth",
         "Depth without perspective",
@@ -181,8 +171,9 @@ ORTHOGRAPHIC = ShrinkableCases(
         "1/w and the logarithm refuse, as w is constant. 16 bits hold down to a gap of 2^-16 of the range; 24 "
         "bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
     ),
-    make_orthographic,
+    lambda place, seed: orthographic_walls(place[0], place[1], leaning(seed)),
+    NearestCase,
     "depth",
     BASE,
-    case_of=NearestCase,
+    whole=HiddenCase,
 )

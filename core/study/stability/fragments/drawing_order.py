@@ -8,9 +8,10 @@ M. Newell, R. Newell, T. Sancha, *A solution to the hidden surface problem*, 197
 import numpy as np
 
 from core.records.arrays import Floats
+from core.scene import ClipScene
 from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
-from core.study.stability.fragments.nearest import NearestCase
-from core.study.stability.fragments.shrinkable_cases import ShrinkableCases
+from core.study.stability.experiment import Experiment
+from core.study.stability.fragments.cases import NearestCase
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 64
@@ -66,20 +67,14 @@ def shuffled_layers(count: int, swaps: int, seed: int) -> Floats:
     )
 
 
-def make_circle(place: tuple[float, ...], seed: int) -> NearestCase:
-    """Make the three bars; nothing in them is random."""
-    del seed
-    return NearestCase(flat_scene(circle_of_bars(place[0], place[1]), (SIDE, SIDE)))
-
-
-def make_layers(place: tuple[float, ...], seed: int) -> NearestCase:
-    """Make the layers."""
+def layers_at(place: tuple[float, ...], seed: int) -> ClipScene:
+    """Return the layers of one place; there are no more swaps than pairs."""
     count = int(place[0])
     clip = shuffled_layers(count, min(int(place[1]), count * (count - 1) // 2), seed)
-    return NearestCase(flat_scene(clip, (SIDE, SIDE)))
+    return flat_scene(clip, (SIDE, SIDE))
 
 
-CIRCLE = ShrinkableCases(
+CIRCLE = Experiment(
     ExperimentInfo(
         "painters-cycle",
         "Painter's algorithm on three bars in a circle",
@@ -98,11 +93,11 @@ CIRCLE = ShrinkableCases(
         "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails as drawing "
         "without a depth test does. Lifted by a whole depth, sorting is right; a z-buffer always is.",
     ),
-    make_circle,
+    lambda place, _: flat_scene(circle_of_bars(place[0], place[1]), (SIDE, SIDE)),
+    NearestCase,
     "depth",
-    case_of=NearestCase,
 )
-LAYERS = ShrinkableCases(
+LAYERS = Experiment(
     ExperimentInfo(
         "drawing-order",
         "Layers drawn in a wrong order",
@@ -116,7 +111,7 @@ LAYERS = ShrinkableCases(
         "Without a depth test every swap of two layers that are seen is wrong; sorted layers and a z-buffer hold "
         "in any order.",
     ),
-    make_layers,
+    layers_at,
+    NearestCase,
     "depth",
-    case_of=NearestCase,
 )

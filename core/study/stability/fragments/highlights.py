@@ -15,12 +15,10 @@ from core.scene import Material, Scene
 from core.settings import Settings
 from core.study.accuracy.workloads import random_source, sphere_scene
 from core.study.exact.sphere import sphere_picture
-from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Judgement
-from core.study.stability.fragments.lit_cases import faces_the_eye, mesh_and_normals
-from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases
-from core.study.stability.minimization.meshes import LIT_MESHES
-from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.fragments.cases import faces_the_eye, mesh_and_normals
+from core.study.stability.kinds import LIT_MESHES
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 SIDE = 96
 """Pixels on a side of the picture."""
@@ -30,7 +28,7 @@ SLACK = 1 / 16
 """How far a corner may lie off the sphere: its normal is still that of the sphere in its direction."""
 
 
-class HighlightCase(AnyCase):
+class HighlightCase(Case):
     """Triangles with corners on a sphere; right is as bright a highlight as the sphere itself has where they are seen.
 
     Raises
@@ -115,12 +113,7 @@ def shining_sphere(rings: int, shininess: float, seed: int) -> Scene:
     return replace(scene, camera=camera, meshes=(replace(scene.meshes[0], material=material),))
 
 
-def make_highlight(place: tuple[float, ...], seed: int) -> HighlightCase:
-    """Make the sphere; the seed moves the eye a little."""
-    return HighlightCase(shining_sphere(int(place[0]), place[1], seed))
-
-
-HIGHLIGHT = ShrinkableCases(
+HIGHLIGHT = Experiment(
     ExperimentInfo(
         "lost-highlight",
         "Gouraud's lost highlight",
@@ -135,8 +128,9 @@ HIGHLIGHT = ShrinkableCases(
         "rings in some places; flat shading loses it on all but very fine ones. Phong keeps nine tenths at least "
         "everywhere.",
     ),
-    make_highlight,
+    lambda place, seed: shining_sphere(int(place[0]), place[1], seed),
+    highlight_case,
     "shade",
-    case_of=highlight_case,
     kind=LIT_MESHES,
+    whole=HighlightCase,
 )

@@ -15,10 +15,10 @@ from core.scene import Camera, DirectionalLight, Material, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_light import viewpoint
 from core.study.exact.values import exact_values
-from core.study.stability.fragments.cases import Judgement, judge_colors
-from core.study.stability.fragments.lit_cases import clip_corners, faces_the_eye, mesh_and_normals
-from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, pixels_text
-from core.study.stability.minimization.meshes import LIT_MESHES
+from core.study.stability.case_text import pixels_text
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.fragments.cases import clip_corners, faces_the_eye, judge_colors, mesh_and_normals
+from core.study.stability.kinds import LIT_MESHES
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIZE = (65, 3)
@@ -29,7 +29,7 @@ TOLERANCE = 8.0
 LIGHT = DirectionalLight(np.array([0.3, -0.2, -1.0]))
 
 
-class NormalsCase(AnyCase):
+class NormalsCase(Case):
     """Triangles whose normals are turned about the upright; right is light on normals that turn evenly between them.
 
     Raises
@@ -114,13 +114,7 @@ def turned_normals(part: Floats, angle: float) -> Floats:
     return np.stack([np.sin(turn), np.zeros(len(part)), across], axis=1)
 
 
-def make_normals(place: tuple[float, ...], seed: int) -> NormalsCase:
-    """Make the strip; nothing in it is random."""
-    del seed
-    return NormalsCase(flattened_tube(place[0], int(place[1])))
-
-
-NORMALS = ShrinkableCases(
+NORMALS = Experiment(
     ExperimentInfo(
         "opposite-normals",
         "Normals that interpolate to zero",
@@ -135,8 +129,8 @@ NORMALS = ShrinkableCases(
         "is wrong for Phong and Gouraud. Divided into three parts or more, Phong is right at every angle; Gouraud "
         "needs sixteen.",
     ),
-    make_normals,
+    lambda place, _: flattened_tube(place[0], int(place[1])),
+    NormalsCase,
     "shade",
-    case_of=NormalsCase,
     kind=LIT_MESHES,
 )

@@ -13,9 +13,10 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.workloads import checkerboard, random_source
 from core.study.exact.values import exact_values
-from core.study.stability.fragments.cases import Judgement, drawn_colors, judge_colors
-from core.study.stability.fragments.shrinkable_cases import AnyCase, ShrinkableCases, listed_pixels
-from core.study.stability.minimization.textures import TEXTURED_TRIANGLES
+from core.study.stability.case_text import listed_pixels
+from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.fragments.cases import drawn_colors, judge_colors
+from core.study.stability.kinds import TEXTURED_TRIANGLES
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 24
@@ -34,7 +35,7 @@ CORNER_PIXELS = np.array([0, 1, 0]), np.array([0, 0, 1])
 ANGLES = Axis("angle", "Angle of the surface", "degrees", (0, 15, 30, 45, 60, 70, 80, 85))
 
 
-class TextureCase(AnyCase):
+class TextureCase(Case):
     """Triangles on which the texture lies without perspective; right are the means of the footprints.
 
     Pixels count that are covered as a whole, by as many triangles as it takes.
@@ -121,12 +122,7 @@ def textured_square(density: float, angle: float, seed: int) -> ClipScene:
     return ClipScene(place[index], (corners / TEXELS)[index], (SIDE, SIDE), texture, shared=index)
 
 
-def make_texture_case(place: tuple[float, ...], seed: int) -> TextureCase:
-    """Make the square; the seed chooses single texels and where the texture begins."""
-    return TextureCase(textured_square(place[0], place[1], seed))
-
-
-MINIFICATION = ShrinkableCases(
+MINIFICATION = Experiment(
     ExperimentInfo(
         "minification",
         "Minification by each texture filter",
@@ -141,12 +137,12 @@ MINIFICATION = ShrinkableCases(
         "Nearest and bilinear are wrong from two texels for a pixel on, seen from anywhere; trilinear holds up to "
         "45 degrees at any number of texels, and blurs where footprints are longer and narrower.",
     ),
-    make_texture_case,
+    lambda place, seed: textured_square(place[0], place[1], seed),
+    TextureCase,
     "shade",
-    case_of=TextureCase,
     kind=TEXTURED_TRIANGLES,
 )
-SHADING_ALIASING = ShrinkableCases(
+SHADING_ALIASING = Experiment(
     ExperimentInfo(
         "shading-aliasing",
         "Samples against detail inside a triangle",
@@ -163,9 +159,9 @@ SHADING_ALIASING = ShrinkableCases(
         "Msaa-4 is as wrong as no antialiasing, as it shades once, and exact area is hardly better; 16 samples "
         "hold up to 4 texels for a pixel and 60 degrees; a texture with mipmaps holds beyond, with one sample.",
     ),
-    make_texture_case,
+    lambda place, seed: textured_square(place[0], place[1], seed),
+    TextureCase,
     "shade",
     Settings(texture_filter="nearest"),
-    case_of=TextureCase,
     kind=TEXTURED_TRIANGLES,
 )

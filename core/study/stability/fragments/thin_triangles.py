@@ -13,14 +13,9 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.workloads import clip_of_window
 from core.study.exact.areas import area_in_pixels
-from core.study.stability.experiment import Verdict
-from core.study.stability.fragments.cases import Judgement, drawn_colors
-from core.study.stability.fragments.shrinkable_cases import (
-    AnyCase,
-    ShrinkableCases,
-    check_in_view_volume,
-)
-from core.study.stability.record import Axis, ExperimentInfo, Outcome
+from core.study.stability.experiment import Case, Experiment, Judgement, check_in_view_volume
+from core.study.stability.fragments.cases import drawn_colors
+from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 SIZE = (16, 32)
 FOOT, TIP = 8.0, 1024.0
@@ -31,7 +26,7 @@ TOLERANCE = 1 / 4
 """Largest error of a pixel's cover that is taken as right: one sample of four."""
 
 
-class ThinCase(AnyCase):
+class ThinCase(Case):
     """One white triangle; right is the exact area of it in every pixel, with its corners on the lattice.
 
     Raises
@@ -97,13 +92,7 @@ def needle(width: float, offset: float) -> ClipScene:
     return ClipScene(clip_of_window(window[None], SIZE, 0.5 * level, level), np.ones((1, 3, 4)), SIZE)
 
 
-def make_thin(place: tuple[float, ...], seed: int) -> ThinCase:
-    """Make the needle; nothing in it is random."""
-    del seed
-    return ThinCase(needle(place[0], place[1]))
-
-
-THIN = ShrinkableCases(
+THIN = Experiment(
     ExperimentInfo(
         "thin-triangles",
         "Needles between the samples",
@@ -123,7 +112,7 @@ THIN = ShrinkableCases(
         "sample, 1/2 with four on a grid (ssaa-4), 1/4 with four that are turned (msaa-4) and with sixteen; exact "
         "area loses none.",
     ),
-    make_thin,
+    lambda place, _: needle(place[0], place[1]),
+    ThinCase,
     "resolve",
-    case_of=ThinCase,
 )

@@ -16,7 +16,7 @@ from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.stability import Axis, Outcome, experiments, stress
 from core.study.stability.open_scene import NAME as OPEN_SCENE
-from core.study.stability.resolution import axes_at
+from core.study.stability.stress import axes_at
 from tests.app.pages.stability.stability_pages import (
     EXCLUSIVE,
     LEFT,

@@ -59,7 +59,7 @@ def test_a_failing_cell_is_made_small_and_written(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "method", "words", "stage"),
     [
-        ("line-drift", "line=dda-float32", "a segment in", "raster"),
+        ("line-drift", "line=dda-float32", "1 segment in", "raster"),
         ("minification", "texture_filter=nearest", "1 triangle in 1x1 pixels", "shade"),
         ("lost-highlight", "shading=flat", "1 triangle in 1x1 pixels", "shade"),
     ],
