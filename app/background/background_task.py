@@ -1,7 +1,7 @@
 """Work that a page is asked for and does in the background: shown as it goes on, then done, cancelled or failed."""
 
 from dataclasses import dataclass
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -21,8 +21,6 @@ class WorkWords:
     """As ``It could not be measured``."""
     kept: str
     """As ``what was measured before is as it was``."""
-    running: str = ""
-    """Of work that there is a list of, after the name of what runs: ``is still being measured``."""
 
 
 class ShowsProgress(Protocol):
@@ -52,6 +50,11 @@ class BackgroundTask(QObject):
         job.succeeded.connect(self._take_result)
         job.failed.connect(self._fail)
         job.ended.connect(self._end)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether a result is being waited for."""
+        return self._job.is_running
 
     @Slot()
     def cancel(self) -> None:
@@ -103,96 +106,3 @@ class BackgroundTask(QObject):
 
     def _come_to_nothing(self) -> None:
         """Forget what was chosen in work that was cancelled or failed; there may be nothing to choose in it."""
-
-
-class WorkChoice(Protocol):
-    """One thing of a list that can be asked for."""
-
-    @property
-    def name(self) -> str:
-        """Its name in the list."""
-
-    @property
-    def title(self) -> str:
-        """What it is called in the list."""
-
-    @property
-    def result(self) -> Any:
-        """What came of it last; ``None``: nothing."""
-
-
-Choice = TypeVar("Choice", bound=WorkChoice)
-
-
-class ListedWork(BackgroundTask, Generic[Choice]):
-    """Work of several kinds, in a list: the choices and results of all are kept, those of one are shown."""
-
-    shown_text_changed = Signal(str)
-    """What is shown, in words."""
-
-    def __init__(
-        self,
-        job: Job,
-        controls: ShowsProgress,
-        words: WorkWords,
-        choices: dict[str, Choice],
-        parent: QObject | None = None,
-    ) -> None:
-        super().__init__(job, controls, words, parent)
-        self._choices = choices
-        self._current = next(iter(choices))
-        self._running = ""
-        """Name of what is being done; empty: nothing."""
-
-    @property
-    def choice(self) -> Choice:
-        """What is shown."""
-        return self._choices[self._current]
-
-    @property
-    def is_partial(self) -> bool:
-        """Whether what is shown is being done now."""
-        return self._running == self._current
-
-    @property
-    def names(self) -> list[str]:
-        """Names of all that can be shown, in their order."""
-        return list(self._choices)
-
-    def _is_free(self) -> bool:
-        """Return whether nothing is being done; else say what is: it is not dropped for something else."""
-        if self._running:
-            title = self._choices[self._running].title
-            self.message_sent.emit(
-                f"{title} {self._words.running}: wait until it is done, or cancel it first (Shift+F5)."
-            )
-        return not self._running
-
-    def _doing(self, doing: str) -> str:
-        """Name what is being done while something else is shown."""
-        if not self._running or self.is_partial:
-            return doing
-        return f"{self._choices[self._running].title}: {doing}"
-
-    def show_neighbour(self, direction: int) -> None:
-        """Show the next of the list, or the one before."""
-        self._show_named(self.names[(self.names.index(self._current) + direction) % len(self.names)])
-
-    def _show_named(self, name: str) -> None:
-        if name != self._current:
-            self._turn_to(name)
-
-    def _turn_to(self, name: str) -> None:
-        """Show one of the list, afresh."""
-        self._current = name
-        self._point_nowhere()
-        self.refresh()
-        self.shown_changed.emit()
-
-    def _point_nowhere(self) -> None:
-        """Forget what is pointed at."""
-        raise NotImplementedError
-
-    def refresh(self) -> None:
-        """Show the list, the controls and the result."""
-        raise NotImplementedError

@@ -9,7 +9,7 @@ from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, rounds_f
 from app.cli.commands import UsageError
 from app.cli.window import load_qt
 from app.files.open_any import open_any
-from app.pages.compare.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
+from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
 from core import Settings
 from core.study import Study, machine, measure, pareto_front, study_families, study_family
 from core.study.accuracy.family import chosen_dials

@@ -1,6 +1,6 @@
 """A stability experiment as text: one map of characters for every method, with a legend and the counts."""
 
-from app.pages.compare.words import digits
+from app.pages.words import digits
 from core.study.stability import Atlas, Axis, Outcome, StabilityMap, count_outcomes
 
 MARKS = {

@@ -9,7 +9,7 @@ from app.export.sheet import Sheet, sheet_bytes
 from app.files.file_writing import whole_file
 from app.files.study_files import EXTENSION, study_json
 from app.pages.compare.charts import TIME, growth_of, numbers_of, scatter_of, title_of
-from app.pages.compare.words import machine_sentence, settings_sentence, work_sentence
+from app.pages.words import machine_sentence, settings_sentence, work_sentence
 from core.study.accuracy.record import ErrorMeasure, Point, Study, pareto_front
 
 ENDINGS = (".svg", ".png", ".csv", EXTENSION)

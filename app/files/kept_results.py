@@ -80,14 +80,16 @@ class KeptResults(JobGroup):
 
         self._reading.start_in_parts(work)
 
-    def keep(self, name: str, content: Callable[[], str]) -> None:
+    def keep(self, name: str, content: Callable[[], bytes | None]) -> None:
         """Write a result in the place of the last one of its ``name``."""
         if not self._has_begun:
             return
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
+            written = content()
+            assert written is not None
             with _turn:
-                write_result(results_folder(), f"{self._kind}-{name}{ENDING}", content().encode())
+                write_result(results_folder(), f"{self._kind}-{name}{ENDING}", written)
 
         self._writing.start(work)
 

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QApplication
 from app.pages.compare.page import ComparePage
 from app.pages.page_bar import Page
 from app.pages.plan.page import PlanPage
+from app.pages.result_page import ResultPage
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 
@@ -45,13 +46,11 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     window.pages.show_page(content.page)
     page, refusals = window.pages.current, _Refusals()
     page.edit_refused.connect(refusals.take)
-    if isinstance(page, ComparePage):
-        _measure(page, content)
-    elif isinstance(page, StabilityPage):
-        _run(page, content)
+    if isinstance(page, ResultPage):
+        _show_result(page, content)
     elif isinstance(page, PlanPage):
         page.plans.look()
-        _wait_until(lambda: not page.desk.is_looking)
+        _wait_until(lambda: not page.plans.is_running)
     if refusals.texts:
         raise ValueError(refusals.texts[0])
 
@@ -81,35 +80,34 @@ class _Refusals:
         self.texts.append(text)
 
 
-def _measure(page: ComparePage, content: PageContent) -> None:
-    studies = page.studies
+def _show_result(page: ResultPage, content: PageContent) -> None:
+    """Do the work that is wanted, and open what is wanted of it."""
+    results = page.results
     if content.name:
-        studies.show_family(_known("family", content.name, studies.names))
-    if content.work:
-        works = [work.name for work in studies.choice.works]
-        studies.choice.work = _known(f"work of {studies.choice.name}", content.work, works)
-    choice = studies.choice
-    choice.rounds = content.rounds or PICTURE_ROUNDS
-    choice.grow = content.grow or (choice.family is not None and not choice.family.takes_scene)
-    studies.refresh()
-    studies.measure()
-    _wait_until(lambda: not page.desk.is_measuring)
-    if content.method and studies.study is not None:
-        methods = [point.method for point in studies.study.points]
-        page.opened.choose(_known(f"method of {studies.choice.name}", content.method, methods))
-        _wait_until(lambda: not page.desk.drawing.is_running)
-
-
-def _run(page: StabilityPage, content: PageContent) -> None:
-    runs = page.runs
-    if content.name:
-        runs.show_experiment(_known("experiment", content.name, runs.names))
-    runs.run()
-    _wait_until(lambda: not page.desk.is_running)
-    if content.method and runs.result is not None:
-        maps = {each.method: each for each in runs.result.atlas.maps}
-        page.opened.choose_failure(_known(f"method of {runs.choice.name}", content.method, list(maps)))
-        _wait_until(lambda: not page.desk.looking.is_running)
+        results.show_named(
+            _known("family" if content.page == "compare" else "experiment", content.name, results.names)
+        )
+    if isinstance(page, ComparePage):
+        choice = page.results.choice
+        if content.work:
+            works = [work.name for work in choice.works]
+            choice.work = _known(f"work of {choice.name}", content.work, works)
+        choice.rounds = content.rounds or PICTURE_ROUNDS
+        choice.grow = content.grow or (choice.family is not None and not choice.family.takes_scene)
+        results.refresh()
+    results.start()
+    _wait_until(lambda: not results.is_running)
+    if not content.method or results.choice.result is None:
+        return
+    what = f"method of {results.choice.name}"
+    if isinstance(page, ComparePage) and page.results.study is not None:
+        page.opened.choose(
+            _known(what, content.method, [point.method for point in page.results.study.points])
+        )
+        _wait_until(lambda: not page.jobs.drawing.is_running)
+    elif isinstance(page, StabilityPage):
+        page.opened.choose_failure(_known(what, content.method, list(page.results.cells)))
+        _wait_until(lambda: not page.jobs.looking.is_running)
 
 
 def _known(what: str, name: str, names: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""The left column of a page, a list over what is read of it, beside the rest; it grows with the size of the type."""
+"""The left column of a page beside the rest; it grows with the size of the type."""
 
 from math import isclose
 
@@ -19,16 +19,9 @@ WIDEST = 0.45
 class SideColumns(QSplitter):
     """Two columns; what is saved of them is for the usual size of the type, whatever the present one is."""
 
-    def __init__(
-        self, upper: QWidget, lower: QWidget, rest: QWidget, heights: tuple[int, int], parent: QWidget
-    ) -> None:
-        """Put ``upper`` over ``lower``, which begin with these ``heights`` in pixels, to the left of the ``rest``."""
+    def __init__(self, left: QWidget, rest: QWidget, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
-        self.left = QSplitter(Qt.Orientation.Vertical, self)
-        for pane, stretch in ((upper, 3), (lower, 1)):
-            self.left.addWidget(pane)
-            self.left.setStretchFactor(self.left.count() - 1, stretch)
-        self.left.setSizes(list(heights))
+        self.left = left
         self.addWidget(self.left)
         self.addWidget(rest)
         self.setStretchFactor(1, 1)

@@ -53,9 +53,26 @@ class FamilyChoice:
         source = self.result.study.measures if self.result else self.family.measures if self.family else ()
         return [(m.name, f"{m.title} ({m.unit})" if m.unit else m.title) for m in source]
 
-    def is_set_as(self, study: Study) -> bool:
-        """Return whether a study is one of what is chosen now."""
-        return (study.work.name, dict(study.dials), study.seed) == (self.work, self.dial_values, self.seed)
+    @property
+    def can_run(self) -> bool:
+        """Whether this version has the family."""
+        return self.family is not None
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether other work is chosen now than the result was measured on."""
+        if self.result is None:
+            return False
+        study = self.result.study
+        return (study.work.name, dict(study.dials), study.seed) != (self.work, self.dial_values, self.seed)
+
+    def entry(self) -> FamilyEntry:
+        """Return the row of the list."""
+        note = f"{len(self.works)} kinds of work" if len(self.works) > 1 else self.works[0].title
+        if self.result is not None:
+            note += f"\nMeasured {self.result.machine.get('date', '')}".rstrip()
+        is_of_scene = self.family is not None and self.family.takes_scene
+        return FamilyEntry(self.name, self.title, note, self.result is not None, ends_group=is_of_scene)
 
     def take(self, result: StudyResult) -> None:
         """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
@@ -93,16 +110,6 @@ def choice_of_saved(study: Study) -> FamilyChoice:
     return FamilyChoice(study.family, study.title, (study.work,), None, study.work.name)
 
 
-def entry_of(choice: FamilyChoice) -> FamilyEntry:
-    """Return the row of the list."""
-    note = f"{len(choice.works)} kinds of work" if len(choice.works) > 1 else choice.works[0].title
-    if choice.result is not None:
-        date = choice.result.study.machine.get("date", "")
-        note += f"\nMeasured {date}".rstrip()
-    is_of_scene = choice.family is not None and choice.family.takes_scene
-    return FamilyEntry(choice.name, choice.title, note, choice.result is not None, ends_group=is_of_scene)
-
-
 def controls_of(choice: FamilyChoice) -> StudyChoices:
     """Return what stands above the charts."""
     work = choice.work_kind
@@ -121,5 +128,5 @@ def controls_of(choice: FamilyChoice) -> StudyChoices:
         cost=choice.cost,
         rounds=choice.rounds,
         seed=choice.seed,
-        can_measure=choice.family is not None,
+        can_measure=choice.can_run,
     )

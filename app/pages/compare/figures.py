@@ -5,7 +5,7 @@ from html import escape
 from math import isinf, isnan
 
 from app.pages.compare.charts import costs_of, title_of
-from app.pages.compare.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
+from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
 from core.explain.number_text import counted
 from core.methods import table
 from core.study.accuracy.record import ErrorMeasure, Point, Study

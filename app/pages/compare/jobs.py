@@ -1,6 +1,6 @@
 """Runs studies off the GUI thread: measures, draws the pictures of points, finds where two of them part ways."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from threading import Lock
 
@@ -52,6 +52,16 @@ class StudyResult:
     """Whether it is of an earlier start of the window."""
 
     @property
+    def name(self) -> str:
+        """Family of the study."""
+        return self.study.family
+
+    @property
+    def machine(self) -> Mapping[str, str]:
+        """Where it was measured."""
+        return self.study.machine
+
+    @property
     def can_run_again(self) -> bool:
         """Whether the work is still there: a saved study keeps the name of its scene only."""
         return not self.study.scene or self.scene is not None
@@ -79,11 +89,6 @@ class StudyJobs(JobGroup):
         """Gives a `PointsShown`."""
         self.searching = self.add_job()
         """Gives a ``StepRequest``, or a text: they never part ways."""
-
-    @property
-    def is_measuring(self) -> bool:
-        """Whether a measurement is going on."""
-        return self.measuring.is_running
 
     def measure(self, order: StudyOrder) -> None:
         """Measure; points come as they are measured."""

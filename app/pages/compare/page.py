@@ -1,26 +1,17 @@
 """The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
 
-from functools import partial
-from pathlib import Path
-
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QWidget
 
 from app.export.study import study_content
-from app.files.kept_results import KeptResults
-from app.files.study_files import EXTENSION, load_study, study_json
+from app.files.study_files import EXTENSION, load_study
 from app.pages.compare.jobs import StudyJobs, StudyResult
 from app.pages.compare.pictures_presenter import StudyPicturesPresenter
 from app.pages.compare.presenter import StudyPresenter
-from app.pages.file_page import FilePage, FileWords
 from app.pages.page_bar import Handlers
-from app.pages.side_columns import SideColumns
+from app.pages.result_page import FileWords, ResultPage, splitter
 from app.session.session import Session
-from core.study.accuracy.record import Study
-from widgets.basics.elided_label import ElidedLabel
-from widgets.basics.readout import Readout
 from widgets.charts.chart import Chart
-from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend
 from widgets.charts.study_controls import StudyControls
 from widgets.charts.study_pictures import StudyPictures
@@ -37,22 +28,19 @@ FILE_WORDS = FileWords(
 )
 
 
-class ComparePage(FilePage):
+class ComparePage(ResultPage):
     """All panes of the Compare page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(FILE_WORDS, KeptResults("study", load_study), parent)
-        self.desk = StudyJobs(self)
-        self.families, self.readout = FamilyList(self), Readout("Figures", self)
-        self.controls = StudyControls(self)
+        super().__init__(FILE_WORDS, load_study, parent)
+        self.jobs, self.controls = StudyJobs(self), StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
         self.legend, self.table, self.pictures = ChartLegend(self), StudyTable(self), StudyPictures(self)
-        self.shown_text = ElidedLabel(self)
         charts = (self.scatter, self.growth)
-        self.studies = StudyPresenter(
+        self.results: StudyPresenter = StudyPresenter(
             session,
-            self.desk,
-            self.families,
+            self.jobs,
+            self.entries,
             self.controls,
             charts,
             self.legend,
@@ -61,78 +49,42 @@ class ComparePage(FilePage):
             self,
         )
         self.opened = StudyPicturesPresenter(
-            self.studies, self.desk, (*charts, self.legend), self.table, self.pictures, self
+            self.results, self.jobs, (*charts, self.legend), self.table, self.pictures, self
         )
-        self.kept.found.connect(self.studies.take_kept)
-        self.studies.result_taken.connect(self._keep)
-        self.studies.progressed.connect(self.work_progressed)
-        self._lay_out()
+        self.join_results(self.jobs, self.results, self.opened)
+        above = ((self.controls, 0), (self._tabs(), 1), (self.shown_text, 0))
+        self.lay_out(self.list_column((300, 360)), above, self.pictures)
         self.setFocusProxy(self.scatter)
-        self.studies.shown_text_changed.connect(self.shown_text.setText)
-        for presenter in (self.studies, self.opened):
-            presenter.message_sent.connect(self.message_sent)
-            presenter.refused.connect(self.edit_refused)
-        self.opened.step_requested.connect(self.step_requested)
 
-    # Layout.
-
-    def _lay_out(self) -> None:
-        self.columns = SideColumns(self.families, self.readout, self._main(), (300, 360), self)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(8, 4, 8, 8)
-        page.setSpacing(8)
-        page.addWidget(self.columns, 1)
-
-    def _main(self) -> QWidget:
-        self.charts = QSplitter(Qt.Orientation.Horizontal, self)
-        for pane, stretch in ((self.scatter, 3), (self.legend, 1), (self.growth, 2)):
-            self.charts.addWidget(pane)
-            self.charts.setStretchFactor(self.charts.count() - 1, stretch)
-        self.charts.setSizes([560, 170, 340])
-        self.shown_text.setProperty("role", "muted")
-        self.shown_text.setAccessibleName("What the charts show")
+    def _tabs(self) -> QWidget:
+        panes = ((self.scatter, 3, 560), (self.legend, 1, 170), (self.growth, 2, 340))
+        self.charts = splitter(Qt.Orientation.Horizontal, panes, self)
         self.tabs = QTabWidget(self)
         self.tabs.setDocumentMode(True)
         self.tabs.tabBar().setDrawBase(False)
         self.tabs.addTab(self.charts, "Charts")
         self.tabs.addTab(self.table, "Numbers")
-        self.tabs.setCornerWidget(self._buttons())
-        top = QWidget(self)
-        layout = QVBoxLayout(top)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addWidget(self.controls)
-        layout.addWidget(self.tabs, 1)
-        layout.addWidget(self.shown_text)
-        self.rows = QSplitter(Qt.Orientation.Vertical, self)
-        self.rows.addWidget(top)
-        self.rows.addWidget(self.pictures)
-        self.rows.setStretchFactor(0, 3)
-        self.rows.setStretchFactor(1, 2)
-        self.rows.setSizes([440, 280])
-        return self.rows
-
-    def _buttons(self) -> QWidget:
         corner = QWidget(self)
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 0, 0, 4)
         row.setSpacing(8)
         for button in (self.export_button, self.copy_button):
             row.addWidget(button)
-        return corner
+        self.tabs.setCornerWidget(corner)
+        return self.tabs
 
     # As a page of the window.
 
     def handlers(self) -> Handlers:
         """Return what the keys of this page do."""
         return {
-            "measure": self.studies.measure,
-            "measure_scene": self.studies.measure_scene,
-            "cancel_measuring": self.studies.cancel,
-            "next_family": lambda: self.studies.show_neighbour(1),
-            "previous_family": lambda: self.studies.show_neighbour(-1),
-            "next_error": self.studies.show_next_measure,
-            "next_cost": self.studies.show_next_cost,
+            "measure": self.results.start,
+            "measure_scene": self.results.measure_scene,
+            "cancel_measuring": self.results.cancel,
+            "next_family": lambda: self.results.show_neighbour(1),
+            "previous_family": lambda: self.results.show_neighbour(-1),
+            "next_error": self.results.show_next_measure,
+            "next_cost": self.results.show_next_cost,
             "show_numbers": self.toggle_numbers,
             "fit_charts": self.fit_charts,
             "step_run": self.opened.step,
@@ -142,35 +94,17 @@ class ComparePage(FilePage):
             "copy_view": self.copy,
         }
 
-    def dismiss(self) -> bool:
-        """Stop measuring, or else choose no mark any more."""
-        if self.desk.is_measuring:
-            self.studies.cancel()
-            return True
-        is_open = bool(self.opened.chosen)
-        self.opened.clear()
-        return is_open
-
     def main_view(self) -> QWidget:
         """Return what is copied: the charts."""
         return self.charts
-
-    def stop(self) -> None:
-        """End measuring and drawing, and let what is being written be written."""
-        self.desk.shut_down()
-        super().stop()
-
-    @Slot(object)
-    def _keep(self, result: StudyResult) -> None:
-        self.kept.keep(result.study.family, partial(study_json, result.study))
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes, by names that no other page uses."""
         return {
             "compare columns": self.columns,
-            "compare left": self.columns.left,
+            "compare left": self.left,
             "compare charts": self.charts,
-            "compare rows": self.rows,
+            "compare rows": self.panes,
         }
 
     def toggle_numbers(self) -> None:
@@ -187,24 +121,14 @@ class ComparePage(FilePage):
 
     # Files.
 
-    def show_file(self, path: str) -> None:
-        """Show a saved study."""
-        self.studies.take_saved(load_study(path), Path(path).name)
+    def stem_of(self, result: StudyResult) -> str:
+        """Return the name of a file of a study."""
+        return f"study-{result.study.family}-{result.study.work.name}"
 
-    def file_stem(self) -> str:
-        """Return the name of a file of the study that is shown."""
-        study = self._finished()
-        return "" if study is None else f"study-{study.family}-{study.work.name}"
-
-    def file_content(self, ending: str) -> bytes | None:
-        """Return the study in a file; the charts have the chosen axes."""
-        study, choice = self._finished(), self.studies.choice
-        assert study is not None
-        return study_content(study, choice.measure, ending, choice.cost)
-
-    def _finished(self) -> Study | None:
-        result = self.studies.result
-        return None if result is None or self.studies.is_partial else result.study
+    def content_of(self, result: StudyResult, ending: str) -> bytes | None:
+        """Return a study as the content of a file; the charts have the chosen axes."""
+        choice = self.results.choice
+        return study_content(result.study, choice.measure, ending, choice.cost)
 
     @Slot()
     def copy(self) -> None:

@@ -33,24 +33,24 @@ class StudyPicturesPresenter(QObject):
     def __init__(
         self,
         studies: StudyPresenter,
-        desk: StudyJobs,
+        jobs: StudyJobs,
         charts: tuple[Chart | ChartLegend, ...],
         numbers: StudyTable,
         view: StudyPictures,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._studies, self._desk, self._charts, self._view = studies, desk, charts, view
+        self._studies, self._jobs, self._charts, self._view = studies, jobs, charts, view
         self._chosen: tuple[str, ...] = ()
         self._shown: PointsShown | None = None
         for chart in charts:
             chart.series_chosen.connect(self.choose)
         numbers.row_chosen.connect(self._choose_row)
         studies.shown_changed.connect(self.clear)
-        desk.drawing.succeeded.connect(self._show_pictures)
-        desk.drawing.failed.connect(self._show_failure)
-        desk.searching.succeeded.connect(self._take_divergence)
-        desk.searching.failed.connect(self._tell_no_divergence)
+        jobs.drawing.succeeded.connect(self._show_pictures)
+        jobs.drawing.failed.connect(self._show_failure)
+        jobs.searching.succeeded.connect(self._take_divergence)
+        jobs.searching.failed.connect(self._tell_no_divergence)
         view.step_requested.connect(self.step)
         view.divergence_requested.connect(self.step_to_divergence)
         view.copy_requested.connect(self.copy)
@@ -88,7 +88,7 @@ class StudyPicturesPresenter(QObject):
             names = " and ".join(self._title(each) for each in self._chosen)
             self._view.show_waiting(f"Drawing {names} …")
             points = tuple(found for each in self._chosen if (found := self._studies.point(each)) is not None)
-            self._desk.draw(result, points)
+            self._jobs.draw(result, points)
 
     @Slot(str)
     def _choose_row(self, method: str) -> None:
@@ -103,7 +103,7 @@ class StudyPicturesPresenter(QObject):
     @Slot()
     def clear(self) -> None:
         """Choose no point; the pane keeps its place, so that no mark moves when one is chosen."""
-        self._desk.stop_drawing()
+        self._jobs.stop_drawing()
         self._chosen, self._shown = (), None
         for chart in self._charts:
             chart.show_marks({})
@@ -115,6 +115,12 @@ class StudyPicturesPresenter(QObject):
         """Choose no point and leave the room to the charts, until a point is chosen again."""
         self.clear()
         self._view.hide()
+
+    def dismiss(self) -> bool:
+        """Choose no point; return whether there was one."""
+        is_open = bool(self._chosen)
+        self.clear()
+        return is_open
 
     @Slot(object)
     def _show_pictures(self, shown: PointsShown) -> None:
@@ -160,7 +166,7 @@ class StudyPicturesPresenter(QObject):
             self.message_sent.emit("Lock two points together first: click one, then Ctrl+click another.")
             return
         self._view.show_busy("Looking for the first place at which they part ways …")
-        self._desk.find_divergence(self._shown)
+        self._jobs.find_divergence(self._shown)
 
     @Slot(object)
     def _take_divergence(self, found: StepRequest | str) -> None:

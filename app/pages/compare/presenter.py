@@ -1,26 +1,24 @@
 """The Compare page's measuring: which family, on what work, its charts and numbers as they come."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
-from app.background.background_task import ListedWork, WorkWords
-from app.background.paced_drawing import PacedDrawing
 from app.pages.compare.charts import MOST_NAMED, growth_of, numbers_of, scatter_of
-from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of, entry_of
+from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
 from app.pages.compare.figures import point_text, study_text, table_of
 from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult
-from app.pages.compare.words import machine_sentence, work_sentence
 from app.pages.plan.points import chosen_points, plan_candidates
+from app.pages.result_presenter import ResultPresenter, ResultWords
+from app.pages.words import work_sentence
 from app.session.session import Session
 from core.explain.number_text import counted
-from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.record import Point, Study
 from core.study.accuracy.whole_picture import PIPELINE, SAMPLED_COLOR
-from widgets.basics.message_bar import Progress
 from widgets.basics.readout import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
@@ -34,24 +32,23 @@ NO_GROWTH = (
     "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
 )
 GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
-WORK_WORDS = WorkWords(
-    "Measuring was cancelled",
-    "It could not be measured",
-    "what was measured before is as it was",
-    "is still being measured",
+WORK_WORDS = ResultWords(
+    cancelled="Measuring was cancelled",
+    failed="It could not be measured",
+    kept="the previous results are unchanged",
+    running="is still being measured",
+    unknown="This version has no such family. A saved study can be viewed, but not measured again.",
+    again="measure again (F5)",
 )
 
 
-class StudyPresenter(ListedWork[FamilyChoice]):
+class StudyPresenter(ResultPresenter[FamilyChoice]):
     """Keeps the choices and results of all families and shows those of one."""
-
-    result_taken = Signal(object)
-    """A `StudyResult` that has just been measured."""
 
     def __init__(
         self,
         session: Session,
-        desk: StudyJobs,
+        jobs: StudyJobs,
         families: FamilyList,
         controls: StudyControls,
         charts: tuple[Chart, Chart],
@@ -60,34 +57,24 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         readout: Readout,
         page: QWidget,
     ) -> None:
-        super().__init__(desk.measuring, controls, WORK_WORDS, choices_of_all(), page)
-        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
-        self._families, self._controls = families, controls
-        self._charts, self._legend, self._table, self._readout = charts, legend, numbers, readout
+        super().__init__(jobs.measuring, WORK_WORDS, choices_of_all(), families, controls, readout, page)
+        self._session, self._jobs, self._controls = session, jobs, controls
+        self._charts, self._legend, self._table = charts, legend, numbers
         self._partial: Study | None = None
         """What has been measured by now, of the family that is being measured."""
         self._numbers: Mapping[str, int] = {}
         self._pointed = ""
         self._chosen = ""
-        self._connect()
-        session.plan_changed.connect(self.refresh)
-        self._pace.due.connect(self._show_study)
-        self.refresh()
-
-    def _connect(self) -> None:
-        controls = self._controls
-        self._families.family_chosen.connect(self.show_family)
         controls.work_chosen.connect(self._choose_work)
         controls.dial_chosen.connect(self._choose_dial)
         controls.measure_chosen.connect(self._choose_measure)
         controls.cost_chosen.connect(self._choose_cost)
         controls.rounds_chosen.connect(self._choose_rounds)
-        controls.seed_chosen.connect(self._choose_seed)
-        controls.measuring_requested.connect(self.measure)
-        controls.cancel_requested.connect(self.cancel)
-        for chart in (*self._charts, self._legend):
+        for chart in (*charts, legend):
             chart.series_hovered.connect(self._point_at)
             chart.series_left.connect(self._point_away)
+        session.plan_changed.connect(self.refresh)
+        self.refresh()
 
     # What is shown.
 
@@ -108,11 +95,6 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         points = () if self.study is None else self.study.points
         return next((point for point in points if point.method == method), None)
 
-    @Slot(str)
-    def show_family(self, name: str) -> None:
-        """Show another family."""
-        self._show_named(name)
-
     def _point_nowhere(self) -> None:
         """Forget the points that are pointed at and chosen."""
         self._pointed = self._chosen = ""
@@ -127,15 +109,10 @@ class StudyPresenter(ListedWork[FamilyChoice]):
         names = [name for name, _ in controls_of(self.choice).costs]
         self._choose_cost(names[(names.index(self.choice.cost) + 1) % len(names)])
 
-    def refresh(self) -> None:
-        """Show the family, its controls and its study."""
-        self._families.show_families([entry_of(choice) for choice in self._choices.values()], self._current)
+    def _show_controls(self) -> None:
         self._controls.show_choices(controls_of(self.choice))
-        self._show_study()
 
-    @Slot()
-    def _show_study(self) -> None:
-        self._pace.settle()
+    def _show_result(self) -> None:
         study, choice = self.study, self.choice
         if not self.is_partial and study is not None:
             self._numbers = numbers_of(study.points)
@@ -160,7 +137,6 @@ class StudyPresenter(ListedWork[FamilyChoice]):
                 chart.show_picture(picture)
         self._show_legend(scatter)
         self._show_readout()
-        self.shown_text_changed.emit(self._shown_text())
 
     def _show_legend(self, scatter: ChartPicture | ChartEmpty) -> None:
         """Show the list of names beside a chart that is too crowded to hold them all."""
@@ -171,32 +147,23 @@ class StudyPresenter(ListedWork[FamilyChoice]):
 
     def _ringed(self, study: Study) -> tuple[str, ...]:
         """Return the points that a plan chose for the scene that was measured."""
-        plan = self._session.plan
-        is_of_plan = plan is not None and (self.is_partial or self._is_of(plan.scene))
+        plan, result = self._session.plan, self.result
+        is_of_plan = plan is not None and (
+            self.is_partial or (result is not None and result.scene is plan.scene)
+        )
         return chosen_points(study, plan.plan if plan is not None and is_of_plan else None)
 
-    def _is_of(self, scene: AnyScene) -> bool:
-        """Return whether the result that is shown was measured on a scene."""
-        return self.result is not None and self.result.scene is scene
-
-    def _shown_text(self) -> str:
-        study = self.study
+    def _partial_text(self) -> str:
+        study = self._partial
         if study is None:
             return ""
-        parts = [f"{work_sentence(study)}; seed {study.seed}."]
-        if self.is_partial:
-            parts.append(f"{counted(len(study.points), 'method')} measured by now.")
-            return " ".join(parts)
-        if self.result is not None and self.result.is_kept:
-            parts.append("Kept from an earlier start.")
+        return f"{_work_text(study)} {counted(len(study.points), 'method')} measured by now."
+
+    def _result_texts(self) -> list[str]:
+        assert self.result is not None
+        study = self.result.study
         refused = sum(bool(point.refused) for point in study.points)
-        if refused:
-            parts.append(f"{counted(refused, 'method')} refused this work.")
-        if self.choice.family is not None and not self.choice.is_set_as(study):
-            parts.append("The controls are set otherwise by now: measure to see that.")
-        if study.machine:
-            parts.append(f"{machine_sentence(study)}.")
-        return " ".join(parts)
+        return [_work_text(study)] + [f"{counted(refused, 'method')} refused this work."] * bool(refused)
 
     def choose(self, method: str) -> None:
         """Keep the figures of a method in the readout while nothing else is pointed at; empty: of none."""
@@ -239,7 +206,7 @@ class StudyPresenter(ListedWork[FamilyChoice]):
     @Slot(str, float)
     def _choose_dial(self, name: str, value: float) -> None:
         self.choice.dials[self.choice.work, name] = value
-        self.shown_text_changed.emit(self._shown_text())
+        self.tell_shown()
 
     @Slot(str)
     def _choose_measure(self, name: str) -> None:
@@ -255,24 +222,12 @@ class StudyPresenter(ListedWork[FamilyChoice]):
     def _choose_rounds(self, rounds: int) -> None:
         self.choice.rounds = rounds
 
-    @Slot(int)
-    def _choose_seed(self, seed: int) -> None:
-        self.choice.seed = seed
-        self.shown_text_changed.emit(self._shown_text())
-
     # Measuring.
 
-    @Slot()
-    def measure(self) -> None:
-        """Measure the family that is shown on the chosen work."""
+    def _prepare(self) -> Callable[[], None]:
+        """Return what measures the family that is shown on the chosen work."""
         choice = self.choice
-        if choice.family is None:
-            self.refused.emit(
-                "This version has no such family: a saved study can be looked at, not measured again."
-            )
-            return
-        if not self._is_free():
-            return
+        assert choice.family is not None
         order = StudyOrder(
             choice.name, choice.work, choice.dial_values, choice.rounds, choice.seed, grow=choice.grow
         )
@@ -287,63 +242,40 @@ class StudyPresenter(ListedWork[FamilyChoice]):
             if plan is not None:
                 others = choice.family.candidates(settings)
                 order = replace(order, extra=plan_candidates(plan.plan, settings, others))
-        self._running = choice.name
         self._partial = None
         self._numbers = {
             each.method: number
             for number, each in enumerate((*choice.family.candidates(settings), *order.extra))
         }
         self._blank = _unmeasured(choice, order)
-        self._point_nowhere()
-        self._tell_progress(Progress("Preparing", 0, 0))
-        self.shown_changed.emit()
-        self._show_study()
-        self._desk.measure(order)
+        return partial(self._jobs.measure, order)
 
     def measure_scene(self) -> None:
         """Measure the whole pipeline on the open scene; beside a plan with an error that does not mind samples."""
-        self.show_family(PIPELINE.name)
+        self.show_named(PIPELINE.name)
         if self._session.plan is not None and self._session.document.settings.polygon_mode == "fill":
             self.choice.measure = SAMPLED_COLOR.name
-        self.measure()
+        self.start()
 
-    @Slot(object)
-    def _take_part(self, point: Point) -> None:
-        points = {each.method: each for each in (self._partial or self._blank).points} | {point.method: point}
+    def _keep_part(self, part: Point) -> None:
+        points = {each.method: each for each in (self._partial or self._blank).points} | {part.method: part}
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
         self._partial = replace(self._blank, points=tuple(in_order))
-        if self.is_partial:
-            self._pace.ask()
 
-    @Slot(object)
-    def _take_result(self, result: StudyResult) -> None:
-        choice = self._choices[result.study.family]
-        choice.take(result)
-        self.refresh()
-        self.message_sent.emit(f"Measured {choice.title.lower()}.")
-        self.result_taken.emit(result)
-
-    def _put_back(self) -> None:
-        """Show what was measured before."""
-        self._running, self._partial = "", None
-        self.refresh()
+    def _done_text(self, result: StudyResult) -> str:
+        return f"Measured {self._choices[result.name].title.lower()}."
 
     # Saved studies.
 
-    @Slot(object)
-    def take_kept(self, study: Study) -> None:
-        """Show a study of an earlier start as the result of its family, unless there is another by now."""
-        choice = self._choices.get(study.family)
-        if choice is not None and choice.result is None and self._running != study.family:
-            choice.take(StudyResult(study, is_kept=True))
-            self.refresh()
+    def _result_of(self, content: Study, path: str = "", is_kept: bool = False) -> StudyResult:
+        return StudyResult(content, path=path, is_kept=is_kept)
 
-    def take_saved(self, study: Study, path: str) -> None:
-        """Show a study that was opened from a file, as the result of its family."""
-        if study.family not in self._choices:
-            self._choices[study.family] = choice_of_saved(study)
-        self._choices[study.family].take(StudyResult(study, path=path))
-        self._turn_to(study.family)
+    def _unknown_choice(self, result: StudyResult) -> FamilyChoice:
+        return choice_of_saved(result.study)
+
+
+def _work_text(study: Study) -> str:
+    return f"{work_sentence(study)}; seed {study.seed}."
 
 
 def _unmeasured(choice: FamilyChoice, order: StudyOrder) -> Study:

@@ -58,11 +58,6 @@ class PlanJobs(JobGroup):
         self.drawing = self.add_job()
         """Gives a `PlanPictures`."""
 
-    @property
-    def is_looking(self) -> bool:
-        """Whether a plan is being made or measured."""
-        return self.looking.is_running
-
     def look(self, order: PlanOrder) -> None:
         """Plan, then measure; the plan comes before its numbers."""
 

@@ -1,12 +1,13 @@
 """The page “What does this scene need?”: tolerance, choices with reasons and numbers, and the difference they make."""
 
-from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+from PySide6.QtCore import Slot
+from PySide6.QtWidgets import QSplitter, QWidget
 
-from app.pages.page_bar import Handlers, Page
+from app.pages.page_bar import Handlers
 from app.pages.plan.jobs import PlanJobs
 from app.pages.plan.pictures_presenter import PlanPicturesPresenter
 from app.pages.plan.presenter import PlanPresenter
+from app.pages.result_page import WorkPage
 from app.session.session import Session
 from widgets.charts.study_pictures import StudyPictures
 from widgets.plan.controls import PlanControls
@@ -14,52 +15,25 @@ from widgets.plan.rows import PlanRows
 from widgets.plan.summary import PlanFindings, PlanSummary
 
 
-class PlanPage(Page):
+class PlanPage(WorkPage):
     """All panes of the Plan page and their presenters."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.desk = PlanJobs(self)
+        self.jobs = PlanJobs(self)
         self.controls, self.summary, self.rows = PlanControls(self), PlanSummary(self), PlanRows(self)
         self.findings, self.pictures = PlanFindings(self), StudyPictures(self)
         self.plans = PlanPresenter(
-            session, self.desk, self.controls, (self.summary, self.findings), self.rows, self
+            session, self.jobs, self.controls, (self.summary, self.findings), self.rows, self
         )
-        self.opened = PlanPicturesPresenter(self.plans, self.desk, self.pictures, self)
-        self._lay_out()
-        self.setFocusProxy(self.controls.look_button)
+        self.opened = PlanPicturesPresenter(self.plans, self.jobs, self.pictures, self)
+        self.join(self.jobs, self.plans, self.opened)
+        above = ((self.controls, 0), (self.summary, 0), (self.rows, 1))
+        self.lay_out(self.findings, above, self.pictures, spacing=8)
+        self.setFocusProxy(self.controls.start_button)
         self.rows.picture_requested.connect(self.opened.open)
         self.summary.picture_requested.connect(self.opened.open_all)
         self.controls.chart_requested.connect(self.show_on_chart)
-        for presenter in (self.plans, self.opened):
-            presenter.message_sent.connect(self.message_sent)
-            presenter.refused.connect(self.edit_refused)
-        self.opened.step_requested.connect(self.step_requested)
-        self.plans.progressed.connect(self.work_progressed)
-
-    def _lay_out(self) -> None:
-        above = QWidget(self)
-        column = QVBoxLayout(above)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(8)
-        for widget in (self.controls, self.summary):
-            column.addWidget(widget)
-        column.addWidget(self.rows, 1)
-        self.panes = QSplitter(Qt.Orientation.Vertical, self)
-        self.panes.addWidget(above)
-        self.panes.addWidget(self.pictures)
-        self.panes.setStretchFactor(0, 3)
-        self.panes.setStretchFactor(1, 2)
-        self.panes.setSizes([440, 280])
-        self.columns = QSplitter(Qt.Orientation.Horizontal, self)
-        self.columns.addWidget(self.findings)
-        self.columns.addWidget(self.panes)
-        self.columns.setStretchFactor(1, 1)
-        self.columns.setSizes([264, 1000])
-        self.findings.setMinimumWidth(160)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(8, 4, 8, 8)
-        page.addWidget(self.columns, 1)
 
     # As a page of the window.
 
@@ -74,22 +48,9 @@ class PlanPage(Page):
             "plan_findings": self.findings.toggle_findings,
         }
 
-    def dismiss(self) -> bool:
-        """Stop looking, or else close the pictures."""
-        if self.desk.is_looking:
-            self.plans.cancel()
-            return True
-        is_open = self.opened.is_open
-        self.opened.close()
-        return is_open
-
     def main_view(self) -> QWidget:
         """Return what is exported and copied: the choices with what they come to."""
         return self.panes
-
-    def stop(self) -> None:
-        """End looking and drawing."""
-        self.desk.shut_down()
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes, by names that no other page uses."""

@@ -24,14 +24,14 @@ class PlanPicturesPresenter(QObject):
     refused = Signal(str)
 
     def __init__(
-        self, plans: PlanPresenter, desk: PlanJobs, view: StudyPictures, parent: QObject | None = None
+        self, plans: PlanPresenter, jobs: PlanJobs, view: StudyPictures, parent: QObject | None = None
     ) -> None:
         super().__init__(parent)
-        self._plans, self._desk, self._view = plans, desk, view
+        self._plans, self._jobs, self._view = plans, jobs, view
         self._drawn: PlanPictures | None = None
         plans.shown_changed.connect(self.close)
-        desk.drawing.succeeded.connect(self._show_pictures)
-        desk.drawing.failed.connect(self._show_failure)
+        jobs.drawing.succeeded.connect(self._show_pictures)
+        jobs.drawing.failed.connect(self._show_failure)
         view.step_requested.connect(self.step)
         view.copy_requested.connect(self.copy)
         view.closing_requested.connect(self.close)
@@ -55,19 +55,20 @@ class PlanPicturesPresenter(QObject):
         self._drawn = None
         self._view.show()
         self._view.show_waiting("Drawing the choice and everything on …")
-        self._desk.draw(shown.order.scene, shown.plan, setting)
+        self._jobs.draw(shown.order.scene, shown.plan, setting)
 
     @Slot()
     def close(self) -> None:
         """Close the pictures."""
-        self._desk.stop_drawing()
+        self._jobs.stop_drawing()
         self._drawn = None
         self._view.hide()
 
-    @property
-    def is_open(self) -> bool:
-        """Whether there are pictures, or are about to be."""
-        return not self._view.isHidden()
+    def dismiss(self) -> bool:
+        """Close the pictures; return whether there were some, or were about to be."""
+        is_open = not self._view.isHidden()
+        self.close()
+        return is_open
 
     @Slot(object)
     def _show_pictures(self, drawn: PlanPictures) -> None:

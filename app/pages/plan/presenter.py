@@ -33,14 +33,14 @@ class PlanPresenter(BackgroundTask):
     def __init__(
         self,
         session: Session,
-        desk: PlanJobs,
+        jobs: PlanJobs,
         controls: PlanControls,
         summaries: tuple[PlanSummary, PlanFindings],
         rows: PlanRows,
         parent: QObject | None = None,
     ) -> None:
-        super().__init__(desk.looking, controls, WORDS, parent)
-        self._session, self._desk = session, desk
+        super().__init__(jobs.looking, controls, WORDS, parent)
+        self._session, self._jobs = session, jobs
         self._controls, self._summaries, self._rows = controls, summaries, rows
         self._order: PlanOrder | None = None
         """What is being looked at."""
@@ -49,7 +49,7 @@ class PlanPresenter(BackgroundTask):
         self._before: PlanShown | None = None
         """What comes back if that comes to nothing."""
         self.shown: PlanShown | None = None
-        controls.looking_requested.connect(self.look)
+        controls.start_requested.connect(self.look)
         controls.cancel_requested.connect(self.cancel)
         controls.applying_requested.connect(self.apply)
         session.document_changed.connect(self.refresh)
@@ -85,10 +85,10 @@ class PlanPresenter(BackgroundTask):
             controls.rounds_box.value(),
             document.title or "scene",
         )
-        self._desk.looking.cancel()
+        self._jobs.looking.cancel()
         self._order, self._before = order, self.shown
         controls.show_progress(Progress("Looking at the scene", 0, 0))
-        self._desk.look(order)
+        self._jobs.look(order)
 
     @Slot(object)
     def _take_part(self, plan: Plan) -> None:

@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from app.pages.compare.words import digits, time_text
+from app.pages.words import digits, time_text
 from core.explain.number_text import counted, joined
 from core.explain.stage_texts import family_title
 from core.methods import table

@@ -42,15 +42,15 @@ class StabilityCasePresenter(QObject):
 
     def __init__(
         self,
-        runs: StabilityPresenter,
-        desk: StabilityJobs,
+        results: StabilityPresenter,
+        jobs: StabilityJobs,
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         view: CaseView,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._runs, self._desk, self._view = runs, desk, view
+        self._results, self._jobs, self._view = results, jobs, view
         self._found: CaseFound | None = None
         self._shrunk: ShrunkFound | None = None
         self._steps_when_found = False
@@ -58,13 +58,13 @@ class StabilityCasePresenter(QObject):
         maps.cell_opened.connect(self._open)
         curves[0].point_chosen.connect(self._choose_on_curve)
         curves[1].series_chosen.connect(self.choose_failure)
-        runs.shown_changed.connect(self._show_again)
-        desk.looking.succeeded.connect(self._show_case)
-        desk.looking.failed.connect(self._show_failure)
-        desk.shrinking.succeeded.connect(self._show_shrunk)
-        desk.shrinking.failed.connect(self._tell_no_shrinking)
-        desk.reading.succeeded.connect(self._show_dial)
-        desk.reading.failed.connect(self._tell_no_dial)
+        results.shown_changed.connect(self._show_again)
+        jobs.looking.succeeded.connect(self._show_case)
+        jobs.looking.failed.connect(self._show_failure)
+        jobs.shrinking.succeeded.connect(self._show_shrunk)
+        jobs.shrinking.failed.connect(self._tell_no_shrinking)
+        jobs.reading.succeeded.connect(self._show_dial)
+        jobs.reading.failed.connect(self._tell_no_dial)
         view.pixel_pinned.connect(self._read_dial)
         view.step_requested.connect(self.step)
         view.shrink_requested.connect(self.shrink)
@@ -84,10 +84,10 @@ class StabilityCasePresenter(QObject):
     @Slot(object)
     def choose(self, place: CellPlace) -> None:
         """Run the cell once more and show it."""
-        self._runs.choose(place)
+        self._results.choose(place)
         self._found = self._shrunk = None
         self._steps_when_found = False
-        experiment, info = self._runs.choice.experiment, self._runs.info
+        experiment, info = self._results.choice.experiment, self._results.info
         values = values_at(info, place)
         heading = f"{place.key} at {place_sentence(info, values)}"
         self._view.show()
@@ -97,16 +97,16 @@ class StabilityCasePresenter(QObject):
             self._view.show_waiting(heading, "This version has no such method: the case cannot be run.")
         else:
             self._view.show_waiting(heading, "Running …")
-            self._desk.look(CaseOrder(experiment, place, values, self._runs.seed()))
+            self._jobs.look(CaseOrder(experiment, place, values, self._results.seed()))
 
     @Slot(str, int)
     def _choose_on_curve(self, method: str, index: int) -> None:
-        self.choose(place_on_curve(self._runs.info, method, index))
+        self.choose(place_on_curve(self._results.info, method, index))
 
     @Slot(str, bool)
     def choose_failure(self, method: str) -> None:
         """Show the first cell, row by row, at which a method fails."""
-        place = first_failure(self._runs.cells, method)
+        place = first_failure(self._results.cells, method)
         if place is None:
             self.message_sent.emit(f"No cell of {method} fails here.")
         else:
@@ -118,23 +118,29 @@ class StabilityCasePresenter(QObject):
         if self._found is not None and self._found.order.place == place:
             self.step()
             return
-        if self._runs.choice.chosen != place:
+        if self._results.choice.chosen != place:
             self.choose(place)
         self._steps_when_found = True
 
     @Slot()
     def close(self) -> None:
         """Close the case and choose no cell."""
-        self._desk.stop_looking()
+        self._jobs.stop_looking()
         self._found = self._shrunk = None
-        self._runs.choose(None)
+        self._results.choose(None)
         self._view.hide()
+
+    def dismiss(self) -> bool:
+        """Close the case; return whether there was one."""
+        is_open = self._results.choice.chosen is not None
+        self.close()
+        return is_open
 
     @Slot()
     def _show_again(self) -> None:
         """Show the case of the cell that was chosen of this experiment before."""
-        chosen = self._runs.choice.chosen
-        if chosen is None or not self._runs.is_shown(chosen):
+        chosen = self._results.choice.chosen
+        if chosen is None or not self._results.is_shown(chosen):
             self.close()
         elif not self._is_shown_already(chosen):
             self.choose(chosen)
@@ -143,8 +149,8 @@ class StabilityCasePresenter(QObject):
         """Return whether the case that is shown is of this very run: a grid that is finished changes nothing."""
         if self._found is None:
             return False
-        order, values = self._found.order, values_at(self._runs.info, place)
-        here = (self._runs.choice.experiment, place, values, self._runs.seed())
+        order, values = self._found.order, values_at(self._results.info, place)
+        here = (self._results.choice.experiment, place, values, self._results.seed())
         return (order.experiment, order.place, order.values, order.seed) == here
 
     @Slot(object)
@@ -178,7 +184,7 @@ class StabilityCasePresenter(QObject):
         opening = self._found.opening if self._shrunk is None else self._shrunk.shrunk.opening
         if opening is not None and has_formats(opening) and isinstance(opening.scene, ClipScene):
             wanted = wanted_cover(self._found.order.experiment, is_part=self._shrunk is not None)
-            self._desk.read_dial(opening.scene, opening.settings, (column, row), wanted)
+            self._jobs.read_dial(opening.scene, opening.settings, (column, row), wanted)
 
     @Slot(object)
     def _show_dial(self, found: PixelInFormats) -> None:
@@ -220,7 +226,7 @@ class StabilityCasePresenter(QObject):
             self.message_sent.emit("Only a cell that fails can be made smaller.")
             return
         self._view.show_waiting("Shrinking …", "Leaving out parts, pixels and digits as long as it fails.")
-        self._desk.shrink(found.order)
+        self._jobs.shrink(found.order)
 
     @Slot(object)
     def _show_shrunk(self, shrunk: ShrunkFound) -> None:

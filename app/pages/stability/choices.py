@@ -1,9 +1,11 @@
 """What is chosen for each experiment of the Stability page, and what has been run of it, while the window lives."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from core.explain.number_text import counted
 from core.study.stability import Atlas, Experiment, ExperimentInfo, experiments
+from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.stress import axes_at
 from widgets.atlas.records import CellPlace
 from widgets.charts.family_list import FamilyEntry
@@ -20,6 +22,16 @@ class AtlasResult:
     """The file it was opened from; empty: it was run here."""
     is_kept: bool = False
     """Whether it is of an earlier start of the window."""
+
+    @property
+    def name(self) -> str:
+        """Experiment of the atlas."""
+        return self.atlas.experiment.name
+
+    @property
+    def machine(self) -> Mapping[str, str]:
+        """Where it was run."""
+        return self.atlas.machine
 
 
 @dataclass(eq=False)
@@ -53,20 +65,36 @@ class ExperimentChoice:
             rows.append((name, f"{title} ({' × '.join(sizes)})"))
         return rows
 
-    def is_set_as(self, atlas: Atlas) -> bool:
-        """Return whether an atlas is one of what is chosen now."""
-        axes = axes_at(self.info.axes, self.resolution)
-        return atlas.seed == self.seed and atlas.experiment.axes == axes
+    @property
+    def can_run(self) -> bool:
+        """Whether this version has the experiment; one on the open scene is made anew for it."""
+        return self.experiment is not None or self.name == OPEN_SCENE
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether another grid or seed is chosen now than the result was run on."""
+        if self.result is None or self.experiment is None:
+            return False
+        atlas, axes = self.result.atlas, axes_at(self.info.axes, self.resolution)
+        return atlas.seed != self.seed or atlas.experiment.axes != axes
+
+    def entry(self) -> FamilyEntry:
+        """Return the row of the list."""
+        note = f"{self.info.question}\n{counted(len(self.info.methods), 'method')}"
+        if self.result is not None:
+            note += f"\nRun {self.result.machine.get('date', '')}".rstrip()
+        return FamilyEntry(self.name, self.title, note, self.result is not None)
+
+    def take(self, result: AtlasResult) -> None:
+        """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
+        self.result = result
+        if not (result.path or result.is_kept):
+            return
+        self.seed, self.chosen = result.atlas.seed, None
+        if self.name == OPEN_SCENE:  # A file does not hold its scene, and another one may be open now.
+            self.info, self.experiment = result.atlas.experiment, None
 
 
 def choices_of_all() -> dict[str, ExperimentChoice]:
     """Return every experiment that there is."""
     return {each.info.name: ExperimentChoice(each.info, each) for each in experiments}
-
-
-def entry_of(choice: ExperimentChoice) -> FamilyEntry:
-    """Return the row of the list."""
-    note = f"{choice.info.question}\n{counted(len(choice.info.methods), 'method')}"
-    if choice.result is not None:
-        note += f"\nRun {choice.result.atlas.machine.get('date', '')}".rstrip()
-    return FamilyEntry(choice.info.name, choice.info.title, note, choice.result is not None)

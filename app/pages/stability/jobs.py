@@ -83,16 +83,6 @@ class StabilityJobs(JobGroup):
         self.reading = self.add_job()
         """Gives a ``PixelInFormats``."""
 
-    @property
-    def is_running(self) -> bool:
-        """Whether a grid is being run."""
-        return self.running.is_running
-
-    @property
-    def is_shrinking(self) -> bool:
-        """Whether a case is being made small."""
-        return self.shrinking.is_running
-
     def run(self, order: StressOrder) -> None:
         """Run an experiment; rows of cells come as they are done."""
         last = len(order.axes[0].values) - 1

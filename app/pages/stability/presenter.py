@@ -1,18 +1,17 @@
 """The Stability page's experiments: which one is shown, its maps as they are run, and the figures of a cell."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
-from app.background.background_task import ListedWork, WorkWords
-from app.background.paced_drawing import PacedDrawing
 from app.export.atlas_text import WORDS
-from app.pages.compare.words import machine_words
-from app.pages.stability.choices import AtlasResult, ExperimentChoice, choices_of_all, entry_of
+from app.pages.result_presenter import ResultPresenter, ResultWords
+from app.pages.stability.choices import AtlasResult, ExperimentChoice, choices_of_all
 from app.pages.stability.jobs import CellRun, StabilityJobs, StressOrder
 from app.pages.stability.records import (
     atlas_record,
@@ -36,7 +35,6 @@ from core.study.stability.stress import axes_at
 from widgets.atlas.records import UNKNOWN, CellPlace
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView
-from widgets.basics.message_bar import Progress
 from widgets.basics.readout import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
@@ -47,24 +45,23 @@ NOTHING = (
     "One map for each method, one cell for each place: what came of a real run there. Press Run (F5); "
     "cells appear as they are run."
 )
-WORK_WORDS = WorkWords(
-    "Running was cancelled",
-    "It could not be run",
-    "the maps of before are as they were",
-    "is still being run",
+WORK_WORDS = ResultWords(
+    cancelled="Running was cancelled",
+    failed="It could not be run",
+    kept="the previous maps are unchanged",
+    running="is still being run",
+    unknown="This version has no such experiment. A saved atlas can be viewed, but not run again.",
+    again="run again (F5)",
 )
 
 
-class StabilityPresenter(ListedWork[ExperimentChoice]):
+class StabilityPresenter(ResultPresenter[ExperimentChoice]):
     """Keeps the choices and atlases of all experiments and shows those of one."""
-
-    result_taken = Signal(object)
-    """An `AtlasResult` that has just been run."""
 
     def __init__(
         self,
         session: Session,
-        desk: StabilityJobs,
+        jobs: StabilityJobs,
         experiments: FamilyList,
         controls: StabilityControls,
         maps: AtlasView,
@@ -73,20 +70,15 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         page: QWidget,
     ) -> None:
         choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
-        super().__init__(desk.running, controls, WORK_WORDS, choices, page)
-        self._session, self._desk, self._pace = session, desk, PacedDrawing(page)
-        self._list, self._controls, self._maps, self._readout = experiments, controls, maps, readout
+        super().__init__(jobs.running, WORK_WORDS, choices, experiments, controls, readout, page)
+        self._session, self._jobs, self._controls, self._maps = session, jobs, controls, maps
         self._curves, self._legend = curves
         self._running_info: ExperimentInfo | None = None
         self._cells: dict[str, NDArray[np.int16]] = {}
         """Of the run that is going on."""
         self._verdicts: dict[CellPlace, Verdict] = {}
         self._hover: CellPlace | None = None
-        experiments.family_chosen.connect(self.show_experiment)
         controls.resolution_chosen.connect(self._choose_resolution)
-        controls.seed_chosen.connect(self._choose_seed)
-        controls.running_requested.connect(self.run)
-        controls.cancel_requested.connect(self.cancel)
         maps.cell_hovered.connect(self._point_at)
         maps.cell_left.connect(self._point_away)
         self._curves.point_hovered.connect(self._point_at_curve)
@@ -94,7 +86,6 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         for pane in curves:
             pane.series_left.connect(self._point_away)
         session.document_changed.connect(self._take_document)
-        self._pace.due.connect(self._show_cells)
         self.refresh()
 
     @Slot()
@@ -130,26 +121,16 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         """Return the seed of the maps that are shown."""
         return self.choice.seed if self.result is None or self.is_partial else self.result.atlas.seed
 
-    @Slot(str)
-    def show_experiment(self, name: str) -> None:
-        """Show another experiment."""
-        self._show_named(name)
-
     def _point_nowhere(self) -> None:
         """Forget the cell that is pointed at."""
         self._hover = None
 
-    def refresh(self) -> None:
-        """Show the experiment, its controls and its maps."""
+    def _show_controls(self) -> None:
         choice = self.choice
-        self._list.show_families([entry_of(each) for each in self._choices.values()], self._current)
         self._controls.show_sentences(choice.info.question, f"Claim: {choice.info.claim}")
-        can_run = choice.experiment is not None or choice.name == OPEN_SCENE
-        self._controls.show_choices(choice.resolutions, choice.resolution, choice.seed, can_run)
-        self._show_maps()
+        self._controls.show_choices(choice.resolutions, choice.resolution, choice.seed, choice.can_run)
 
-    def _show_maps(self) -> None:
-        self._pace.settle()
+    def _show_result(self) -> None:
         cells = self.cells
         if cells:
             self._maps.show_atlas(atlas_record(self.info, cells))
@@ -158,7 +139,6 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
         self._maps.show_chosen(self.choice.chosen)
         self._show_curves()
         self._show_readout()
-        self.shown_text_changed.emit(self._shown_text())
 
     def _show_curves(self) -> None:
         """Draw severity against the axis, where there is one axis alone."""
@@ -183,20 +163,12 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
             found[place.key][place.column] = verdict.severity
         return found
 
-    def _shown_text(self) -> str:
-        result = self.result
-        if self.is_partial:
-            return "Being run; cells appear row by row."
-        if result is None:
-            return ""
-        parts = [counts_sentence(result), f"Seed {result.atlas.seed}."]
-        if result.is_kept:
-            parts.append("Kept from an earlier start.")
-        if self.choice.experiment is not None and not self.choice.is_set_as(result.atlas):
-            parts.append("The controls are set otherwise by now: run to see that.")
-        if result.atlas.machine:
-            parts.append(f"{machine_words(result.atlas.machine)}.")
-        return " ".join(parts)
+    def _partial_text(self) -> str:
+        return "Being run; cells appear row by row."
+
+    def _result_texts(self) -> list[str]:
+        assert self.result is not None
+        return [counts_sentence(self.result), f"Seed {self.result.atlas.seed}."]
 
     # The cell that is pointed at.
 
@@ -258,97 +230,57 @@ class StabilityPresenter(ListedWork[ExperimentChoice]):
     @Slot(str)
     def _choose_resolution(self, name: str) -> None:
         self.choice.resolution = name
-        self.shown_text_changed.emit(self._shown_text())
-
-    @Slot(int)
-    def _choose_seed(self, seed: int) -> None:
-        self.choice.seed = seed
-        self.shown_text_changed.emit(self._shown_text())
+        self.tell_shown()
 
     # Running.
 
-    @Slot()
-    def run(self) -> None:
-        """Run the experiment that is shown on the chosen grid."""
+    def _prepare(self) -> Callable[[], None]:
+        """Return what runs the experiment that is shown on the chosen grid."""
         choice = self.choice
-        if choice.name == OPEN_SCENE and self._running != OPEN_SCENE:
+        if choice.name == OPEN_SCENE:
             made = open_scene_choice(self._session)
             choice.info, choice.experiment = made.info, made.experiment
-        experiment = choice.experiment
-        if experiment is None:
-            self.refused.emit(
-                "This version has no such experiment: a saved atlas can be looked at, not run again."
-            )
-            return
-        if not self._is_free():
-            return
+        assert choice.experiment is not None
         axes = axes_at(choice.info.axes, choice.resolution)
-        self._running, self._running_info = choice.name, replace(choice.info, axes=axes)
+        self._running_info = replace(choice.info, axes=axes)
         self._cells, self._verdicts = blank_cells(self._running_info), {}
-        choice.chosen = self._hover = None
-        self._tell_progress(Progress("Preparing", 0, 0))
-        self._show_maps()
-        self.shown_changed.emit()
-        self._desk.run(StressOrder(experiment, axes, choice.seed))
+        choice.chosen = None
+        return partial(self._jobs.run, StressOrder(choice.experiment, axes, choice.seed))
 
     def _come_to_nothing(self) -> None:
-        """Choose no cell any more: the maps of before are shown again."""
+        """Choose no cell any more: the previous maps are shown again."""
         self.choice.chosen = self._hover = None
         self._maps.show_chosen(None)
         self._show_readout()
         self.shown_changed.emit()
 
-    @Slot(object)
-    def _take_part(self, cells: tuple[CellRun, ...]) -> None:
-        for each in cells:
+    def _keep_part(self, part: tuple[CellRun, ...]) -> None:
+        for each in part:
             place = each.place
             self._cells[place.key][place.row, place.column] = int(each.verdict.outcome)
             self._verdicts[place] = each.verdict
-        if self.is_partial:
-            self._pace.ask()
 
     @Slot()
-    def _show_cells(self) -> None:
-        """Show the cells that have been run by now."""
+    def _show_parts(self) -> None:
+        """Show the cells that have been run by now; the figures of the cell that is pointed at wait."""
         self._maps.show_atlas(atlas_record(self.info, self.cells))
         self._show_curves()
 
     @Slot(object)
     def _take_result(self, result: AtlasResult) -> None:
-        choice = self._choices[result.atlas.experiment.name]
-        choice.result = result
-        self.refresh()
+        super()._take_result(result)
         self.shown_changed.emit()
-        self.message_sent.emit(f"Ran {choice.info.title.lower()}: {counts_sentence(result)}")
-        self.result_taken.emit(result)
 
-    def _put_back(self) -> None:
-        """Show the maps of before."""
-        self._running, self._running_info = "", None
-        self._cells, self._verdicts = {}, {}
-        self.refresh()
+    def _done_text(self, result: AtlasResult) -> str:
+        return f"Ran {self._choices[result.name].title.lower()}: {counts_sentence(result)}"
 
     # Saved atlases.
 
-    def take_saved(self, atlas: Atlas, path: str) -> None:
-        """Show an atlas that was opened from a file, as the result of its experiment."""
-        self._take(AtlasResult(atlas, path=path))
-        self._turn_to(atlas.experiment.name)
+    def _result_of(self, content: Atlas, path: str = "", is_kept: bool = False) -> AtlasResult:
+        return AtlasResult(content, path, is_kept)
 
-    @Slot(object)
-    def take_kept(self, atlas: Atlas) -> None:
-        """Show an atlas of an earlier start as the result of its experiment, unless there is another by now."""
-        name = atlas.experiment.name
-        if name in self._choices and self._choices[name].result is None and self._running != name:
-            self._take(AtlasResult(atlas, is_kept=True))
-            self.refresh()
-
-    def _take(self, result: AtlasResult) -> None:
-        info = result.atlas.experiment
-        choice = self._choices.setdefault(info.name, ExperimentChoice(info, None))
-        choice.result, choice.seed, choice.chosen = result, result.atlas.seed, None
-        if info.name == OPEN_SCENE:  # A file does not hold its scene, and another one may be open now.
-            choice.info, choice.experiment = info, None
+    def _unknown_choice(self, result: AtlasResult) -> ExperimentChoice:
+        return ExperimentChoice(result.atlas.experiment, None)
 
 
 def open_scene_choice(session: Session) -> ExperimentChoice:

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.export.atlas_text import WORDS
-from app.pages.compare.words import machine_words
 from app.pages.stability.choices import AtlasResult, ExperimentChoice
 from app.pages.stability.jobs import CaseFound, ShrunkFound
 from app.pages.stability.outcome_looks import cell_kinds
+from app.pages.words import machine_words
 from core import Frame
 from core.explain.number_text import counted, number_text
 from core.framebuffer.display import to_display

@@ -41,12 +41,12 @@ def test_an_atlas_is_exported_and_opened_again(
     assert len(rows) == sum(each.outcome.size for each in atlas.maps)
     assert atlas.experiment.claim.split(";")[0] in (tmp_path / "atlas.svg").read_text().replace("\n", " ")
     assert {row["date"] for row in rows} == {atlas.machine["date"]}
-    page.runs.choice.result = None
+    page.results.choice.result = None
     window.pages.show_page("step")
     window.open_path(str(tmp_path / "atlas.json"))
     assert window.pages.current_name == "stability"
-    assert page.runs.result is not None
-    again = page.runs.result.atlas
+    assert page.results.result is not None
+    again = page.results.result.atlas
     assert (again.experiment, again.seed, again.machine) == (atlas.experiment, atlas.seed, atlas.machine)
     for first, second in zip(atlas.maps, again.maps, strict=True):
         assert np.array_equal(first.outcome, second.outcome)
@@ -70,8 +70,8 @@ def test_an_atlas_of_before_there_were_remarks_opens(page: StabilityPage, tmp_pa
         del each["remarks"]
     (tmp_path / "old.json").write_text(json.dumps(record))
     page.open_path(str(tmp_path / "old.json"))
-    assert page.runs.result is not None
-    assert page.runs.result.atlas.maps[0].remark(0, 0) == ""
+    assert page.results.result is not None
+    assert page.results.result.atlas.maps[0].remark(0, 0) == ""
     point_at(page, CellPlace(EXCLUSIVE, 0, 0))
     assert "Outcome" in page.readout.text()
 
@@ -85,8 +85,8 @@ def test_an_atlas_of_an_unknown_experiment_is_shown_and_not_run(
     record["experiment"], record["title"] = "gone", "An experiment of another version"
     (tmp_path / "atlas.json").write_text(json.dumps(record))
     page.open_path(str(tmp_path / "atlas.json"))
-    assert page.experiments.currentItem().text() == "An experiment of another version"
-    assert not page.controls.running.start_button.isEnabled()
+    assert page.entries.currentItem().text() == "An experiment of another version"
+    assert not page.controls.start_button.isEnabled()
     click(page, CellPlace(EXCLUSIVE, 0, 0))
     assert "no such experiment" in page.case.verdict.text()
 

@@ -44,20 +44,20 @@ def test_a_study_is_there_again_at_the_next_start(
     keeping: MainWindow, later: MainWindow, qtbot: QtBot
 ) -> None:
     first = compare_page(keeping)
-    first.studies.measure()
-    qtbot.waitUntil(lambda: not first.desk.is_measuring, timeout=60000)
+    first.results.start()
+    qtbot.waitUntil(lambda: not first.results.is_running, timeout=60000)
     first.stop()
-    study = first.studies.study
+    study = first.results.study
     assert study is not None
     assert os.listdir(results_folder()) == ["study-visibility.json"]
     second = compare_page(later)
-    qtbot.waitUntil(lambda: second.studies.study is not None, timeout=20000)
-    again = second.studies.study
+    qtbot.waitUntil(lambda: second.results.study is not None, timeout=20000)
+    again = second.results.study
     assert again is not None
     assert [point.seconds.tolist() for point in again.points] == [p.seconds.tolist() for p in study.points]
     assert len(second.scatter.places()) == len(study.points)
     assert "Kept from an earlier start." in second.shown_text.text()
-    assert second.studies.choice.dial_values == dict(study.dials)
+    assert second.results.choice.dial_values == dict(study.dials)
     second.opened.choose("visibility=painters")
     qtbot.waitUntil(lambda: second.pictures.linked.grids[0].buffer() is not None, timeout=60000)
 
@@ -68,23 +68,23 @@ def test_an_atlas_is_there_again_and_one_of_a_scene_says_that_it_has_none(
     keeping.pages.show_page("stability")
     first = keeping.pages.current
     assert isinstance(first, StabilityPage)
-    first.runs.show_experiment(OPEN_SCENE)
-    first.runs.choice.resolution = "coarse"
-    first.runs.run()
-    qtbot.waitUntil(lambda: not first.desk.is_running, timeout=60000)
+    first.results.show_named(OPEN_SCENE)
+    first.results.choice.resolution = "coarse"
+    first.results.start()
+    qtbot.waitUntil(lambda: not first.results.is_running, timeout=60000)
     first.stop()
     later.pages.show_page("stability")
     second = later.pages.current
     assert isinstance(second, StabilityPage)
-    second.runs.show_experiment(OPEN_SCENE)
-    qtbot.waitUntil(lambda: second.runs.result is not None, timeout=20000)
-    assert second.runs.cells.keys() == first.runs.cells.keys()
-    second.opened.choose_failure(next(iter(second.runs.cells)))
-    assert not second.desk.looking.is_running, "another scene is open: its cells are not those of the atlas"
-    assert second.controls.running.start_button.isEnabled()
-    second.runs.run()
-    assert second.desk.is_running, "it is run on the scene that is open now"
-    second.runs.cancel()
+    second.results.show_named(OPEN_SCENE)
+    qtbot.waitUntil(lambda: second.results.result is not None, timeout=20000)
+    assert second.results.cells.keys() == first.results.cells.keys()
+    second.opened.choose_failure(next(iter(second.results.cells)))
+    assert not second.jobs.looking.is_running, "another scene is open: its cells are not those of the atlas"
+    assert second.controls.start_button.isEnabled()
+    second.results.start()
+    assert second.results.is_running, "it is run on the scene that is open now"
+    second.results.cancel()
 
 
 def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWindow, qtbot: QtBot) -> None:
@@ -92,8 +92,8 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
     (results_folder() / "study-cull.json").write_text("{")
     save_study(results_folder() / "study-line.json", hand_made())
     page = compare_page(keeping)
-    page.studies.show_family("line")
-    qtbot.waitUntil(lambda: page.studies.study is not None, timeout=20000)
+    page.results.show_named("line")
+    qtbot.waitUntil(lambda: page.results.study is not None, timeout=20000)
     qtbot.waitUntil(keeping.messages.isVisible, timeout=20000)
     assert "study-cull.json cannot be opened" in keeping.messages.text.text()
 
@@ -101,8 +101,8 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
 def test_what_is_measured_now_is_not_replaced_by_what_was_kept(window: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(window)
     study = measured(page, qtbot)
-    page.studies.take_kept(hand_made("visibility"))
-    assert page.studies.study is study
+    page.results.take_kept(hand_made("visibility"))
+    assert page.results.study is study
 
 
 def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainWindow, qtbot: QtBot) -> None:
@@ -111,9 +111,9 @@ def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainW
     path = results_folder() / "study-visibility.json"
     qtbot.waitUntil(path.exists, timeout=20000)
     before = path.read_bytes()
-    page.studies.choice.rounds = 90
+    page.results.choice.rounds = 90
     QTest.keyClick(keeping, Qt.Key.Key_F5)
-    page.studies.cancel()
+    page.results.cancel()
     page.stop()
     assert path.read_bytes() == before
 
@@ -150,7 +150,7 @@ def test_a_folder_that_cannot_be_made_is_told(
     told: list[str] = []
     kept.failed.connect(told.append)
     kept.begin()
-    kept.keep("line", lambda: "{}")
+    kept.keep("line", lambda: b"{}")
     qtbot.waitUntil(lambda: bool(told), timeout=20000)
     kept.shut_down()
     assert told[0].startswith("The result is not kept for the next start: ")
@@ -159,17 +159,17 @@ def test_a_folder_that_cannot_be_made_is_told(
 
 def test_a_running_measurement_is_not_dropped_for_another(window: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(window)
-    page.studies.choice.rounds = 90
+    page.results.choice.rounds = 90
     QTest.keyClick(window, Qt.Key.Key_F5)
-    page.studies.show_family("line")
+    page.results.show_named("line")
     QTest.keyClick(window, Qt.Key.Key_F5)
     assert "Hidden surfaces is still being measured" in window.statusBar().currentMessage()
-    assert page.desk.is_measuring
+    assert page.results.is_running
     qtbot.waitUntil(lambda: page.controls.doing.text().startswith("Hidden surfaces: "), timeout=20000)
     assert page.controls.cancel_button.isVisible()
     window.pages.show_page("step")
     qtbot.waitUntil(lambda: "%" in bar_text(window), timeout=20000)
-    page.studies.cancel()
+    page.results.cancel()
     assert bar_text(window) == "Compare"
 
 
@@ -180,8 +180,8 @@ def bar_text(window: MainWindow) -> str:
 def test_a_study_that_is_done_is_shown_on_its_family(window: MainWindow, qtbot: QtBot) -> None:
     page: ComparePage = compare_page(window)
     QTest.keyClick(window, Qt.Key.Key_F5)
-    page.studies.show_family("cull")
-    qtbot.waitUntil(lambda: not page.desk.is_measuring, timeout=60000)
-    assert page.studies.result is None
-    page.studies.show_family("visibility")
-    assert page.studies.result is not None
+    page.results.show_named("cull")
+    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
+    assert page.results.result is None
+    page.results.show_named("visibility")
+    assert page.results.result is not None

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.export.study import export_study, study_content, study_csv, study_sheet
 from app.files.study_files import StudyFileError, load_study, save_study
-from app.pages.compare.words import digits, time_text
+from app.pages.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
 from core.study.accuracy.record import Dial

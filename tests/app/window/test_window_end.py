@@ -30,13 +30,13 @@ sys.exit(window_start.run_window({target!r}))
 ACTS = [
     ("/nowhere/gone.obj", "pass"),
     ("torus", "window.files.open_path('knot')"),
-    ("single-triangle", "window.pages.show_page('stability'); window.pages.current.runs.run()"),
+    ("single-triangle", "window.pages.show_page('stability'); window.pages.current.results.start()"),
 ]
 SLOW_ACTS = [
     ("single-triangle", "window.page.timeline.toggle_play()"),
     ("knot", "window.page.show_view('scene')"),
     ("sphere", "window.session.set_setting('fill', 'brute-force')"),
-    ("single-triangle", "window.pages.show_page('compare'); window.pages.current.studies.measure()"),
+    ("single-triangle", "window.pages.show_page('compare'); window.pages.current.results.start()"),
 ]
 
 

@@ -107,15 +107,15 @@ def test_showing_emits_nothing(controls: StudyControls, qtbot: QtBot) -> None:
 
 def test_measuring_shows_progress_and_a_way_out(controls: StudyControls, qtbot: QtBot) -> None:
     assert not controls.cancel_button.isVisible()
-    with qtbot.waitSignal(controls.measuring_requested):
-        QTest.mouseClick(controls.measure_button, Qt.MouseButton.LeftButton)
+    with qtbot.waitSignal(controls.start_requested):
+        QTest.mouseClick(controls.start_button, Qt.MouseButton.LeftButton)
     controls.show_progress(Progress("Bresenham, round 2 of 9", 40, 100))
-    assert not controls.measure_button.isVisible()
+    assert not controls.start_button.isVisible()
     assert controls.doing.text() == "Bresenham, round 2 of 9"
     with qtbot.waitSignal(controls.cancel_requested):
         QTest.mouseClick(controls.cancel_button, Qt.MouseButton.LeftButton)
     controls.show_progress(None)
-    assert controls.measure_button.isVisible()
+    assert controls.start_button.isVisible()
 
 
 def test_controls_begin_a_new_line_rather_than_be_cut(controls: StudyControls) -> None:

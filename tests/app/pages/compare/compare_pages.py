@@ -20,19 +20,19 @@ def compare_page(window: MainWindow) -> ComparePage:
     window.pages.show_page("compare")
     found = window.pages.current
     assert isinstance(found, ComparePage)
-    found.studies.show_family("visibility")
-    found.studies.choice.work = "cycle"
-    found.studies.choice.rounds = 2
-    found.studies.refresh()
+    found.results.show_named("visibility")
+    found.results.choice.work = "cycle"
+    found.results.choice.rounds = 2
+    found.results.refresh()
     return found
 
 
 def measured(page: ComparePage, qtbot: QtBot) -> Study:
     """Measure by the key and wait."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.desk.is_measuring
-    qtbot.waitUntil(lambda: not page.desk.is_measuring, timeout=60000)
-    result = page.studies.result
+    assert page.results.is_running
+    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
+    result = page.results.result
     assert result is not None
     return result.study
 

@@ -63,7 +63,7 @@ def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
     drop(window, path)
     page = window.pages.current
     assert isinstance(page, ComparePage)
-    assert page.studies.choice.name == "line"
+    assert page.results.choice.name == "line"
     assert "2020-02-02" in page.shown_text.text()
     assert page.controls.seed_box.value() == 5
     assert len(page.scatter.places()) == 2
@@ -72,15 +72,15 @@ def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
 def test_a_study_of_an_unknown_family_is_looked_at_but_not_measured(
     window: MainWindow, page: ComparePage
 ) -> None:
-    page.studies.take_saved(hand_made("from-a-later-version"), "later.json")
+    page.results.take_saved(hand_made("from-a-later-version"), "later.json")
     assert len(page.scatter.places()) == 2
-    assert not page.controls.measure_button.isEnabled()
+    assert not page.controls.start_button.isEnabled()
     QTest.keyClick(window, Qt.Key.Key_F5)
     assert "no such family" in window.messages.text.text()
 
 
 def test_a_broken_study_leaves_what_is_shown(window: MainWindow, page: ComparePage, tmp_path: Path) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     path = tmp_path / "broken.json"
     path.write_text("{}")
     drop(window, path)
@@ -92,9 +92,9 @@ def test_a_broken_study_leaves_what_is_shown(window: MainWindow, page: ComparePa
 def test_a_study_is_exported(
     window: MainWindow, page: ComparePage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cost: str
 ) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
-    page.studies.choice.cost = cost
-    page.studies.refresh()
+    page.results.take_saved(hand_made(), "lines.json")
+    page.results.choice.cost = cost
+    page.results.refresh()
     for ending in (".json", ".csv", ".svg", ".png", ".pdf"):
         path = str(tmp_path / f"study{ending}")
         monkeypatch.setattr(SaveDialog, "ask", lambda dialog, path=path: path)
@@ -111,7 +111,7 @@ def test_a_study_is_exported(
 def test_an_export_that_is_not_possible_is_told(
     window: MainWindow, page: ComparePage, tmp_path: Path
 ) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     page.export_to(str(tmp_path / "study.xls"))
     assert "must end with" in window.messages.text.text()
     page.export_to(str(tmp_path / "nowhere" / "study.csv"))
@@ -120,6 +120,6 @@ def test_an_export_that_is_not_possible_is_told(
 
 def test_a_saved_pipeline_study_has_no_pictures(page: ComparePage) -> None:
     study = measure("visibility", "cycle", rounds=1)
-    page.studies.take_saved(replace(study, scene="teapot"), "old.json")
+    page.results.take_saved(replace(study, scene="teapot"), "old.json")
     page.opened.choose("visibility=z-buffer")
     assert "without its scene, teapot" in page.pictures.heading.text()

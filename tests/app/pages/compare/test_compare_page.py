@@ -24,7 +24,7 @@ def page(window: MainWindow) -> ComparePage:
 
 
 def test_every_family_of_the_core_is_offered(page: ComparePage) -> None:
-    titles = [page.families.item(row).text() for row in range(page.families.count())]
+    titles = [page.entries.item(row).text() for row in range(page.entries.count())]
     assert len(titles) == len(study_families())
     assert titles[0] == "Whole pipeline on the open scene"
 
@@ -40,7 +40,7 @@ def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
 
 def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: QtBot) -> None:
     drawn: list[int] = []
-    page.desk.measuring.part_done.connect(lambda _: drawn.append(len(page.scatter.places())))
+    page.jobs.measuring.part_done.connect(lambda _: drawn.append(len(page.scatter.places())))
     study = measured(page, qtbot)
     assert [point.method for point in study.points] == [key for key, _ in page.scatter.places()]
     assert drawn[0] == 1, "points appear as they are measured"
@@ -52,7 +52,7 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
         assert tuple(series.x_spread[0]) == point.spread
     exact = [point for point in study.points if point.errors[WRONG] == 0]
     assert min(exact, key=lambda point: point.median).method in picture.front
-    assert page.families.currentItem().text() == "Hidden surfaces"
+    assert page.entries.currentItem().text() == "Hidden surfaces"
     assert not page.controls.cancel_button.isVisible()
 
 
@@ -60,17 +60,17 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     before = measured(page, qtbot)
     picture = page.scatter.picture
     assert picture is not None
-    page.studies.choice.rounds = 90
+    page.results.choice.rounds = 90
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.scatter.places() == [], "what is being measured anew is not shown with old numbers"
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.desk.is_measuring
-    assert page.studies.study is before
+    assert not page.results.is_running
+    assert page.results.study is before
     again = page.scatter.picture
     assert again is not None
     assert [series.x.tolist() for series in again.series] == [series.x.tolist() for series in picture.series]
     qtbot.wait(100)
-    assert page.studies.study is before, "no late point of the cancelled measurement comes in"
+    assert page.results.study is before, "no late point of the cancelled measurement comes in"
 
 
 def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
@@ -79,39 +79,39 @@ def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot
     def cancel_at_the_first_point(_: object) -> None:
         if not drawn:
             drawn.append(len(page.scatter.places()))
-            page.studies.cancel()
+            page.results.cancel()
 
-    page.desk.measuring.part_done.connect(cancel_at_the_first_point)
+    page.jobs.measuring.part_done.connect(cancel_at_the_first_point)
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: bool(drawn), timeout=60000)
     assert drawn == [1]
     assert page.scatter.places() == []
-    assert page.studies.result is None
+    assert page.results.result is None
 
 
 def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
-    page.desk.measure(StudyOrder("visibility", "cycle", {"length": 3.0}, 1, 0))
+    page.jobs.measure(StudyOrder("visibility", "cycle", {"length": 3.0}, 1, 0))
     window = page.window()
     assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "dial of cycle must be one of none" in window.messages.text.text()
-    assert page.studies.study is before
+    assert page.results.study is before
     assert len(page.scatter.places()) == len(before.points)
 
 
 def test_results_are_kept_for_every_family(page: ComparePage, qtbot: QtBot) -> None:
     study = measured(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
-    assert page.studies.choice.name == "cull"
+    assert page.results.choice.name == "cull"
     assert page.scatter.places() == []
-    page.families.setCurrentRow(page.families.currentRow() - 1)
-    assert page.studies.study is study
+    page.entries.setCurrentRow(page.entries.currentRow() - 1)
+    assert page.results.study is study
     assert len(page.scatter.places()) == len(study.points)
 
 
 def test_hover_reads_the_figures_and_is_linked(page: ComparePage) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     QApplication.processEvents()
     place = page.scatter.place_of("line=dda")
     assert place is not None
@@ -126,7 +126,7 @@ def test_hover_reads_the_figures_and_is_linked(page: ComparePage) -> None:
 
 
 def test_a_refusal_and_a_reason_are_listed_and_never_drawn(page: ComparePage) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     assert {key for key, _ in page.scatter.places()} == {"line=bresenham", "line=dda"}
     text = page.readout.text()
     for wanted in (
@@ -138,12 +138,12 @@ def test_a_refusal_and_a_reason_are_listed_and_never_drawn(page: ComparePage) ->
     ):
         assert wanted in text
     QTest.keyClick(page.window(), Qt.Key.Key_E)
-    assert page.studies.choice.measure == "area"
+    assert page.results.choice.measure == "area"
     assert {key for key, _ in page.scatter.places()} == {"line=bresenham", "line=dda", "line=midpoint"}
 
 
 def test_the_same_marks_in_both_charts(page: ComparePage) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     pictures = page.scatter.picture, page.growth.picture
     assert pictures[0] is not None
     assert pictures[1] is not None
@@ -154,7 +154,7 @@ def test_the_same_marks_in_both_charts(page: ComparePage) -> None:
 
 
 def test_a_count_takes_the_place_of_time_in_both_charts(page: ComparePage) -> None:
-    page.studies.take_saved(hand_made(), "lines.json")
+    page.results.take_saved(hand_made(), "lines.json")
     QTest.keyClick(page.window(), Qt.Key.Key_X)
     assert page.controls.cost_box.currentText() == "Pixels drawn"
     scatter, growth = page.scatter.picture, page.growth.picture
@@ -165,30 +165,30 @@ def test_a_count_takes_the_place_of_time_in_both_charts(page: ComparePage) -> No
     assert scatter.front == ("line=bresenham",)
     assert growth.y_axis.title == "Pixels drawn"
     QTest.keyClick(page.window(), Qt.Key.Key_X)
-    assert page.studies.choice.cost == TIME
+    assert page.results.choice.cost == TIME
 
 
 def test_the_whole_pipeline_is_measured_on_the_open_scene(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:
-    page.studies.show_family("pipeline")
-    page.studies.choice.rounds = 1
+    page.results.show_named("pipeline")
+    page.results.choice.rounds = 1
     scene = window.session.document.scene
-    page.studies.measure()
+    page.results.start()
     qtbot.waitUntil(lambda: len(page.scatter.places()) > 2, timeout=60000)
-    study = page.studies.study
+    study = page.results.study
     assert study is not None
     assert study.scene == "Two triangles sharing an edge"
     assert study.settings == window.session.document.settings
-    page.studies.cancel()
+    page.results.cancel()
     assert window.session.document.scene is scene
 
 
 def test_the_controls_say_when_they_are_set_otherwise(page: ComparePage, qtbot: QtBot) -> None:
     measured(page, qtbot)
-    assert "set otherwise" not in page.shown_text.text()
+    assert "settings have changed" not in page.shown_text.text()
     page.controls.seed_box.setValue(3)
-    assert "set otherwise" in page.shown_text.text()
+    assert "settings have changed" in page.shown_text.text()
 
 
 def test_panes_come_back_as_they_were(page: ComparePage) -> None:
@@ -200,21 +200,21 @@ def test_panes_come_back_as_they_were(page: ComparePage) -> None:
 
 
 def test_closing_while_measuring_ends_the_thread(page: ComparePage) -> None:
-    page.studies.choice.rounds = 99
-    page.studies.measure()
+    page.results.choice.rounds = 99
+    page.results.start()
     start = time.perf_counter()
     page.window().close()
-    assert not page.desk.is_measuring
+    assert not page.results.is_running
     assert time.perf_counter() - start < 20
 
 
 def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     study = hand_made()
-    page.studies.take_saved(study, "few.json")
+    page.results.take_saved(study, "few.json")
     assert not page.legend.isVisible()
     many = tuple(replace(study.points[n % 2], method=f"line=m{n}", title=f"Method {n}") for n in range(20))
     growth = dict.fromkeys(study.growth, many)
-    page.studies.take_saved(replace(study, points=many, growth=growth), "many.json")
+    page.results.take_saved(replace(study, points=many, growth=growth), "many.json")
     QApplication.processEvents()
     assert page.legend.isVisible()
     assert page.legend.count() == 20
@@ -235,16 +235,16 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
 def test_a_hidden_page_draws_no_points_until_it_is_seen(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:
-    page.studies.choice.rounds = 90
+    page.results.choice.rounds = 90
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     window.pages.show_page("step")
     measured_first: list[object] = []
-    page.desk.measuring.part_done.connect(measured_first.append)
+    page.jobs.measuring.part_done.connect(measured_first.append)
     qtbot.waitUntil(lambda: len(measured_first) > 20, timeout=60000)
     assert page.scatter.places() == []
     window.pages.show_page("compare")
     assert len(page.scatter.places()) > 1, "what came meanwhile is there at once"
-    page.studies.cancel()
+    page.results.cancel()
 
 
 def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, page: ComparePage) -> None:

@@ -41,8 +41,8 @@ def page(window: MainWindow) -> PlanPage:
 def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
     """Look by the key and wait."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.desk.is_looking
-    qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    assert page.plans.is_running
+    qtbot.waitUntil(lambda: not page.plans.is_running, timeout=60000)
     QApplication.processEvents()  # Rows that have just been made are shown a moment later.
     shown = page.plans.shown
     assert shown is not None
@@ -99,8 +99,8 @@ def test_the_tolerance_is_the_one_that_was_set(page: PlanPage, qtbot: QtBot) -> 
     page.controls.kind_box.setFocus()
     QTest.keyClick(page.controls.kind_box, Qt.Key.Key_Down)
     assert not page.controls.color_box.isEnabled()
-    page.controls.look_button.click()
-    qtbot.waitUntil(lambda: not page.desk.is_looking, timeout=60000)
+    page.controls.start_button.click()
+    qtbot.waitUntil(lambda: not page.plans.is_running, timeout=60000)
     assert page.plans.shown is not None
     assert page.plans.shown.plan.tolerance == Tolerance.exact()
     assert "exact" in page.summary.about.text()
@@ -165,11 +165,11 @@ def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -
     qtbot.waitUntil(lambda: page.plans.shown is not None and page.plans.shown.report is None, timeout=60000)
     assert "Measuring" in page.summary.headline.text()
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.desk.is_looking
+    assert not page.plans.is_running
     assert page.plans.shown is not None
     assert page.plans.shown.report is report
-    assert page.controls.look_button.isVisible()
-    assert page.controls.look_button.hasFocus()
+    assert page.controls.start_button.isVisible()
+    assert page.controls.start_button.hasFocus()
 
 
 def test_a_scene_that_is_too_large_is_told(
@@ -237,13 +237,13 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     report = looked(page, qtbot)
     compare = window.pages.page("compare")
     assert isinstance(compare, ComparePage)
-    compare.studies.show_family("pipeline")
-    compare.studies.choice.rounds = 1
-    compare.studies.choice.dials["scene", "scale"] = 1
+    compare.results.show_named("pipeline")
+    compare.results.choice.rounds = 1
+    compare.results.choice.dials["scene", "scale"] = 1
     QTest.keyClick(window, Qt.Key.Key_M, CTRL)
     assert window.pages.current is compare
-    qtbot.waitUntil(lambda: not compare.desk.is_measuring, timeout=120000)
-    study, picture = compare.studies.study, compare.scatter.picture
+    qtbot.waitUntil(lambda: not compare.results.is_running, timeout=120000)
+    study, picture = compare.results.study, compare.scatter.picture
     assert study is not None
     assert picture is not None
     (ringed,) = picture.ringed
@@ -252,7 +252,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert titles[ringed] == "What the scene needs"
     assert "Everything on" in titles.values()
     another_scene(window)
-    compare.studies.refresh()
+    compare.results.refresh()
     assert compare.scatter.picture is not None
     assert compare.scatter.picture.ringed == ()
 
@@ -268,7 +268,7 @@ def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> 
     page.plans.look()
     start = time.perf_counter()
     page.window().close()
-    assert not page.desk.is_looking
+    assert not page.plans.is_running
     assert time.perf_counter() - start < 20
 
 

@@ -20,19 +20,19 @@ def stability_page(window: MainWindow) -> StabilityPage:
     QTest.keyClick(window, Qt.Key.Key_3, Qt.KeyboardModifier.AltModifier)
     found = window.pages.current
     assert isinstance(found, StabilityPage)
-    found.runs.show_experiment("shared-edges")
-    found.runs.choice.resolution = "coarse"
-    found.runs.refresh()
+    found.results.show_named("shared-edges")
+    found.results.choice.resolution = "coarse"
+    found.results.refresh()
     return found
 
 
 def run(page: StabilityPage, qtbot: QtBot) -> Atlas:
     """Run by the key and wait."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.desk.is_running
-    qtbot.waitUntil(lambda: not page.desk.is_running, timeout=60000)
-    assert page.runs.result is not None
-    return page.runs.result.atlas
+    assert page.results.is_running
+    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
+    assert page.results.result is not None
+    return page.results.result.atlas
 
 
 def click(page: StabilityPage, place: CellPlace) -> None:

@@ -40,7 +40,7 @@ def page(window: MainWindow) -> StabilityPage:
 
 
 def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> None:
-    page.runs.take_saved(hand_made(), "gaps.json")
+    page.results.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     chart, legend = page.curves
     picture = chart.picture
@@ -55,7 +55,7 @@ def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> N
 
 
 def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
-    page.runs.take_saved(hand_made(), "gaps.json")
+    page.results.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     chart, legend = page.curves
     place = chart.place_of(WEAK, 1)
@@ -64,42 +64,42 @@ def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
     assert "Severity: <b>3</b>" in page.readout.text()
     assert legend.currentRow() == 0
     QTest.mouseClick(chart.viewport(), Qt.MouseButton.LeftButton, pos=place.toPoint())
-    assert page.runs.choice.chosen == CellPlace(WEAK, 1, 0)
+    assert page.results.choice.chosen == CellPlace(WEAK, 1, 0)
 
 
 def test_a_row_of_the_list_opens_the_first_failure(page: StabilityPage, window: MainWindow) -> None:
-    page.runs.take_saved(hand_made(), "gaps.json")
+    page.results.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     legend = page.curves[1]
     for row, wanted in ((1, None), (0, CellPlace(WEAK, 0, 0))):
         place = legend.visualItemRect(legend.item(row)).center()
         QTest.mouseClick(legend.viewport(), Qt.MouseButton.LeftButton, pos=place)
-        assert page.runs.choice.chosen == wanted
+        assert page.results.choice.chosen == wanted
         if wanted is None:
             assert f"No cell of {STRONG} fails" in window.statusBar().currentMessage()
 
 
 def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPage, qtbot: QtBot) -> None:
-    page.runs.show_experiment("precision-dial")
-    page.runs.choice.resolution = "coarse"
+    page.results.show_named("precision-dial")
+    page.results.choice.resolution = "coarse"
     counts: list[int] = []
 
     def count_lines() -> None:
         picture = page.curves[0].picture
         counts.append(0 if picture is None else len(picture.series))
 
-    page.desk.running.part_done.connect(count_lines)
-    page.runs.run()
-    qtbot.waitUntil(lambda: not page.desk.is_running, timeout=60000)
+    page.jobs.running.part_done.connect(count_lines)
+    page.results.start()
+    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
     assert counts[0] == 1, (
         "the first line is there with its cells; the others come as they are run, a few at a time"
     )
     assert counts == sorted(counts)
     picture = page.curves[0].picture
     assert picture is not None
-    assert len(picture.series) == len(page.runs.info.methods)
+    assert len(picture.series) == len(page.results.info.methods)
     assert page.curves[0].isVisible()
-    page.runs.show_experiment("slivers")
+    page.results.show_named("slivers")
     assert not page.curves[0].isVisible()
     assert not page.curves[1].isVisible()
 

@@ -36,7 +36,7 @@ def page(window: MainWindow) -> StabilityPage:
 
 
 def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage) -> None:
-    titles = [page.experiments.item(row).text() for row in range(page.experiments.count())]
+    titles = [page.entries.item(row).text() for row in range(page.entries.count())]
     assert titles == [*(each.info.title for each in experiments), "Watertightness of the open scene"]
     assert page.maps.canvas.record is None
     assert page.controls.claim.text() == f"Claim: {experiments.get('shared-edges').info.claim}"
@@ -52,7 +52,7 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
         assert record is not None
         unknown.append(record.count(UNKNOWN))
 
-    page.desk.running.part_done.connect(count_unknown)
+    page.jobs.running.part_done.connect(count_unknown)
     atlas = run(page, qtbot)
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
@@ -66,46 +66,46 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
     assert unknown == [row * k for k in reversed(range(len(unknown)))], "cells appear row by row"
     holes = sum(each.count(Outcome.HOLE) for each in alone.maps)
     assert f"hole  {holes}" in page.maps.legend.texts()
-    assert not page.controls.running.cancel_button.isVisible()
+    assert not page.controls.cancel_button.isVisible()
 
 
 def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
     before = run(page, qtbot)
-    page.runs.choice.resolution = "fine"
+    page.results.choice.resolution = "fine"
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.runs.is_partial, timeout=10000)
+    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.results.is_partial, timeout=10000)
     page.maps.canvas.cell_chosen.emit(CellPlace(EXCLUSIVE, 18, 0))
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.desk.is_running
+    assert not page.results.is_running
     record = page.maps.canvas.record
     assert record is not None
     assert [each.cells.tolist() for each in record.maps] == [each.outcome.tolist() for each in before.maps]
-    assert page.runs.choice.chosen is None, "the fine grid's cell is not one of the coarse grid"
+    assert page.results.choice.chosen is None, "the fine grid's cell is not one of the coarse grid"
     qtbot.wait(100)
-    assert page.runs.result is not None
-    assert page.runs.result.atlas is before
+    assert page.results.result is not None
+    assert page.results.result.atlas is before
 
 
 def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
     before = run(page, qtbot)
     wrong = (Axis("height", "Height", "", (1.0,)),)
-    page.desk.run(StressOrder(experiments.get("shared-edges"), wrong, 0))
+    page.jobs.run(StressOrder(experiments.get("shared-edges"), wrong, 0))
     window = page.window()
     assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "axes of shared-edges must be steps, cells" in window.messages.text.text()
-    assert page.runs.result is not None
-    assert page.runs.result.atlas is before
+    assert page.results.result is not None
+    assert page.results.result.atlas is before
 
 
 def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot) -> None:
     atlas = run(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
-    assert page.runs.choice.name == "mesh-through-the-eye"
+    assert page.results.choice.name == "mesh-through-the-eye"
     assert page.maps.canvas.record is None
-    page.experiments.setCurrentRow(page.experiments.currentRow() - 1)
-    assert page.runs.result is not None
-    assert page.runs.result.atlas is atlas
+    page.entries.setCurrentRow(page.entries.currentRow() - 1)
+    assert page.results.result is not None
+    assert page.results.result.atlas is atlas
     assert page.maps.canvas.record is not None
 
 
@@ -119,7 +119,7 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
     text = page.readout.text()
     assert "Methods, most failures first" in text
     fails = [int(found) for found in re.findall(r": (\d+) of \d+ fail<", text)]
-    assert len(fails) == len(page.runs.info.methods)
+    assert len(fails) == len(page.results.info.methods)
     assert fails == sorted(fails, reverse=True)
     assert fails[0] > fails[-1] == 0
 
@@ -135,7 +135,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
     assert canvas.chosen == CellPlace(EXCLUSIVE, 1, 1)
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
-    assert page.runs.choice.chosen == canvas.chosen
+    assert page.results.choice.chosen == canvas.chosen
     assert canvas.accessibleDescription().startswith("fill=scanline-lecture, steps of the corners' lattice")
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert not canvas.hasFocus(), "before the first map Shift+Tab leaves the maps"
@@ -182,8 +182,8 @@ def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot
 def test_a_picture_that_is_too_large_is_only_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:
-    page.runs.show_experiment("line-drift")
-    page.runs.choice.resolution = "coarse"
+    page.results.show_named("line-drift")
+    page.results.choice.resolution = "coarse"
     atlas = run(page, qtbot)
     worst = next(each for each in atlas.maps if each.method == "line=dda-float32")
     column = worst.outcome.shape[1] - 1
@@ -222,8 +222,8 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
 def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, name: str, method: str, stage: str
 ) -> None:
-    page.runs.show_experiment(name)
-    page.runs.choice.resolution = "coarse"
+    page.results.show_named(name)
+    page.results.choice.resolution = "coarse"
     found = next(each for each in run(page, qtbot).maps if each.method == method)
     failing = np.argwhere((found.outcome != Outcome.RIGHT) & (found.outcome != Outcome.REFUSED))
     row, column = failing[0].tolist()
@@ -281,8 +281,8 @@ def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> Non
 
 
 def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, qtbot: QtBot) -> None:
-    page.runs.show_experiment("precision-dial")
-    page.runs.choice.resolution = "coarse"
+    page.results.show_named("precision-dial")
+    page.results.choice.resolution = "coarse"
     run(page, qtbot)
     click(page, CellPlace("coverage=float16", 0, 0))
     wait_for_case(page, qtbot)
@@ -323,16 +323,16 @@ def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbo
 
 
 def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
-    page.runs.show_experiment(OPEN_SCENE)
-    page.runs.choice.resolution = "coarse"
+    page.results.show_named(OPEN_SCENE)
+    page.results.choice.resolution = "coarse"
     assert window.session.document.title in page.controls.question.text()
     atlas = run(page, qtbot)
     right = {each.method for each in atlas.maps if each.count(Outcome.RIGHT) == each.outcome.size}
     assert {"coverage=exact", "fill_rule=shared-edge", "fill=spans"} <= right
     assert "fill=scanline-lecture" not in right
     window.session.set_setting("fill", "blocks")
-    assert page.runs.result is not None
-    assert page.runs.result.atlas is atlas, "what has been run stays when the scene changes"
+    assert page.results.result is not None
+    assert page.results.result.atlas is atlas, "what has been run stays when the scene changes"
 
 
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:

@@ -1,0 +1,226 @@
+"""Pages that do long work: its results above what a choice in them opens; kept, exported and opened again."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Protocol
+
+from PySide6.QtCore import Qt, Slot
+from PySide6.QtWidgets import QPushButton, QSplitter, QVBoxLayout, QWidget
+
+from app.background.background_task import BackgroundTask
+from app.background.workers import JobGroup
+from app.export.views import copy_widget, export_widget
+from app.files.file_writing import whole_file
+from app.files.kept_results import ENDING, KeptResults
+from app.files.save_dialog import SaveDialog
+from app.pages.page_bar import Page
+from app.pages.result_presenter import Result, ResultPresenter
+from app.pages.side_columns import SideColumns
+from widgets.basics.elided_label import ElidedLabel
+from widgets.basics.readout import Readout
+from widgets.charts.family_list import FamilyList
+
+
+class Opened(Protocol):
+    """Shows what a choice in a result opens."""
+
+    message_sent: Any
+    refused: Any
+    step_requested: Any
+
+    def dismiss(self) -> bool:
+        """Close it; return whether there was anything."""
+
+
+class WorkPage(Page):
+    """A page around one job and what its result opens."""
+
+    def join(self, jobs: JobGroup, work: BackgroundTask, opened: Opened) -> None:
+        """Connect the presenters with the page."""
+        self._jobs, self._work, self._opened = jobs, work, opened
+        for presenter in (work, opened):
+            presenter.message_sent.connect(self.message_sent)
+            presenter.refused.connect(self.edit_refused)
+        opened.step_requested.connect(self.step_requested)
+        work.progressed.connect(self.work_progressed)
+
+    def lay_out(
+        self, left: QWidget, above: Sequence[tuple[QWidget, int]], below: QWidget, spacing: int = 4
+    ) -> None:
+        """Put ``left`` beside the widgets ``above``, each with its stretch, and ``below``."""
+        top = QWidget(self)
+        layout = QVBoxLayout(top)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(spacing)
+        for widget, stretch in above:
+            layout.addWidget(widget, stretch)
+        self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
+        self.columns = SideColumns(left, self.panes, self)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(8, 4, 8, 8)
+        page.addWidget(self.columns)
+
+    def dismiss(self) -> bool:
+        """Cancel the work, or else close what is opened."""
+        if self._work.is_running:
+            self._work.cancel()
+            return True
+        return self._opened.dismiss()
+
+    def stop(self) -> None:
+        """End all work."""
+        self._jobs.shut_down()
+
+
+def splitter(
+    direction: Qt.Orientation, panes: Sequence[tuple[QWidget, int, int]], parent: QWidget
+) -> QSplitter:
+    """Return a splitter of panes, each with its stretch and the pixels that it begins with."""
+    made = QSplitter(direction, parent)
+    for number, (pane, stretch, _) in enumerate(panes):
+        made.addWidget(pane)
+        made.setStretchFactor(number, stretch)
+    made.setSizes([size for _, _, size in panes])
+    return made
+
+
+@dataclass(frozen=True)
+class FileWords:
+    """What is said of the files of a page."""
+
+    noun: str
+    """What is written: ``study``."""
+    view: str
+    """What is copied as a picture: ``charts``."""
+    nothing: str
+    """What to do while there is nothing to be written."""
+    kinds: str
+    """Kinds of files with their endings, as ``QFileDialog`` takes them."""
+    export_tip: str
+    copy_tip: str
+
+
+class ResultPage(WorkPage):
+    """A page with a list of what can be done; a page says what a file of its results is, and opens one."""
+
+    results: ResultPresenter[Any]
+
+    def __init__(self, words: FileWords, load: Callable[[Path], Any], parent: QWidget | None = None) -> None:
+        """Make the widgets that all such pages have; ``load`` opens a file and raises ValueError."""
+        super().__init__(parent)
+        self._words, self._load = words, load
+        self.kept = KeptResults(words.noun, load, self)
+        self.kept.failed.connect(self.edit_refused)
+        self.entries, self.readout = FamilyList(self), Readout("Figures", self)
+        self.shown_text = ElidedLabel(self)
+        self.shown_text.setProperty("role", "muted")
+        self.shown_text.setAccessibleName(f"What the {words.view} show")
+        self.export_button = self._button("Export…", words.export_tip, self.ask_export)
+        self.copy_button = self._button("Copy", words.copy_tip, self.copy)
+
+    def _button(self, text: str, tip: str, action: Callable[[], None]) -> QPushButton:
+        button = QPushButton(text, self)
+        button.setToolTip(tip)
+        button.clicked.connect(action)
+        return button
+
+    def join_results(self, jobs: JobGroup, results: ResultPresenter[Any], opened: Opened) -> None:
+        """Connect the presenters with the page and its files."""
+        self.join(jobs, results, opened)
+        self.kept.found.connect(results.take_kept)
+        results.result_taken.connect(self._keep)
+        results.shown_text_changed.connect(self.shown_text.setText)
+
+    def list_column(self, heights: tuple[int, int]) -> QSplitter:
+        """Return the list over the figures, which begin with these ``heights`` in pixels."""
+        panes = ((self.entries, 3, heights[0]), (self.readout, 1, heights[1]))
+        self.left = splitter(Qt.Orientation.Vertical, panes, self)
+        return self.left
+
+    # What a page says.
+
+    def stem_of(self, result: Any) -> str:
+        """Return what a file of a result is called, without its ending."""
+        raise NotImplementedError
+
+    def content_of(self, result: Any, ending: str) -> bytes | None:
+        """Return the content of a file of a result; ``None``: the view is written as it is seen."""
+        raise NotImplementedError
+
+    # Results of other days.
+
+    def keep_results(self) -> None:
+        """Show the results of the last start, and keep those that come from now on."""
+        self.kept.begin()
+
+    @Slot(object)
+    def _keep(self, result: Result) -> None:
+        self.kept.keep(result.name, partial(self.content_of, result, ENDING))
+
+    def stop(self) -> None:
+        """End all work, and finish what is being written."""
+        super().stop()
+        self.kept.shut_down()
+
+    def open_path(self, path: str) -> None:
+        """Open a saved result."""
+        try:
+            self.results.take_saved(self._load(Path(path)), Path(path).name)
+        except ValueError as error:
+            self.edit_refused.emit(f"{error}. The page is unchanged.")
+
+    # Files.
+
+    @property
+    def finished(self) -> Any:
+        """The result that is shown; ``None``: there is none, or it is not finished."""
+        return None if self.results.is_partial else self.results.choice.result
+
+    @Slot()
+    def ask_export(self) -> None:
+        """Ask for a file and write the result to it."""
+        if self._is_finished():
+            title, name = f"Export {self._words.noun}", f"{self.stem_of(self.finished)}.png"
+            self.ask_path(title, name, self._words.kinds, self.export_to)
+
+    def export_to(self, path: str) -> None:
+        """Write the result by the ending of the file."""
+        if self._is_finished():
+            self.tell_written(path, lambda: self._write(path), "exported", self._words.noun)
+
+    def ask_path(self, title: str, name: str, kinds: str, write: Callable[[str], None]) -> None:
+        """Ask for a file, and write to it unless there is none."""
+        path = SaveDialog(self.window(), title, name, kinds).ask()
+        if path:
+            write(path)
+
+    def tell_written(self, path: str, write: Callable[[], None], done: str, noun: str) -> None:
+        """Write, and report that it is done, or why not."""
+        try:
+            write()
+        except (OSError, ValueError) as error:
+            self.edit_refused.emit(f"The {noun} was not {done}: {error}")
+        else:
+            self.message_sent.emit(f"{done.capitalize()} {Path(path).name}.")
+
+    def _is_finished(self) -> bool:
+        if self.finished is None:
+            self.message_sent.emit(f"There is nothing to export yet: {self._words.nothing}.")
+            return False
+        return True
+
+    def _write(self, path: str) -> None:
+        content = self.content_of(self.finished, Path(path).suffix.lower())
+        if content is None:
+            export_widget(self.main_view(), path)
+            return
+        with whole_file(path) as file:
+            file.write(content)
+
+    @Slot()
+    def copy(self) -> None:
+        """Put the view on the clipboard as a picture."""
+        copy_widget(self.main_view())
+        self.message_sent.emit(f"Copied the {self._words.view}.")
