@@ -1,50 +1,65 @@
 """The pipeline: a scene becomes a picture, stage by stage.
 
-The same functions serve the picture (in batches, nothing kept) and the trace (a few triangles, everything kept).
+`draw` begins the story, and `draw_centers` tells it once for one sample a pixel:
+
+1. *transform, cull, clip, edges* (`process_geometry`): vertices to clip space and to the window, triangles that need
+   not be drawn left out, those that cross a plane cut, edge functions set up;
+2. *bin, raster* (`covered`): boxes and runs of pixels, and which of these lie inside of all edges;
+3. *depth* (`find_visible`): which fragment of every pixel is seen;
+4. *interpolate, shade*: attributes, texture and light of what is seen;
+5. *blend, resolve*: what the fragments leave in the buffers.
+
+Several samples a pixel, or areas, vary it: `draw_supersampled` tells it on a finer raster, `draw_multisampled` finds
+what is seen for each sample and shades once for a triangle in a pixel, `draw_areas` cuts pixels into pieces. The same
+functions serve the picture (in batches, nothing kept) and the trace (a few triangles, everything kept).
 """
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.fragments.interpolation import Interpolator, interpolate
-from core.methods import table
+from core.antialiasing.sample_rasters import (
+    at_sample,
+    bands_of,
+    finer_raster,
+    finer_scene,
+    finer_settings,
+    grown,
+    in_squares,
+    join_bands,
+    resolve_frame,
+)
+from core.antialiasing.sampling import ROTATED_GRID, grid_positions
+from core.framebuffer.depth import Stored
+from core.framebuffer.nearest import NearestFragments
+from core.framebuffer.resolve import filter_weights, reach_of
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
 from core.raster.edges.edge_functions import EdgeFunctions
-from core.raster.fills.tested import effective_fill
 from core.raster.fills.traits import fill_traits
-from core.raster.lines.wireframe import (
-    LineFragments,
-    draw_outlines,
-    interpolate_outlines,
-)
-from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster, rows_of
-from core.records.arrays import Floats, Integers
-from core.records.frame import Frame, StageCount
+from core.raster.lines.intensities import weigh_alpha, writes_depth
+from core.raster.lines.wireframe import draw_outlines
+from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
+from core.records.arrays import Integers, Singles, read_only
+from core.records.frame import STAGES, Frame, Samples, StageCount
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
-from core.settings import Settings, import_methods
-from core.stages.fragment_color import shade_fragments
-from core.stages.fragment_depth import fragment_depth, fragment_inverse_w, outlines_of
-from core.stages.texture_slopes import texture_slopes
-from core.stages.vertices import Geometry, process_geometry, timed
+from core.settings import DEFAULTS, Settings
+from core.stages.fragment_depth import fragment_depth
+from core.stages.fragments import interpolate, owner_of, shade, shade_once
+from core.stages.hidden_surfaces import Visible, decide_fragments
+from core.stages.vertices import Geometry, process_geometry
 
-Batch = TypeVar("Batch")
+CHUNK = 1 << 22
+"""Pixels of bounding boxes that are scheduled in one go."""
+SAMPLE_BAND = 1 << 21
+"""Samples that are drawn in one go: the numbers of more would take too much memory."""
+PIECE_BAND = 1 << 16
+"""Pixels whose pieces are worked on together."""
 
-__all__ = [
-    "Geometry",
-    "draw",
-    "draw_triangles",
-    "fragment_depth",
-    "fragment_inverse_w",
-    "fragment_values",
-    "process_geometry",
-    "render",
-    "schedule",
-]
+Counts = dict[str, StageCount]
 
 
 def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
@@ -72,8 +87,8 @@ def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
      [ 0  0 -1 -1]
      [ 0  0  0 -1]]
     """
-    settings = settings or Settings()
-    return draw(scene, settings, make_raster(scene.size, settings.pixel_center))
+    settings = settings or DEFAULTS
+    return draw(scene, settings, Raster(*scene.size, resolve(settings).center))
 
 
 def draw_triangles(
@@ -105,132 +120,275 @@ def draw_triangles(
     return render(ClipScene(np.asarray(clip), values, (width, height), texture), settings)
 
 
-def schedule(edges: EdgeFunctions, settings: Settings, raster: Raster) -> tuple[Boxes, Runs]:
-    """Bin triangles and list the runs of pixels that the fill looks at: none where only outlines are drawn."""
-    boxes = bound(edges, raster)
-    if table.get("polygon_mode", settings.polygon_mode).function():
-        return boxes, rows_of(boxes, np.empty(0, np.int64))
-    fill = table.get("fill", effective_fill(settings.fill, settings.coverage)).function
-    return boxes, fill(edges, boxes, raster, settings.block_size)
-
-
-def fragment_values(
-    geometry: Geometry, settings: Settings, fragments: Fragments, raster: Raster
-) -> tuple[Floats, Floats]:
-    """Return weights of the corners (F, 3) and interpolated values (F, K) of fragments."""
-    mode, varyings = settings.interpolation, geometry.primitives.varyings
-    if isinstance(fragments, LineFragments) and mode != "flat":
-        return interpolate_outlines(outlines_of(geometry), varyings, fragments, raster.center, mode)
-    x, y = raster.centers(fragments.column, fragments.row)
-    how = mode, settings.provoking, settings.correction_interval
-    return interpolate(geometry.planes, varyings, fragments.primitive, x, y, *how)
-
-
-def owner_of(fragments: Fragments) -> Integers:
-    """Return what each fragment belongs to, (F,) int64: its segment or its primitive."""
-    return fragments.segment if isinstance(fragments, LineFragments) else fragments.primitive
-
-
-def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Integers) -> Fragments:
-    """Return the fragments of owners (F,), see ``owner_of``, at pixels."""
-    if geometry.outlines is None:
-        return Fragments(owner, column, row)
-    return LineFragments(geometry.outlines.primitive.take(owner), column, row, owner)
-
-
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
-    import_methods(settings)
-    antialiased = table.get("antialiasing", settings.antialiasing).function
-    frame: Frame = antialiased(scene, settings, raster, chosen)
-    return frame
+    sampling = resolve(settings).imported.sampling
+    if sampling.is_area:
+        return draw_areas(scene, settings, raster, chosen)
+    if sampling.side:
+        return draw_supersampled(scene, settings, raster, chosen, sampling.side)
+    if len(sampling.position) > 1:
+        return draw_multisampled(scene, settings, raster, chosen)
+    return draw_centers(scene, settings, raster, chosen)
+
+
+def draw_centers(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all, with one sample a pixel: its centre."""
+    counts = {stage: StageCount() for stage in STAGES}
+
+    # Transform, cull, clip, edge functions: the triangles.
+    geometry = process_geometry(scene, settings, counts, chosen)
+    return draw_geometry(scene, geometry, raster, counts)
+
+
+def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: Counts) -> Frame:
+    """Draw what is known of the triangles already, at the pixels' centres; the work is added to ``counts``."""
+    # Bin, raster, depth: which fragment is seen at every pixel.
+    visible = find_visible(geometry, raster, counts)
+    pixel, depth = visible.pixel, visible.depth
+    counts["depth"].outgoing = len(pixel)
+
+    # Interpolate, texture and shade, blend: of what is seen, or of all that is mixed with what is there.
+    seen = visible.fragments(geometry, raster)
+    values = interpolate(geometry, raster, seen, counts["interpolate"])
+    color = np.empty((len(depth), 4), np.float32)
+    color[:] = scene.background
+    if resolve(geometry.settings).is_mixed:
+        blend(color, scene, geometry, raster, visible, counts)
+    else:
+        color[pixel] = shade(scene, geometry, raster, seen, values, counts["shade"])
+        counts["blend"].incoming = counts["blend"].outgoing = len(pixel)
+
+    # Resolve: with one sample a pixel there is nothing to average.
+    with counts["resolve"]:
+        identity = np.full(len(depth), -1, np.int32)
+        identity[pixel] = geometry.primitives.triangle[seen.primitive]
+        attributes = np.zeros((len(depth), values.shape[1]), np.float32)
+        attributes[pixel] = values
+        counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
+    return Frame(
+        color=read_only(color.reshape(*raster.shape, 4)),
+        depth=read_only(depth.reshape(raster.shape)),
+        primitive=read_only(identity.reshape(raster.shape)),
+        attributes=read_only(attributes.reshape(*raster.shape, values.shape[1])),
+        cover_count=read_only(visible.cover_count.reshape(raster.shape)),
+        statistics=counts,
+    )
+
+
+def schedule(
+    edges: EdgeFunctions, settings: Settings, raster: Raster, boxes: Boxes | None = None
+) -> tuple[Boxes, Runs]:
+    """Bin triangles and list the runs of pixels that the fill looks at: none where only outlines are drawn."""
+    resolved, boxes = resolve(settings), bound(edges, raster) if boxes is None else boxes
+    if resolved.is_outlined:
+        return boxes, rows_of(boxes, np.empty(0, np.int64))
+    return boxes, resolved.fill(edges, boxes, raster, settings.block_size)
 
 
 def covered(
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    counts: dict[str, StageCount],
-    chosen: Integers | None = None,
+    geometry: Geometry, raster: Raster, counts: Counts, chosen: Integers | None = None
 ) -> Iterator[Fragments]:
-    """Yield the covered pixels of the ``chosen`` (C,) primitives, or all, a few million looked-at pixels at a time."""
-    count = counts["bin"]
-    counts["raster"].note = (
-        "" if effective_fill(settings.fill, settings.coverage) == settings.fill else settings.fill
-    )
-    with timed(count):
+    """Bin and raster: yield the fragments of the ``chosen`` (C,) primitives, or all, in batches."""
+    settings, fill_name = geometry.settings, resolve(geometry.settings).fill_name
+    counts["raster"].note = "" if fill_name == settings.fill else settings.fill
+    with counts["bin"] as count:
         edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
-        number = np.arange(len(edges)) if chosen is None else chosen
-        count.incoming += len(edges)
-        first_column, first_row, end_column, end_row = raster.bounds
+        count.incoming += len(edges.a)
         boxes = bound(edges, raster)
         area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
-        if fill_traits(settings.fill).looks_everywhere:
-            area[:] = (end_row - first_row) * (end_column - first_column)
+        if fill_traits(fill_name).looks_everywhere:
+            area[:] = raster.shape[0] * raster.shape[1]
         ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
-    for first, end in zip([0, *ends][:-1], ends, strict=True):
-        with timed(count):
-            part = edges.part(int(first), int(end))
-            _, runs = schedule(part, settings, raster)
+    for first, end in zip([0, *ends.tolist()][:-1], ends.tolist(), strict=True):
+        part = slice(first, end)
+        with count:
+            edges_of_part = edges if len(ends) == 1 else edges.take(part)
+            runs = schedule(edges_of_part, settings, raster, Boxes(*(of[part] for of in boxes)))[1]
             count.outgoing += int(runs.lengths.sum())
-        for fragments, tested in _timed_batches(cover(part, runs, raster), counts["raster"]):
-            counts["raster"].incoming += tested
-            counts["raster"].outgoing += len(fragments)
-            yield replace(fragments, primitive=number.take(fragments.primitive + int(first)))
+        batches = cover(edges_of_part, runs, raster)
+        while True:
+            with counts["raster"] as count_raster:
+                fragments, tested = next(batches, (None, 0))
+            if fragments is None:
+                break
+            count_raster.incoming += tested
+            count_raster.outgoing += len(fragments.primitive)
+            if first:
+                fragments = replace(fragments, primitive=fragments.primitive + first)
+            yield (
+                fragments
+                if chosen is None
+                else replace(fragments, primitive=chosen.take(fragments.primitive))
+            )
 
 
-def _timed_batches(batches: Iterator[Batch], count: StageCount) -> Iterator[Batch]:
-    """Yield what ``batches`` yields, and add the time that it takes to make them."""
-    while True:
-        with timed(count):
-            batch = next(batches, None)
-        if batch is None:
-            return
-        yield batch
-
-
-def outlined(
-    geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
-) -> Iterator[Fragments]:
-    """Yield the pixels of the outlines of all primitives."""
+def outlined(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragments]:
+    """Raster a wireframe: yield the pixels of the outlines of all primitives, which have no bins."""
+    assert geometry.outlines is not None
     counts["bin"].incoming = len(geometry.edges)
-    batches = draw_outlines(outlines_of(geometry), raster, settings.line)
-    for fragments, _ in _timed_batches(batches, counts["raster"]):
-        counts["bin"].outgoing += len(fragments)
-        counts["raster"].incoming += len(fragments)
-        counts["raster"].outgoing += len(fragments)
+    batches = draw_outlines(geometry.outlines, raster, geometry.settings.line)
+    while True:
+        with counts["raster"] as count:
+            fragments, _ = next(batches, (None, None))
+        if fragments is None:
+            return
+        for of_stage in (counts["bin"], count):
+            of_stage.outgoing += len(fragments)
+        count.incoming += len(fragments)
         yield fragments
 
 
-def interpolate_fragments(
-    geometry: Geometry, settings: Settings, raster: Raster, fragments: Fragments, count: StageCount
-) -> Floats:
-    """Return the interpolated values (F, K) float64 of fragments."""
-    with timed(count):
-        count.incoming = count.outgoing = len(fragments)
-        if isinstance(fragments, LineFragments):
-            return fragment_values(geometry, settings, fragments, raster)[1]
-        how = settings.interpolation, settings.provoking, settings.correction_interval
-        interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
-        return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
+def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
+    """Bin, raster, depth: find every fragment, in batches, and which of them are seen."""
+    resolved = resolve(geometry.settings)
+    depth_format, outlines = resolved.depth_format, geometry.outlines
+    pixel_count = raster.shape[0] * raster.shape[1]
+    cover_count = np.zeros(pixel_count, np.int32)
+    owner_count = len(geometry.primitives if outlines is None else outlines)
+    nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
+    counts["blend"].note = resolved.blend_inserted_for
+    keeps_all = geometry.casts_rays or resolved.is_mixed
+    kept: list[tuple[Fragments, Stored]] = []
+    for fragments in (covered if outlines is None else outlined)(geometry, raster, counts):
+        with counts["depth"] as count:
+            _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
+            if not keeps.all():
+                fragments, stored = fragments.select(keeps), stored[keeps]
+            pixel = raster.index(fragments.column, fragments.row)
+            np.add.at(cover_count, pixel, np.int32(1))
+            count.incoming += len(pixel)
+            if keeps_all:
+                kept.append((fragments, stored))
+            if not geometry.casts_rays:
+                writes = None if outlines is None else writes_depth(fragments)
+                if writes is not None:
+                    pixel, fragments, stored = pixel[writes], fragments.select(writes), stored[writes]
+                nearest.add(pixel, owner_of(fragments), stored)
+    with counts["depth"]:
+        decided = decide_fragments(geometry, kept, raster) if keeps_all else None
+        pixel, owner, depth = nearest.resolve()
+        if geometry.casts_rays and decided is not None:
+            pixel, last = decided.last_passing(raster)
+            owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
+    return Visible(pixel, owner, depth, cover_count, decided)
 
 
-def shade_values(
-    scene: AnyScene,
-    geometry: Geometry,
-    settings: Settings,
-    raster: Raster,
-    fragments: Fragments,
-    values: Floats,
-    count: StageCount,
-) -> Floats:
-    """Return the colours (F, 4) float64 of fragments."""
-    with timed(count):
-        count.incoming = count.outgoing = len(fragments)
-        mesh = geometry.primitives.mesh[fragments.primitive]
-        slopes = texture_slopes(geometry, settings, raster, fragments, values)
-        return shade_fragments(scene, settings, geometry.primitives.layout, mesh, values, slopes).color
+def blend(
+    color: Singles, scene: AnyScene, geometry: Geometry, raster: Raster, visible: Visible, counts: Counts
+) -> None:
+    """Interpolate, shade and blend all fragments that pass the depth test into ``color`` (H*W, 4), in drawing order."""
+    assert visible.decided is not None
+    fragments = visible.decided.passing
+    values = interpolate(geometry, raster, fragments, counts["interpolate"])
+    source = shade(scene, geometry, raster, fragments, values, counts["shade"])
+    with counts["blend"]:
+        visible.decided.blend_into(
+            color, weigh_alpha(source, fragments), resolve(geometry.settings).blend_method.function
+        )
+        counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = len(fragments)
 
 
-CHUNK = 1 << 22
-"""Pixels of bounding boxes that are scheduled in one go."""
+# Several samples a pixel.
+
+
+def draw_supersampled(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None, side: int
+) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all, at ``side`` times the size, every sample shaded, and resolve them.
+
+    Memory: 28 bytes a sample for the buffers (450 a pixel of 4 x 4), beside what `SAMPLE_BAND` samples take.
+    """
+    weights = filter_weights(grid_positions(side), settings.resolve_filter)
+    wide = grown(raster, reach_of(weights))
+    finer, plain = finer_scene(scene, side), finer_settings(settings)
+    bands = []
+    for band in bands_of(finer_raster(wide, side), side, SAMPLE_BAND):
+        of_band = {stage: StageCount() for stage in STAGES}
+        geometry = in_squares(process_geometry(finer, plain, of_band, chosen), settings, side)
+        bands.append(draw_geometry(finer, geometry, band, of_band))
+
+    return resolve_frame(*join_bands(bands, side), weights, wide, raster)
+
+
+def draw_multisampled(
+    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
+) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all: depth at four samples a pixel, colour once for a triangle in a pixel.
+
+    Attributes are interpolated and textures looked up at the pixel's centre, whichever samples are covered: there they
+    may lie beyond the triangle (OpenGL's default, without ``centroid``). Depth is that of the sample.
+    """
+    weights = filter_weights(ROTATED_GRID, settings.resolve_filter)
+    wide = grown(raster, reach_of(weights))
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(scene, settings, counts, chosen)
+    visible = [find_visible(at_sample(geometry, sample), wide, counts) for sample in range(len(ROTATED_GRID))]
+    counts["bin"].incoming //= len(visible)
+    seen = [of_sample.fragments(geometry, wide) for of_sample in visible]
+    values = interpolate(geometry, wide, seen[0], counts["interpolate"])
+
+    # Colours: one for every triangle in a pixel, whichever of its samples it has.
+    is_mixed, rule = resolve(settings).is_mixed, resolve(settings).blend_method.function
+    shaded = [of_sample.decided.passing for of_sample in visible if of_sample.decided] if is_mixed else seen
+    source, number = shade_once(scene, geometry, wide, shaded, counts)
+    color = np.empty((len(visible), len(visible[0].depth), 4), np.float32)
+    color[:] = scene.background
+    with counts["blend"]:
+        for buffer, of_sample, fragments, which in zip(color, visible, shaded, number, strict=True):
+            drawn = source.take(which, axis=0)
+            if is_mixed and of_sample.decided:
+                of_sample.decided.blend_into(buffer, weigh_alpha(drawn, fragments), rule)
+            else:
+                buffer[of_sample.pixel] = drawn
+    passed = sum(map(len, shaded))
+    counts["depth"].outgoing = counts["blend"].incoming = counts["blend"].outgoing = passed
+
+    # Buffers of all samples.
+    with counts["resolve"]:
+        identity = np.full(color.shape[:2], -1, np.int32)
+        for buffer, of_sample, fragments in zip(identity, visible, seen, strict=True):
+            buffer[of_sample.pixel] = geometry.primitives.triangle[fragments.primitive]
+        attributes = np.zeros((*wide.shape, values.shape[1]), np.float32)
+        attributes.reshape(-1, values.shape[1])[visible[0].pixel] = values
+        depth, cover_count = ([getattr(of, name) for of in visible] for name in ("depth", "cover_count"))
+        samples = Samples(
+            ROTATED_GRID,
+            *(
+                np.reshape(buffers, (len(visible), *wide.shape, *channels))
+                for buffers, channels in ((color, (4,)), (depth, ()), (identity, ()), (cover_count, ()))
+            ),
+        )
+    return resolve_frame(samples, attributes, counts, weights, wide, raster)
+
+
+# Areas instead of samples.
+
+
+def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
+    """Draw the ``chosen`` (T,) triangles, or all, with exact areas.
+
+    The buffers beside the colour, and all of a wireframe, are those of the pixels' centres.
+    """
+    from core.antialiasing.exact_area import draw_pieces, sum_areas
+
+    frame = draw_centers(scene, settings, raster, chosen)
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = process_geometry(scene, settings, counts, chosen)
+    if geometry.outlines is not None:
+        return frame
+    color = np.empty((*raster.shape, 4), np.float32)
+    color[:] = scene.background
+    for band in bands_of(raster, 1, PIECE_BAND):
+        pieces = draw_pieces(scene, geometry, band, counts)
+        with counts["resolve"]:
+            of_band = color[band.bounds[1] - raster.bounds[1] :][: band.shape[0]].reshape(-1, 4)
+            of_band[pieces.touched] = sum_areas(pieces, len(of_band))[pieces.touched]
+    counts["resolve"].incoming, counts["resolve"].outgoing = counts["shade"].outgoing, frame.depth.size
+    counts["bin"].incoming, counts["bin"].outgoing = counts["edges"].outgoing, counts["raster"].incoming
+    counts["blend"].incoming = counts["blend"].outgoing = counts["depth"].outgoing
+    for stage, count in frame.statistics.items():
+        counts[stage].seconds += count.seconds
+    return replace(frame, color=read_only(color), statistics=counts)

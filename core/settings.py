@@ -121,15 +121,7 @@ class Settings:
         "core.framebuffer.fixed_depth",
     )
     blend: str = choice("opaque", "Blending", "blend", "core.framebuffer.blending")
-    antialiasing: str = choice(
-        "none",
-        "Antialiasing",
-        "resolve",
-        "core.antialiasing.single_sample",
-        "core.antialiasing.supersampling",
-        "core.antialiasing.exact_area",
-        "core.antialiasing.multisampling",
-    )
+    antialiasing: str = choice("none", "Antialiasing", "resolve", "core.antialiasing.sampling")
     resolve_filter: str = choice(
         "box",
         "Resolve filter",
@@ -249,6 +241,10 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
         return declared.otherwise
     reason = declared.reason(settings, scene) if declared.reason else ""
     return reason or (no_effect(settings, by, scene) if by else "")
+
+
+DEFAULTS = Settings()
+"""What runs where nothing is chosen."""
 
 
 def import_methods(settings: Settings) -> None:

@@ -20,7 +20,7 @@ from app.files.file_writing import whole_file
 from core import Frame, render
 from core.framebuffer.display import Bytes, to_display
 from core.records.arrays import Singles
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 
 DESCRIPTION = (
     """Draw a scene into a PNG file (sRGB, straight alpha), its buffers into an npz file, or both."""
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
     scene = opened.document.scene
     if options.size is not None:
         scene = replace(scene, size=options.size)
-    blend, _ = blend_choice(settings)
+    blend = resolve(settings).blend_name
     check_memory(scene.size, settings)
     with overflow_told():
         frame = render(scene, settings)

@@ -3,8 +3,7 @@
 import os
 
 from core import Settings
-from core.antialiasing.sample_counts import sample_count, side_of
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 
 BYTES_PER_PIXEL = {"opaque": 380}
 BYTES_PER_BLENDED_PIXEL = 530
@@ -20,13 +19,14 @@ BYTES_PER_BLENDED_MULTISAMPLED_PIXEL = 1040
 
 def bytes_per_pixel(settings: Settings) -> int:
     """Return how many bytes a pixel may take at the peak of drawing, beside what does not grow with the picture."""
-    blend, _ = blend_choice(settings)
+    resolved = resolve(settings)
+    blend, sampling = resolved.blend_name, resolved.sampling
     whole = BYTES_PER_PIXEL.get(blend, BYTES_PER_BLENDED_PIXEL)
     if settings.antialiasing == "msaa-4":
         whole = BYTES_PER_MULTISAMPLED_PIXEL.get(blend, BYTES_PER_BLENDED_MULTISAMPLED_PIXEL)
-    elif side_of(settings):
+    elif sampling.side:
         of_sample = BYTES_PER_SAMPLE.get(blend, BYTES_PER_BLENDED_SAMPLE)
-        whole = max(whole, of_sample * sample_count(settings))
+        whole = max(whole, of_sample * sampling.count)
     return whole
 
 
@@ -37,7 +37,7 @@ def check_memory(size: tuple[int, int], settings: Settings) -> None:
     needed = size[0] * size[1] * bytes_per_pixel(settings)
     present = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     if needed > present:
-        count = sample_count(settings)
+        count = resolve(settings).sampling.count
         samples = f" with {count} samples each" if count > 1 else ""
         raise ValueError(
             f"a picture of {size[0]}x{size[1]} pixels{samples} may take {needed / 2**30:.0f} GiB of memory, "

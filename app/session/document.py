@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from core import STAGES, Settings, Trace, trace
-from core.antialiasing.sample_counts import sample_count
 from core.raster.fills.traits import fill_traits
 from core.records.arrays import Floats
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import no_effect
 from core.trace import TraceSource, scene_triangle_count
@@ -87,7 +87,7 @@ class Document:
     def most_tests(self) -> int:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
-        pixels = self.raster.columns * self.raster.rows * sample_count(self.settings)
+        pixels = self.raster.columns * self.raster.rows * resolve(self.settings).sampling.count
         if fill_traits(self.settings.fill).looks_everywhere and not no_effect(self.settings, "fill"):
             return triangles * pixels
         return min(triangles, 60) * pixels // 4

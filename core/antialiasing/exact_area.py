@@ -31,62 +31,22 @@ from core.antialiasing.pixel_pieces import (
     split_pieces,
     whole_pixels,
 )
-from core.antialiasing.sample_counts import SampleTraits
-from core.antialiasing.single_sample import draw_at_centers
-from core.antialiasing.supersampling import bands_of
 from core.fragments.interpolation import Interpolator, plane_value
-from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import PixelStacks, stack_fragments
-from core.methods import is_registered, method, table
 from core.raster.pixel_runs import Raster
 from core.raster.pixel_squares import SquareFragments, touched_squares
-from core.records.arrays import Flags, Floats, Integers, Singles, read_only
-from core.records.frame import STAGES, Frame, StageCount
+from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.frame import StageCount
+from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import Settings
 from core.stages.fragment_color import shade_fragments
 from core.stages.fragment_depth import depth_at
-from core.stages.texture_slopes import slopes_at
-from core.stages.vertices import Geometry, process_geometry, timed
+from core.stages.fragments import slopes_at
+from core.stages.geometry import Geometry
 
 PARALLEL = 2.0**-40
 """Depths that differ by less all over a pixel are those of one plane: rounding must neither cut it nor put another
 triangle of the plane in front."""
-BAND = 1 << 16
-"""Pixels whose pieces are worked on together."""
-
-
-@method(
-    "antialiasing",
-    "area",
-    "Exact area",
-    source="Catmull 1978; Carpenter 1984, The A-buffer",
-    exact_for="edges, overlaps and crossings of opaque triangles, and colours that change linearly",
-    breaks_where="textures, highlights and perspective within a piece: one colour stands for it",
-    traits=SampleTraits(has_areas=True),
-)
-def draw_exact_areas(
-    scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None
-) -> Frame:
-    """Draw with exact areas; ``chosen`` (T,) triangles, or all."""
-    frame = draw_at_centers(scene, settings, raster, chosen)
-    counts = {stage: StageCount() for stage in STAGES}
-    geometry = process_geometry(scene, settings, counts, chosen)
-    if geometry.outlines is not None:
-        return frame
-    color = np.empty((*raster.shape, 4), np.float32)
-    color[:] = scene.background
-    for band in bands_of(raster, 1, BAND):
-        pieces = draw_pieces(scene, geometry, settings, band, counts)
-        with timed(counts["resolve"]):
-            of_band = color[band.bounds[1] - raster.bounds[1] :][: band.shape[0]].reshape(-1, 4)
-            of_band[pieces.touched] = sum_areas(pieces, len(of_band))[pieces.touched]
-    counts["resolve"].incoming, counts["resolve"].outgoing = counts["shade"].outgoing, frame.depth.size
-    counts["bin"].incoming, counts["bin"].outgoing = counts["edges"].outgoing, counts["raster"].incoming
-    counts["blend"].incoming = counts["blend"].outgoing = counts["depth"].outgoing
-    for stage, count in frame.statistics.items():
-        counts[stage].seconds += count.seconds
-    return replace(frame, color=read_only(color), statistics=counts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,22 +110,22 @@ class ColoredPieces(NamedTuple):
 
 
 def draw_pieces(
-    scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+    scene: AnyScene, geometry: Geometry, raster: Raster, counts: dict[str, StageCount]
 ) -> ColoredPieces:
     """Cut the pixels of a raster and draw into their pieces."""
-    return piece_painter(scene, geometry, settings, raster, counts).draw()
+    return piece_painter(scene, geometry, raster, counts).draw()
 
 
 def piece_painter(
-    scene: AnyScene, geometry: Geometry, settings: Settings, raster: Raster, counts: dict[str, StageCount]
+    scene: AnyScene, geometry: Geometry, raster: Raster, counts: dict[str, StageCount]
 ) -> "PiecePainter":
     """Return what draws into the pieces of a raster's pixels, before anything is cut."""
-    with timed(counts["raster"]):
+    with counts["raster"]:
         squares, tested = touched_squares(geometry.edges, raster)
         counts["raster"].incoming += tested
         counts["raster"].outgoing += len(squares.primitive)
         stacks = stack_fragments(raster.index(squares.column, squares.row))
-    return PiecePainter(scene, geometry, settings, raster, squares, stacks, counts)
+    return PiecePainter(scene, geometry, raster, squares, stacks, counts)
 
 
 def sum_areas(pieces: ColoredPieces, pixel_count: int) -> Singles:
@@ -193,17 +153,17 @@ class PiecePainter:
         self,
         scene: AnyScene,
         geometry: Geometry,
-        settings: Settings,
         raster: Raster,
         squares: SquareFragments,
         stacks: PixelStacks,
         counts: dict[str, StageCount],
     ) -> None:
-        self._scene, self._geometry, self._settings, self._raster = scene, geometry, settings, raster
+        self._scene, self._geometry, self._resolved = scene, geometry, resolve(geometry.settings)
         self.squares, self.stacks, self._counts = squares, stacks, counts
-        self._format: DepthFormat = table.get("depth", settings.depth).function()
-        how = settings.interpolation, settings.provoking, settings.correction_interval
-        self._interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
+        self._format = self._resolved.depth_format
+        self._interpolator = Interpolator(
+            geometry.planes, geometry.primitives.values, *self._resolved.interpolation
+        )
         self._center_x, self._center_y = raster.centers(*raster.position(stacks.pixel))
 
     def draw(self, watch: Callable[[DrawnLayer], None] | None = None) -> ColoredPieces:
@@ -226,7 +186,7 @@ class PiecePainter:
         """Return the squares of all pixels that something touches, the background in them."""
         count = len(self.stacks.pixel)
         color = None
-        if not is_registered(self._settings.blend, "opaque"):
+        if self._resolved.is_mixed:
             color = np.empty((count, 4), np.float32)
             color[:] = self._scene.background
         return DrawnPieces(whole_pixels(np.arange(count)), np.full(count, -1), color)
@@ -242,7 +202,7 @@ class PiecePainter:
 
     def _draw_layer(self, there: DrawnPieces, fragment: Integers) -> DrawnPieces:
         """Draw one triangle into every piece; ``fragment`` (P,) says which."""
-        with timed(self._counts["raster"]):
+        with self._counts["raster"]:
             every = np.arange(len(there.pieces))
             is_whole = self.squares.is_whole.take(fragment)
             numbered = replace(there.pieces, number=every)
@@ -295,7 +255,7 @@ class PiecePainter:
 
     def _paint(self, there: DrawnPieces, primitive: Integers) -> DrawnPieces:
         """Test depth in pieces that lie inside of ``primitive`` (P,), and write what passes."""
-        with timed(self._counts["depth"]):
+        with self._counts["depth"]:
             x, y = self.centroids(there)
             _, keeps, stored = depth_at(self._geometry, primitive, x, y, self._format)
             passes = keeps
@@ -311,10 +271,9 @@ class PiecePainter:
             color = there.color
         if color is not None:
             source = self.colors(primitive[passes], x[passes], y[passes])
-            rule = table.get("blend", self._settings.blend).function
-            with timed(self._counts["blend"]):
+            with self._counts["blend"]:
                 color = color.copy()
-                color[passes] = rule(source, color[passes])
+                color[passes] = self._resolved.blend_method.function(source, color[passes])
         return DrawnPieces(
             there.pieces,
             np.where(passes, primitive, there.primitive),
@@ -341,15 +300,17 @@ class PiecePainter:
     def colors(self, primitive: Integers, x: Floats, y: Floats) -> Floats:
         """Return the colours (F, 4) of primitives (F,) at window positions (F,)."""
         count = self._counts["interpolate"]
-        with timed(count):
+        with count:
             values = self._interpolator.values(primitive, x, y)
             count.incoming += len(primitive)
             count.outgoing += len(primitive)
         count, primitives = self._counts["shade"], self._geometry.primitives
-        with timed(count):
+        with count:
             mesh = primitives.mesh.take(primitive)
-            slopes = slopes_at(self._geometry, self._settings, primitive, x, y, values)
-            surface = shade_fragments(self._scene, self._settings, primitives.layout, mesh, values, slopes)
+            slopes = slopes_at(self._geometry, primitive, x, y, values)
+            surface = shade_fragments(
+                self._scene, self._geometry.settings, primitives.layout, mesh, values, slopes
+            )
             count.incoming += len(primitive)
             count.outgoing += len(primitive)
         return surface.color

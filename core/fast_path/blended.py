@@ -16,12 +16,13 @@ from core.fast_path.record import Split
 from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import run_depth_tests
 from core.framebuffer.stacks import stacks_of
-from core.methods import table
 from core.numeric.sorting import radix_order
-from core.pipeline import covered, fragment_depth
+from core.pipeline import covered
 from core.raster.coverage import Fragments
 from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
 from core.records.arrays import Flags, Floats, Integers, Singles
+from core.resolved import resolve
+from core.stages.fragment_depth import fragment_depth
 
 STRIP_FRAGMENTS = 1 << 17
 """Fragments of a strip of rows, about: sorting them stays in the processor's cache."""
@@ -88,7 +89,7 @@ def _draw_strip(context: DrawContext, palette: Floats | None) -> tuple[Singles, 
     with context.timed("blend"):
         color = np.empty((len(context.pixels), 4), np.float32)
         color[:] = context.scene.background
-        rule = table.get("blend", context.settings.blend).function
+        rule = resolve(context.settings).blend_method.function
         blend_stacks(color, source, number, stacks, passes, rule)
     if passes is None:
         return color, (count, len(pixel), len(stacks.pixel))
@@ -127,7 +128,7 @@ def _fragments(context: DrawContext) -> tuple[Integers, Integers]:
             primitives.append(primitive)
     rest = np.flatnonzero(~geometry.is_projected)
     if len(rest):
-        for fragments in covered(geometry, context.settings, raster, context.counts, rest):
+        for fragments in covered(geometry, raster, context.counts, rest):
             pixels.append(raster.index(fragments.column, fragments.row))
             primitives.append(fragments.primitive)
     with context.timed("depth"):

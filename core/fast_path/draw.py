@@ -10,21 +10,18 @@ from threading import local
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiasing.sample_counts import sample_count, side_of
 from core.fast_path.draw_context import DrawContext, Words, encode
 from core.fast_path.opaque import draw_opaque
 from core.fast_path.palette import palette
 from core.fast_path.record import Coloring, DepthStatistics, Picture, Route
-from core.methods import table
 from core.numeric.numpy_buffers import short_buffers
-from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import Raster, make_raster
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers, read_only
 from core.records.frame import STAGES, StageCount
-from core.records.timing import timed
+from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import Settings
+from core.settings import DEFAULTS, Settings
 from core.stages.vertices import process_geometry
 
 ENCODINGS = ("srgb", "linear")
@@ -87,7 +84,7 @@ def draw_picture(
     but the filter ``nearest`` may take the other texel on the border between two. In a triangle that is hardly wider
     than snapping moves it, ``bytes`` stay between those of the corners, where `render` extrapolates.
     """
-    settings = settings or Settings()
+    settings = settings or DEFAULTS
     raster = make_raster(scene.size, settings.pixel_center, region)
     if encoding not in ENCODINGS:
         raise ValueError(f"encoding must be one of {', '.join(ENCODINGS)}, got {encoding}")
@@ -101,7 +98,7 @@ def draw_picture(
         )
     scratch = scratch or _memory.__dict__.setdefault("scratch", ScratchBuffers())
     counts = {stage: StageCount() for stage in STAGES}
-    with timed(counts["resolve"]):
+    with counts["resolve"]:
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
     keeps_depth = with_depth or depth_at is not None
@@ -125,15 +122,15 @@ def draw_picture(
             passing = DepthStatistics(route.visible, route.visible)
         else:
             route, passing = _draw_stacks(context)
-    _count(counts, route, passing, sample_count(settings) * len(pixels), len(pixels))
+    _count(counts, route, passing, resolve(settings).sampling.count * len(pixels), len(pixels))
     return Picture(_bytes(pixels, raster), depth, counts, route)
 
 
 def _is_supersampled(settings: Settings) -> bool:
     """Tell whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
-    if not side_of(settings) or settings.pixel_center != "half":
+    if not resolve(settings).sampling.side or settings.pixel_center != "half":
         return False
-    from core.antialiasing.supersampling import finer_settings
+    from core.antialiasing.sample_rasters import finer_settings
 
     return is_drawn_by_spans(finer_settings(settings))
 
@@ -157,7 +154,7 @@ def _draw_frame(
     from core.pipeline import draw
 
     frame = draw(scene, settings, raster)
-    with timed(frame.statistics["resolve"]):
+    with frame.statistics["resolve"]:
         pixels[:] = encode(frame.color.reshape(-1, 4), encoding)
     route = Route("frame", "deferred", None, int(np.count_nonzero(frame.primitive >= 0)))
     depth = frame.depth if with_depth else None
@@ -181,9 +178,9 @@ def _draw_stacks(context: DrawContext) -> tuple[Route, DepthStatistics]:
 
 def is_drawn_by_spans(settings: Settings) -> bool:
     """Tell whether spans can draw with these settings: filled, at centres, in numbers that suit, by the table."""
-    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    suits_spans = number_format(settings.coverage).suits_spans and settings.visibility != "ray-casting"
-    is_filled = settings.fill == "spans" and not is_outlined and settings.antialiasing == "none"
+    resolved = resolve(settings)
+    suits_spans = resolved.numbers.suits_spans and settings.visibility != "ray-casting"
+    is_filled = settings.fill == "spans" and not resolved.is_outlined and settings.antialiasing == "none"
     return is_filled and suits_spans and not settings.replacements
 
 

@@ -1,7 +1,6 @@
 """One picture to be drawn: what it shows, where to, and with what memory; the steps of drawing hand it on."""
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -10,7 +9,6 @@ from numpy.typing import NDArray
 
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import encode_linear, write_pixels
-from core.methods import table
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import TriangleRows, rows_of_triangles
 from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes, tie_owners
@@ -18,7 +16,7 @@ from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import StageCount
-from core.records.timing import timed
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.geometry import Geometry
@@ -80,8 +78,7 @@ class DrawContext:
     @cached_property
     def depth_format(self) -> DepthFormat:
         """How depth is kept."""
-        made: DepthFormat = table.get("depth", self.settings.depth).function()
-        return made
+        return resolve(self.settings).depth_format
 
     @property
     def has_texture(self) -> bool:
@@ -95,9 +92,9 @@ class DrawContext:
         """The pixel that nothing is seen at."""
         return _word_of(self.scene.background.tobytes(), self.encoding)
 
-    def timed(self, stage: str) -> AbstractContextManager[StageCount]:
+    def timed(self, stage: str) -> StageCount:
         """Add the time of the block to a stage."""
-        return timed(self.counts[stage])
+        return self.counts[stage]
 
     def encode(self, color: Floats | Singles) -> Words:
         """Return the bytes of linear colours (F, 4), a word each."""

@@ -6,8 +6,9 @@ from core.fast_path.draw_context import DrawContext
 from core.fragments.interpolation import Interpolator
 from core.raster.coverage import Fragments
 from core.records.arrays import Floats, Integers
+from core.resolved import resolve
 from core.stages.fragment_color import shade_fragments
-from core.stages.texture_slopes import texture_slopes
+from core.stages.fragments import texture_slopes
 
 
 class FragmentColors:
@@ -17,8 +18,7 @@ class FragmentColors:
         self._job = context
         self.count = 0
         """Fragments that have been coloured so far."""
-        values, settings = context.geometry.primitives.values.trimmed(), context.settings
-        how = settings.interpolation, settings.provoking, settings.correction_interval
+        values, how = context.geometry.primitives.values.trimmed(), resolve(context.settings).interpolation
         with context.timed("interpolate"):
             self._interpolator = Interpolator(context.geometry.planes, values, *how)
 
@@ -33,7 +33,7 @@ class FragmentColors:
         with context.timed("shade"):
             mesh = primitives.mesh.take(primitive)
             fragments = Fragments(primitive, column, row)
-            slopes = texture_slopes(context.geometry, context.settings, context.raster, fragments, values)
+            slopes = texture_slopes(context.geometry, context.raster, fragments, values)
             shaded = shade_fragments(context.scene, context.settings, primitives.layout, mesh, values, slopes)
             return np.asarray(shaded.color)
 

@@ -1,6 +1,6 @@
 """A multisampled picture the fast way: what each of the four samples shows by spans, then colours once a triangle.
 
-The samples of one place in all pixels are a picture of the moved scene (`core.antialiasing.multisampling`), and the
+The samples of one place in all pixels are a picture of the moved scene (`core.antialiasing.sample_rasters`), and the
 spans find what is seen in it. Where the four samples of a pixel show one triangle, its colour at the centre is that of
 the pixel: the mean of four equal numbers is that number, bit for bit. Only where samples differ is anything averaged.
 
@@ -12,16 +12,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiasing.multisampling import at_sample
-from core.antialiasing.sampled import grown, inner_of
-from core.antialiasing.supersampling import bands_of
+from core.antialiasing.sample_rasters import at_sample, bands_of, grown, inner_of
+from core.antialiasing.sampling import ROTATED_GRID
 from core.fast_path.draw_context import DrawContext, Words, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.palette import palette
 from core.fast_path.record import DepthStatistics, Route, Split
 from core.fast_path.visible import find_visible
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
-from core.framebuffer.sample_positions import ROTATED_GRID
 from core.raster.pixel_runs import Raster
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers, Singles

@@ -9,26 +9,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.antialiasing.sample_counts import side_of
-from core.antialiasing.sampled import grown, inner_of
-from core.antialiasing.supersampling import (
+from core.antialiasing.sample_rasters import (
     bands_of,
     finer_raster,
     finer_scene,
     finer_settings,
+    grown,
+    inner_of,
     samples_by_place,
 )
 from core.fast_path.draw_context import Words, encode
 from core.fast_path.record import Picture, Route
 from core.framebuffer.display import Bytes, from_display
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
-from core.framebuffer.sample_positions import grid_positions
 from core.pipeline import draw
 from core.raster.pixel_runs import Raster
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Singles, read_only
 from core.records.frame import STAGES, StageCount
-from core.records.timing import timed
+from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
 
@@ -53,9 +52,10 @@ def draw_supersampled(
     draw_picture : callable
         Draws the samples, as a picture of n times the size.
     """
-    side = side_of(settings)
+    sampling = resolve(settings).sampling
+    side = sampling.side
     finer, plain = finer_scene(scene, side), finer_settings(settings)
-    weights = filter_weights(grid_positions(side), settings.resolve_filter)
+    weights = filter_weights(sampling.position, settings.resolve_filter)
     counts = {stage: StageCount() for stage in STAGES}
     route = Route("supersampled", "bytes")
     for band in _pixel_bands(raster, side):
@@ -63,7 +63,7 @@ def draw_supersampled(
         drawn = draw_picture(finer, plain, region=_region(finer_raster(wide_pixels, side)), scratch=scratch)
         _add(counts, drawn.statistics)
         route = replace(route, color=drawn.route.color, visible=route.visible + drawn.route.visible)
-        with timed(counts["resolve"]):
+        with counts["resolve"]:
             samples = samples_by_place(drawn.pixels, side)
             inner = inner_of(wide_pixels, band)
             light = from_display(samples.reshape(-1, *samples.shape[2:])).reshape(samples.shape)
@@ -71,7 +71,7 @@ def draw_supersampled(
             cut_off = is_cut_off(samples, reach_of(weights))[inner]
         if cut_off.any():
             _draw_exactly(color, cut_off, scene, settings, band, counts)
-        with timed(counts["resolve"]):
+        with counts["resolve"]:
             at = (band.bounds[1] - raster.bounds[1]) * raster.shape[1]
             pixels[at : at + cut_off.size] = encode(color.reshape(-1, 4), encoding)
     counts["resolve"].incoming, counts["resolve"].outgoing = side * side * len(pixels), len(pixels)

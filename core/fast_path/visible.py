@@ -103,14 +103,13 @@ def _draw_big(context: DrawContext, words: Integers, planes: Planes, chosen: Int
 
 def _one_by_one(context: DrawContext, nearest: NearestFragments, chosen: Integers) -> int:
     """Look at the fragments of the ``chosen`` (C,) triangles; return how many there were."""
-    from core.pipeline import (
-        covered,
-        fragment_depth,
-    )  # Most pictures have no such triangle and do not wait for it.
+    # Most pictures have no such triangle and do not wait for it.
+    from core.pipeline import covered
+    from core.stages.fragment_depth import fragment_depth
 
     raster = context.raster
     total = 0
-    for fragments in covered(context.geometry, context.settings, raster, context.counts, chosen):
+    for fragments in covered(context.geometry, raster, context.counts, chosen):
         with context.timed("depth"):
             _, keeps, stored = fragment_depth(context.geometry, fragments, raster, context.depth_format)
             total += len(fragments)

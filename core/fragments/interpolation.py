@@ -10,6 +10,7 @@ M. Zwicker, *Computergrafik*, lecture "Perspective correct interpolation", Bern 
 M. Olano, T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, 1997.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -249,10 +250,9 @@ def interpolate(
 
     A picture, which needs only the values, has them sooner from an `Interpolator`.
     """
-    weights, values = np.empty((3, len(primitive))), np.empty((varyings.shape[2], len(primitive)))
-    interpolator = Interpolator(planes, varyings, interpolation, provoking, interval)
-    interpolator.write_values(primitive, x, y, values, weights)
-    return weights.T, values.T
+    rule = table.get("interpolation", interpolation).function
+    corner = table.get("provoking", provoking).function()
+    return Interpolator(planes, varyings, rule, corner, interval).weighted(primitive, x, y)
 
 
 class Interpolator:
@@ -264,8 +264,10 @@ class Interpolator:
         Of the P primitives.
     varyings : CornerValues or (P, 3, K) float64 array
         Values at their corners; with rows that corners share less is looked at.
-    interpolation, provoking : str
-        Names of methods of these families.
+    rule : callable
+        The function of a method of the family ``interpolation``.
+    provoking : int
+        The corner whose value a flat triangle takes.
     interval : int
         Columns between corrections, for interpolation that is corrected.
 
@@ -278,8 +280,8 @@ class Interpolator:
         self,
         planes: Planes,
         varyings: CornerValues | Floats,
-        interpolation: str,
-        provoking: str,
+        rule: Callable[..., Floats],
+        provoking: int,
         interval: int = CORRECTION_INTERVAL,
     ) -> None:
         values = varyings if isinstance(varyings, CornerValues) else _each_its_own(varyings)
@@ -290,9 +292,7 @@ class Interpolator:
         count = values.index.shape[1]
         self._numbers = LocalNumbers(count)
         self._all = self._tables_of(np.arange(count)) if count <= FEW_PRIMITIVES else None
-        self._rule = table.get("interpolation", interpolation).function
-        self._provoking = table.get("provoking", provoking).function()
-        self._interval = interval
+        self._rule, self._provoking, self._interval = rule, provoking, interval
 
     def values(self, primitive: Integers, x: Floats, y: Floats, out: Floats | None = None) -> Floats:
         """Return the values of fragments, bit for bit those of `interpolate`.
@@ -311,13 +311,18 @@ class Interpolator:
             A view of (K, F) rows; NaN where 1/w is 0.
         """
         rows = np.empty((self.value_count, len(primitive))) if out is None else out
-        self.write_values(primitive, x, y, rows)
+        self._write(primitive, x, y, rows)
         return rows.T
 
-    def write_values(
+    def weighted(self, primitive: Integers, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+        """Return the weights of the corners (F, 3) and the values (F, K) of fragments, views of rows; see `values`."""
+        weights, rows = np.empty((3, len(primitive))), np.empty((self.value_count, len(primitive)))
+        self._write(primitive, x, y, rows, weights)
+        return weights.T, rows.T
+
+    def _write(
         self, primitive: Integers, x: Floats, y: Floats, values: Floats, weights: Floats | None = None
     ) -> None:
-        """Write the ``values`` (K, F) of fragments (F,), see `values`, and the ``weights`` (3, F) if wanted."""
         for start in range(0, len(primitive), BLOCK):
             part = slice(start, start + BLOCK)
             planes, tables, local = self._close_at_hand(primitive[part])

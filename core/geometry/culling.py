@@ -5,12 +5,13 @@ References
 LMU, *Computer Graphics 1*, tutorial 5, "Culling"; Jubair, "Backface culling"; F. Pellacini, "culling".
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.geometry.outcodes import BEHIND_BIT, PLANE_BITS, Outcodes, has_bits, shared_bits
-from core.methods import method, table
+from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.primitives import IndexedPrimitives
@@ -76,7 +77,9 @@ def plane_distances(clip: Floats) -> Floats:
     return np.stack([w + z, w - z, w + x, w - x, w + y, w - y], axis=-1)
 
 
-def cull(assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, cull_faces: str) -> CullVerdicts:
+def cull(
+    assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, drops_facing: Callable[[Floats], Flags]
+) -> CullVerdicts:
     """Give every triangle its verdict.
 
     Parameters
@@ -84,11 +87,10 @@ def cull(assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, cull_f
     assembled : IndexedPrimitives
     outcode : (M,) uint8, of its vertices
     facing : (T,) float64, see ``core.raster.edges.edge_functions.orient``
-    cull_faces : str
-        A method of the family ``cull``.
+    drops_facing : callable
+        The function of a method of the family ``cull``.
     """
-    drops = table.get("cull", cull_faces).function(facing)
-    return CullVerdicts(assembled, facing, drops, shared_bits(outcode, assembled.corner))
+    return CullVerdicts(assembled, facing, drops_facing(facing), shared_bits(outcode, assembled.corner))
 
 
 @method("cull", "none", "Both faces", source="OpenGL 4.6, 14.6.1", exact_for="every scene")

@@ -5,16 +5,13 @@ Triangles whose box does not contain the pixel are only counted. Of several samp
 own; of exact areas ``pieces`` tells who covers how much of the pixel, and this one what is at its centre.
 """
 
-from core.antialiasing.sample_counts import sample_count
-from core.framebuffer.depth import DepthFormat
-from core.methods import table
 from core.pixel_history.at_samples import candidates_at
 from core.pixel_history.candidates import PixelCandidates, whole_geometry
 from core.pixel_history.events import list_events
 from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
 from core.pixel_history.verdict import pixel_verdict, triangle_verdict
+from core.resolved import resolve
 from core.settings import Settings
-from core.stages.blend_choice import blend_choice
 from core.trace.source import TraceSource
 
 
@@ -62,10 +59,9 @@ def why(
     else:
         _check_sample(sample, settings)
         candidates = candidates_at(source, column, row, triangle, sample)
-    depth_format: DepthFormat = table.get("depth", settings.depth).function()
-    events, counts, cover_count = list_events(candidates, depth_format)
+    events, counts, cover_count = list_events(candidates, resolve(settings).depth_format)
     if triangle is None:
-        verdict = pixel_verdict(events, counts, blend_choice(settings)[0])
+        verdict = pixel_verdict(events, counts, resolve(settings).blend_name)
     else:
         verdict = triangle_verdict(events, triangle)
     return PixelHistory(column, row, triangle, verdict, events, counts, cover_count, sample)
@@ -73,7 +69,7 @@ def why(
 
 def _check_sample(sample: int, settings: Settings) -> None:
     """Refuse a sample that pixels do not have."""
-    count = sample_count(settings)
+    count = resolve(settings).sampling.count
     if count == 1:
         raise ValueError(
             f"a pixel must have several samples to be asked of one, got antialiasing {settings.antialiasing}"

@@ -1,10 +1,9 @@
 """The candidates at one of several samples of a pixel: the moved scene's pixel, or that of the finer picture."""
 
-from core.antialiasing.multisampling import at_sample
-from core.antialiasing.sample_counts import side_of
-from core.antialiasing.supersampling import finer_scene, finer_settings, in_squares
+from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
 from core.pixel_history.candidates import PixelCandidates, whole_geometry
 from core.records.frame import STAGES, StageCount
+from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.vertices import Geometry, process_geometry
@@ -19,7 +18,7 @@ def candidates_at(
 ) -> PixelCandidates:
     """Return the candidates at one sample of a pixel; ``sample`` counts as in `core.records.frame.Samples`."""
     scene, settings = source.scene, source.settings
-    side = side_of(settings)
+    side = resolve(settings).sampling.side
     if not side:
         whole = whole_geometry(source)
         moved = at_sample(whole, sample)

@@ -18,7 +18,7 @@ from core.pixel_history.fragments import (
 from core.pixel_history.outlines import outline_link
 from core.pixel_history.records import Link, PixelEvent
 from core.records.arrays import Integers
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 
 LISTED_LIMIT = 256
 """Triangles without a fragment that are listed one by one; of more, those whose edges are nearest."""
@@ -67,7 +67,7 @@ def _fragment_events(
     candidates: PixelCandidates, fragments: PixelFragments, passages: list[Passage]
 ) -> list[PixelEvent]:
     """Return one event for every covered primitive."""
-    blend, _ = blend_choice(candidates.settings)
+    blend = resolve(candidates.settings).blend_name
     hidden_by = overwriters(fragments, blend)
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):

@@ -7,16 +7,15 @@ import numpy as np
 from core.framebuffer.blending import blend_traits
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.stacks import stack_fragments
-from core.methods import table
-from core.pipeline import fragment_depth, fragment_inverse_w, fragment_values
 from core.pixel_history.candidates import PixelCandidates
 from core.pixel_history.records import Link, PixelState
 from core.raster.lines.intensities import weigh_alpha, writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 from core.stages.fragment_color import shade_fragments
+from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
+from core.stages.fragments import fragment_values, texture_slopes
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
-from core.stages.texture_slopes import texture_slopes
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +56,9 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
     fragments = candidates.fragments
     primitive, count = fragments.primitive, len(fragments)
     of_colors = candidates.colored_by or geometry
-    weights, values = fragment_values(of_colors, settings, fragments, raster)
+    weights, values = fragment_values(of_colors, fragments, raster)
     mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
-    slopes = texture_slopes(of_colors, settings, raster, fragments, values)
+    slopes = texture_slopes(of_colors, raster, fragments, values)
     surface = shade_fragments(candidates.scene, settings, layout, mesh, values, slopes)
 
     # Only what is in range gets to the depth test.
@@ -111,7 +110,7 @@ class Passage:
 
 def fold(fragments: PixelFragments, start: PixelState, candidates: PixelCandidates) -> list[Passage]:
     """Lay the fragments into the buffers one by one."""
-    rule = table.get("blend", blend_choice(candidates.settings)[0]).function
+    rule = resolve(candidates.settings).blend_method.function
     tested = candidates.geometry.uses_depth_test
     state = start
     passages = []

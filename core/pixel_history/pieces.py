@@ -9,11 +9,11 @@ import numpy as np
 
 from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_painter, sum_areas
 from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
-from core.methods import is_registered
 from core.pixel_history.candidates import whole_geometry
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
 from core.records.frame import STAGES, StageCount
+from core.resolved import resolve
 from core.trace.source import TraceSource
 
 
@@ -77,7 +77,7 @@ def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | No
     if geometry.outlines is not None:
         return None
     raster = make_raster(scene.size, settings.pixel_center, (column, row, 1, 1))
-    painter = piece_painter(scene, geometry, settings, raster, {stage: StageCount() for stage in STAGES})
+    painter = piece_painter(scene, geometry, raster, {stage: StageCount() for stage in STAGES})
 
     # One pixel: every layer draws one triangle, and holds all pieces of the pixel.
     background = np.asarray(scene.background, np.float32)
@@ -101,7 +101,7 @@ def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | No
         tuple(events),
         1.0 if last is None else _area_of(last, -1),
         read_only(background),
-        not is_registered(settings.blend, "opaque"),
+        resolve(settings).is_mixed,
         len(geometry.assembled) - len(touching),
     )
 

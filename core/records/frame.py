@@ -1,6 +1,8 @@
 """The stages by name, and what drawing a scene returns."""
 
 from dataclasses import dataclass, field
+from threading import local
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -24,15 +26,39 @@ STAGES = (
 """Names of the pipeline's stages in order."""
 
 
+class _OpenBlocks(local):
+    """The timed blocks that a thread is in: when each began, and the seconds of blocks inside it."""
+
+    def __init__(self) -> None:
+        self.blocks: list[list[float]] = []
+
+
+_open = _OpenBlocks()
+
+
 @dataclass
 class StageCount:
-    """What one stage took in, gave out, and how long it took."""
+    """What one stage took in, gave out, and how long it took: ``with count:`` times a block.
+
+    Blocks may be nested, each is counted without those inside it.
+    """
 
     incoming: int = 0
     outgoing: int = 0
     seconds: float = 0.0
     note: str = ""
     """Key of why the stage was inserted or skipped, else empty."""
+
+    def __enter__(self) -> "StageCount":
+        _open.blocks.append([perf_counter(), 0.0])
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        start, inside = _open.blocks.pop()
+        elapsed = perf_counter() - start
+        self.seconds += elapsed - inside
+        if _open.blocks:
+            _open.blocks[-1][1] += elapsed
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,7 +39,7 @@ def shade_fragments(
         Which of the K values are what, see ``Primitives``.
     mesh : (F,) int64
     values : (F, K) float64, interpolated
-    slopes : (4, F) float64, see ``core.stages.texture_slopes``; ``None``: the texture filter needs none
+    slopes : (4, F) float64, see ``core.stages.fragments``; ``None``: the texture filter needs none
     """
     albedo = _albedo(scene, settings, layout, mesh, values, slopes)
     if "normal" in layout:

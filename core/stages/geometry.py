@@ -13,18 +13,17 @@ from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
 from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
-from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
+from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.vertex_stage import VertexStage
-from core.methods import is_registered, table
 from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
 from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount
 from core.records.primitives import IndexedPrimitives, Primitives
-from core.records.timing import timed
+from core.resolved import resolve
 from core.settings import Settings
 
 if TYPE_CHECKING:
@@ -81,19 +80,19 @@ class Geometry:
     @cached_property
     def window_x(self) -> Floats:
         """(3, P) float64 pixels, x of the corners as coverage sees them (snapped); NaN where not projected."""
-        with timed(self.count):
+        with self.count:
             return self.window.x.take(self.primitives.corner)
 
     @cached_property
     def window_y(self) -> Floats:
         """(3, P) float64 pixels, likewise y."""
-        with timed(self.count):
+        with self.count:
             return self.window.y.take(self.primitives.corner)
 
     @cached_property
     def depth(self) -> Floats:
         """(3, P) float64, window depth (z/w + 1)/2 of the corners; infinite or NaN where w = 0."""
-        with timed(self.count), np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        with self.count, np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             _, _, z, w = self.primitives.vertex_clip
             depth: Floats = (z / w + 1) * 0.5
             return depth.take(self.primitives.corner)
@@ -101,51 +100,51 @@ class Geometry:
     @cached_property
     def is_projected(self) -> Flags:
         """(P,) bool, all corners are projected, so that coverage is decided on ``window_x`` and ``window_y``."""
-        with timed(self.count):
+        with self.count:
             return all_projected(self.window, self.primitives.corner)
 
     @cached_property
     def is_in_range(self) -> Flags:
         """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
-        with timed(self.count):
+        with self.count:
             return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
 
     @cached_property
     def corners(self) -> CornerPositions:
         """The corners of the primitives in the homogeneous window and on the lattice."""
-        with timed(self.count):
+        with self.count:
             placed = place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
             return placed.moved(*self.shift) if any(self.shift) else placed
 
     @cached_property
     def edges(self) -> EdgeFunctions:
         """The edge functions of the primitives."""
-        with timed(self.count):
+        with self.count:
             return set_up_edges(self.corners, self.settings.fill_rule)
 
     @cached_property
     def planes(self) -> Planes:
         """The linear functions over the window that attributes are interpolated with."""
-        with timed(self.count):
+        with self.count:
             return set_up_planes(self.corners.homogeneous)
 
     @cached_property
     def depth_plane(self) -> tuple[Floats, Floats, Floats]:
         """(P,) float64 each: window depth as a linear function of the pixel."""
-        with timed(self.count):
+        with self.count:
             clip = self.primitives.clip
             return value_plane(self.planes, (clip[..., 2] + clip[..., 3]) / 2)
 
     @cached_property
     def inverse_w_plane(self) -> tuple[Floats, Floats, Floats]:
         """(P,) float64 each: 1/w as a linear function of the pixel."""
-        with timed(self.count):
+        with self.count:
             return value_plane(self.planes, np.ones((len(self.primitives), 3)))
 
     @cached_property
     def reversed_plane(self) -> tuple[Floats, Floats, Floats]:
         """(P,) float64 each: reversed depth as a linear function of the pixel."""
-        with timed(self.count):
+        with self.count:
             clip = self.primitives.clip
             at_corners = reversed_clip_depth(clip[..., 2], clip[..., 3], self.vertices.view_range)
             return value_plane(self.planes, at_corners)
@@ -153,8 +152,8 @@ class Geometry:
     @cached_property
     def fixed_planes(self) -> FixedPlanes:
         """Depth in whole numbers as integer planes."""
-        with timed(self.count):
-            center: float = table.get("pixel_center", self.settings.pixel_center).function()
+        with self.count:
+            center = resolve(self.settings).center
             return set_up_fixed_planes(
                 self.window_x, self.window_y, self.depth, self.doubled_area, self.is_in_range, center
             )
@@ -164,7 +163,7 @@ class Geometry:
         """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
         from core.visibility.ray_planes import set_up_ray_planes
 
-        with timed(self.count):
+        with self.count:
             vertices = self.vertices
             clip = vertices.clip_rows.take(vertices.corner_rows, axis=1).T
             return set_up_ray_planes(clip, vertices.size, vertices.view_range is not None, self.shift)
@@ -177,25 +176,24 @@ class Geometry:
     @cached_property
     def outline_clip(self) -> "OutlineClip | None":
         """What line clipping did to the outlines; ``None``: they are drawn as they are."""
-        method, whole = self.settings.line_clipping, self.whole_outlines
-        if whole is None or is_registered(method, "none"):
+        if not resolve(self.settings).clips_lines or self.whole_outlines is None:
             return None
         from core.stages.clipped_outlines import clip_outlines
 
-        with timed(self.count):
-            center: float = table.get("pixel_center", self.settings.pixel_center).function()
-            return clip_outlines(whole, method, self.vertices.size, center)
+        with self.count:
+            method, center = self.settings.line_clipping, resolve(self.settings).center
+            return clip_outlines(self.whole_outlines, method, self.vertices.size, center)
 
     @cached_property
     def whole_outlines(self) -> "Outlines | None":
         """The edges before line clipping; ``None``: triangles are filled."""
-        if not table.get("polygon_mode", self.settings.polygon_mode).function():
+        if not resolve(self.settings).is_outlined:
             return None
         from core.raster.lines.intensities import run_rightwards
         from core.raster.lines.traits import has_intensities
         from core.raster.lines.wireframe import set_up_outlines
 
-        with timed(self.count):
+        with self.count:
             outlines = set_up_outlines(
                 self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size
             )
@@ -208,9 +206,7 @@ class Geometry:
         kept, shares = self.kept, np.tile(np.eye(3), (len(self.kept), 1, 1))
         whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
-        clipping: PolygonClipping = table.get("clipping", self.settings.clipping).function()
-        if self.clipping_inserted:
-            clipping = DEPTH_CLIPPING
+        clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
         return clipping.clip(whole, distances).primitives.varyings
 
 

@@ -3,16 +3,22 @@
 It joins the depth buffer and ray casting; picture, trace and history of a pixel ask it alike.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import DepthFormat, DepthTests, Stored, replay_depths, run_depth_tests
 from core.framebuffer.stacks import PixelStacks, stack_fragments
-from core.raster.coverage import Fragments
+from core.raster.coverage import Fragments, join_fragments
 from core.raster.lines.intensities import writes_depth
 from core.raster.pixel_runs import Raster
-from core.records.arrays import Flags, Integers, read_only
+from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.resolved import resolve
+from core.stages.fragments import fragments_of, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
 
@@ -83,6 +89,15 @@ class DecidedFragments:
     passes: Flags
     """(F,) bool."""
 
+    @property
+    def passing(self) -> Fragments:
+        """The (G,) fragments that pass."""
+        return self.fragments.select(self.passes)
+
+    def blend_into(self, color: Singles, source: Floats, rule: Callable[..., Any]) -> None:
+        """Blend colours (G, 4) of those that pass into ``color`` (H*W, 4) by a method of the family ``blend``."""
+        blend_stacks(color, source, np.cumsum(self.passes) - 1, self.stacks, self.passes, rule)
+
     def last_passing(self, raster: Raster) -> tuple[Integers, Integers]:
         """Return the pixels that something is seen at (V,), and the fragment (V,) that was kept there last."""
         passing = np.flatnonzero(self.passes)
@@ -92,10 +107,44 @@ class DecidedFragments:
         return pixel, last[pixel]
 
 
+@dataclass(frozen=True, eq=False)
+class Visible:
+    """What is seen of a picture at one sample a pixel."""
+
+    pixel: Integers
+    """(V,) int64, the pixels that something is seen at."""
+    owner: Integers
+    """(V,) int64, what the fragment there belongs to, see ``owner_of``."""
+    depth: Stored
+    """(H*W,) the depth buffer."""
+    cover_count: NDArray[np.int32]
+    """(H*W,) int32, fragments in depth range."""
+    decided: DecidedFragments | None
+    """All of these fragments, where they are blended or rays are cast."""
+
+    def fragments(self, geometry: Geometry, raster: Raster) -> Fragments:
+        """Return the (V,) fragments that are seen."""
+        return fragments_of(geometry, self.owner, *raster.position(self.pixel))
+
+
 def decide_fragments(
-    geometry: Geometry, fragments: Fragments, stored: Stored, raster: Raster, depth_format: DepthFormat
+    geometry: Geometry, batches: Sequence[tuple[Fragments, Stored]], raster: Raster
 ) -> DecidedFragments:
-    """Test all fragments (F,) of a picture over cleared buffers; ``stored`` (F,) is what the depth buffer gets."""
+    """Put all fragments of a picture in drawing order, and test them over cleared buffers.
+
+    A batch of fragments (F,) comes with what the depth buffer gets of each, (F,).
+    """
+    depth_format = resolve(geometry.settings).depth_format
+    if batches:
+        fragments = join_fragments([part for part, _ in batches])
+        stored = np.concatenate([part for _, part in batches])
+    else:
+        none = np.empty(0, np.int64)
+        fragments, stored = fragments_of(geometry, none, none, none), np.empty(0, depth_format.stored_type)
+    owner = owner_of(fragments)
+    if (owner[1:] < owner[:-1]).any():
+        order = np.argsort(owner, kind="stable")
+        fragments, stored = fragments.take(order), stored[order]
     stacks = stack_fragments(raster.index(fragments.column, fragments.row))
     start = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format)
     tests, _ = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)

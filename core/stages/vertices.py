@@ -13,14 +13,14 @@ from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, 
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
-from core.methods import is_registered, table
+from core.methods import is_registered
 from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
-from core.records.timing import timed
+from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
 from core.stages.geometry import Geometry, all_projected, clipping_distances
@@ -37,7 +37,6 @@ __all__ = [
     "in_drawing_order",
     "place",
     "process_geometry",
-    "timed",
 ]
 
 
@@ -46,7 +45,7 @@ def check_needs(scene: AnyScene, settings: Settings) -> None:
     if not isinstance(scene, Scene) or scene.camera.projection == "perspective":
         return
     for family in families():
-        chosen = table.get(family, getattr(settings, family))
+        chosen = resolve(settings).method(family)
         if "perspective" in chosen.needs:
             raise ValueError(
                 f"{family} {chosen.name} needs a perspective camera: 1/w is constant for an orthographic one"
@@ -96,15 +95,15 @@ def _process(
     raster: Raster | None,
 ) -> Geometry:
     check_needs(scene, settings)
-    with timed(counts["transform"]):
+    with counts["transform"]:
         vertices = transform_vertices(scene)
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         counts["transform"].incoming = counts["transform"].outgoing = len(assembled)
 
-    with timed(counts["cull"]):
+    with counts["cull"]:
         window, outcode = place(assembled, scene.size, settings)
         facing = face(assembled, window, scene.size, settings)
-        culled = cull(assembled, outcode, facing, settings.cull)
+        culled = cull(assembled, outcode, facing, resolve(settings).drops_facing)
         drawing = drawing_order(vertices, settings)
         wanted = culled.kept if raster is None else culled.kept & ~is_beside(window, assembled.corner, raster)
         if chosen is None and drawing.is_as_given and wanted.all():
@@ -116,13 +115,13 @@ def _process(
         beside_count = int(np.count_nonzero(culled.kept)) - len(kept) if raster is not None else 0
         counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept) + beside_count
 
-    with timed(counts["clip"]):
+    with counts["clip"]:
         counts["clip"].incoming = len(kept) + beside_count
         primitives, clipped, inserted = clip(kept, outcode, settings)
         counts["clip"].outgoing = len(primitives) + beside_count
         counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
 
-    with timed(counts["edges"]):
+    with counts["edges"]:
         counts["edges"].incoming = counts["edges"].outgoing = len(primitives) + beside_count
         if primitives is not kept:
             window, outcode = place(primitives, scene.size, settings)
@@ -179,11 +178,11 @@ def corner_values(
         )
 
         find_values = partial(light_vertices, scene, vertices, settings)
-    with timed(count):
+    with count:
         values = find_values(triangle)
         if not is_registered(settings.interpolation, "flat"):
             return values
-        provoking = table.get("provoking", settings.provoking).function()
+        _, provoking, _ = resolve(settings).interpolation
         return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
 
 
@@ -206,7 +205,7 @@ def place(
     outcode : (M,) uint8
     """
     clip_position = primitives.vertex_clip.T
-    return place_vertices(clip_position, size, settings.coverage), outcodes(clip_position)
+    return place_vertices(clip_position, size, resolve(settings).numbers), outcodes(clip_position)
 
 
 def face(
@@ -238,10 +237,7 @@ def is_beside(window: WindowVertices, corner: Integers, raster: Raster) -> Flags
 
 def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
     """Return the triangles (T,) of the scene from the first drawn to the last."""
-    order: DrawingOrder = table.get("visibility", settings.visibility).function(
-        CornerPositionsOnDemand(vertices)
-    )
-    return order
+    return resolve(settings).drawing_order(CornerPositionsOnDemand(vertices))
 
 
 def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder) -> Integers:
@@ -293,11 +289,11 @@ def clip(
 
 def choose_clipping(settings: Settings, crosses_eye: bool) -> tuple[PolygonClipping, str]:
     """Return how to clip, and the method that asked for it where the settings did not."""
-    clipping: PolygonClipping = table.get("clipping", settings.clipping).function()
+    clipping = resolve(settings).clipping
     if clipping.is_any or not crosses_eye:
         return clipping, ""
     for family in ("coverage", "polygon_mode", "fill", "interpolation"):
-        chosen = table.get(family, getattr(settings, family))
+        chosen = resolve(settings).method(family)
         if {"projected", "positive-w"} & set(chosen.needs):
             return DEPTH_CLIPPING, chosen.name
     return clipping, ""

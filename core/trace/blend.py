@@ -3,13 +3,12 @@
 import numpy as np
 
 from core.framebuffer.stacks import stack_fragments
-from core.methods import table
 from core.raster.lines.intensities import intensities_of, weigh_alpha, weighed_color
 from core.records.arrays import Floats
 from core.records.listing import listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -21,9 +20,8 @@ def trace_blend(source: TraceSource) -> StageTrace:
     place, triangle = source.place[passes], source.triangle_of_fragment[passes]
     shaded = source.surface.color[passes]
     colors, intensity = weigh_alpha(shaded, fragments), intensities_of(fragments)
-    mode, _ = blend_choice(source.settings)
-    method = table.get("blend", mode)
-    rule = method.function
+    method = resolve(source.settings).blend_method
+    mode, rule = method.name, method.function
 
     # The colours before and after, one layer after another.
     before, after = np.empty((2, len(colors), 4), np.float32)

@@ -3,12 +3,11 @@
 import numpy as np
 
 from core.geometry.culling import PLANES
-from core.geometry.polygon_clipping.methods import PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
-from core.methods import table
 from core.records.listing import listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
+from core.resolved import resolve
 from core.trace.clip_divide import with_division
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
@@ -62,7 +61,7 @@ def trace_clip(source: TraceSource) -> StageTrace:
         "corner": numbers("corner", 4),
     }
     distances = Operation("distances", "in-in", ("plane", "start", "end", "start_distance", "end_distance"))
-    clipping: PolygonClipping = table.get("clipping", source.settings.clipping).function()
+    clipping = resolve(source.settings).clipping
     is_canonical = clipping.is_canonical or bool(geometry.clipping_inserted)
     crossing = CROSSING if is_canonical else (CROSSING_IN_ORDER, CROSSING_IN_ORDER)
     steps = Steps(

@@ -5,8 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.antialiasing.exact_area import DrawnLayer, piece_painter, piece_sum
-from core.antialiasing.sample_counts import positions_of, sample_traits
-from core.antialiasing.sampled import grown, inner_of
+from core.antialiasing.sample_rasters import grown, inner_of
 from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
 from core.pipeline import draw
@@ -15,7 +14,7 @@ from core.records.frame import STAGES, StageCount
 from core.records.listing import Listing, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
-from core.settings import Settings
+from core.resolved import resolve
 from core.stages.vertices import process_geometry
 from core.trace.blend import trace_blend
 from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts
@@ -57,10 +56,10 @@ class Parts(NamedTuple):
 def trace_resolve(source: TraceSource) -> StageTrace:
     """Return one row for every pixel of the raster: its samples to a colour, linear colour to sRGB bytes."""
     parts, cuts, kind, method = None, None, "encode", ""
-    if source.settings.antialiasing == Settings.antialiasing:
+    if resolve(source.settings).sampling.is_plain:
         blend = trace_blend(source)
         linear = blend.buffers[0].at(blend.steps.row_count).reshape(-1, 4)
-    elif sample_traits(source.settings).has_areas:
+    elif resolve(source.settings).sampling.is_area:
         parts, cuts = _pieces(source)
         kind, method = "areas", f"antialiasing={source.settings.antialiasing}"
         linear = _piece_sums(parts)
@@ -138,7 +137,7 @@ def last_drawn(source: TraceSource) -> Integers | None:
 def _samples(source: TraceSource) -> Parts:
     """Return the samples that every pixel is made of, in the order of the sum; those beyond the border weigh 0."""
     settings = source.settings
-    weights = filter_weights(positions_of(settings), settings.resolve_filter)
+    weights = filter_weights(resolve(settings).sampling.position, settings.resolve_filter)
     wide = grown(source.raster, reach_of(weights))
     samples = draw(source.scene, settings, wide, last_drawn(source)).samples
     assert samples is not None
@@ -174,7 +173,7 @@ def _pieces(source: TraceSource) -> tuple[Parts, PixelCuts | None]:
         whole = np.ones((count, 1))
         shown = frame.primitive.reshape(-1, 1).astype(np.int64)
         return Parts(frame.color.reshape(-1, 1, 4), whole, shown), None
-    painter = piece_painter(source.scene, geometry, source.settings, source.raster, counts)
+    painter = piece_painter(source.scene, geometry, source.raster, counts)
     layers: list[DrawnLayer] = []
     pieces = painter.draw(layers.append)
     order = np.argsort(pieces.pixel, kind="stable")

@@ -8,15 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.antialiasing.multisampling import at_sample
-from core.antialiasing.supersampling import finer_raster, finer_scene, finer_settings, in_squares
-from core.framebuffer.sample_positions import ROTATED_GRID
-from core.pipeline import fragment_values, fragments_of, owner_of
+from core.antialiasing.sample_rasters import at_sample, finer_raster, finer_scene, finer_settings, in_squares
+from core.antialiasing.sampling import ROTATED_GRID
 from core.raster.coverage import Fragments
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.records.frame import STAGES, Frame, StageCount
+from core.stages.fragments import fragment_values, fragments_of, owner_of
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 
@@ -55,7 +54,7 @@ class SampleSource(TraceSource):
     def interpolated(self) -> tuple[Floats, Floats]:
         """Weights (F, 3) and values (F, K) of the fragments, at the pixels' centres."""
         assert self.whole is not None
-        return fragment_values(self.whole.geometry, self.settings, self.fragments, self.raster)
+        return fragment_values(self.whole.geometry, self.fragments, self.raster)
 
 
 @dataclass(frozen=True, eq=False)

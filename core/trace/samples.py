@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.antialiasing.sample_counts import side_of
-from core.framebuffer.sample_positions import ROTATED_GRID, grid_positions
+from core.antialiasing.sampling import ROTATED_GRID, grid_positions
 from core.raster.edges.edge_functions import edge_value
 from core.records.arrays import Floats, Integers
 from core.records.steps import Steps, ends_of
+from core.resolved import resolve
 from core.trace.raster_rows import occurrence
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.source import TraceSource
@@ -35,7 +35,7 @@ def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace
     """Trace a stage before the samples are resolved; ``source`` has an antialiasing with samples."""
     if stage in BEFORE_SAMPLES:
         return tracer(source)
-    side = side_of(source.settings)
+    side = resolve(source.settings).sampling.side
     if side:
         return _by_pixel(tracer(finer_source(source, side)), source, side)
     if stage == "edges":

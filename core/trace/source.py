@@ -8,10 +8,8 @@ import numpy as np
 from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments
 from core.geometry.vertex_stage import transform_vertices
-from core.methods import table
-from core.pipeline import draw, fragment_depth, fragment_inverse_w, fragment_values, schedule
+from core.pipeline import draw, schedule
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.fills.tested import effective_fill
 from core.raster.lines.intensities import writes_depth
 from core.raster.lines.records import LineSteps
 from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
@@ -19,11 +17,13 @@ from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import STAGES, Frame, StageCount
+from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.fragment_color import Surface, shade_fragments
+from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
+from core.stages.fragments import fragment_values, texture_slopes
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
-from core.stages.texture_slopes import texture_slopes
 from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
@@ -69,7 +69,7 @@ class TraceSource:
     @property
     def fill(self) -> str:
         """The fill that runs: see ``core.raster.fills.tested.effective_fill``."""
-        return effective_fill(self.settings.fill, self.settings.coverage)
+        return resolve(self.settings).fill_name
 
     @cached_property
     def _schedule(self) -> tuple[Boxes, Runs]:
@@ -123,12 +123,12 @@ class TraceSource:
     @cached_property
     def interpolated(self) -> tuple[Floats, Floats]:
         """Weights (F, 3) and values (F, K) of the fragments."""
-        return fragment_values(self.geometry, self.settings, self.fragments, self.raster)
+        return fragment_values(self.geometry, self.fragments, self.raster)
 
     @cached_property
     def uv_slopes(self) -> Floats | None:
         """(4, F) float64 du/dx, dv/dx, du/dy, dv/dy of the fragments; ``None``: the texture filter needs none."""
-        return texture_slopes(self.geometry, self.settings, self.raster, self.fragments, self.interpolated[1])
+        return texture_slopes(self.geometry, self.raster, self.fragments, self.interpolated[1])
 
     @cached_property
     def inverse_w(self) -> Floats:
@@ -145,8 +145,7 @@ class TraceSource:
     @cached_property
     def depth_format(self) -> DepthFormat:
         """How depth is stored."""
-        made: DepthFormat = table.get("depth", self.settings.depth).function()
-        return made
+        return resolve(self.settings).depth_format
 
     @cached_property
     def depths(self) -> tuple[Floats, Flags, Singles]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from core.antialiasing.sample_counts import sample_traits
+from core.resolved import resolve
 from core.settings import Settings
 from core.trace.binning import trace_bin
 from core.trace.blend import trace_blend
@@ -43,7 +43,7 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
     antialiasing = source.settings.antialiasing
     if name == "resolve" or antialiasing == Settings.antialiasing:
         return TRACERS[name](source)
-    if sample_traits(source.settings).has_areas:
+    if resolve(source.settings).sampling.is_area:
         at_centers = replace(source.settings, antialiasing=Settings.antialiasing)
         return TRACERS[name](replace(source, settings=at_centers))
     return trace_samples(source, name, TRACERS[name])

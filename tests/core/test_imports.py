@@ -21,7 +21,7 @@ scene = ClipScene(clip, np.ones((1, 3, 4)), (8, 8))
 print(draw_picture(scene, Settings(cull="back", interpolation="flat", depth="fixed-38")).route.color)
 """
 UNUSED = (
-    "core.antialiasing.single_sample",
+    "core.antialiasing.sample_rasters",
     "core.fragments.lighting",
     "core.fragments.textures",
     "core.framebuffer.blending",
@@ -101,7 +101,7 @@ def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
     assert {
-        "core.framebuffer.blending",
+        "core.fragments.shading",
         "core.visibility.painters",
         "core.raster.number_formats.floats",
     } <= set(imported)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from app.window.message_words import sentence_case
-from core.antialiasing.sample_counts import sample_count, sample_traits
 from core.explain.history.pieces import piece_reason, pieces_verdict
 from core.explain.history.samples import of_sample, samples_name, samples_verdict
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
@@ -12,6 +11,7 @@ from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import PixelHistory, PixelState, why
 from core.pixel_history.pieces import PixelPieces, pixel_pieces
 from core.records.arrays import Singles
+from core.resolved import resolve
 from core.trace import TraceSource
 from widgets.basics.marks import Mark
 from widgets.inspector.history_view import HistoryEntry, PixelStory, PixelValue
@@ -26,9 +26,9 @@ def story_of(
     source: TraceSource, column: int, row: int, triangle: int | None = None
 ) -> tuple[PixelStory, list[int | None]]:
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
-    if sample_count(source.settings) > 1:
+    if resolve(source.settings).sampling.count > 1:
         return _story_of_samples(source, column, row, triangle)
-    pieces = pixel_pieces(source, column, row) if sample_traits(source.settings).has_areas else None
+    pieces = pixel_pieces(source, column, row) if resolve(source.settings).sampling.is_area else None
     if pieces is not None:
         return _story_of_pieces(source, pieces, triangle)
     history = why(source, column, row, triangle)
@@ -103,7 +103,7 @@ def _story_of_samples(
     if rest:
         told = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more triangles"
         lines.append((HistoryEntry(told), None))
-    verdict = samples_verdict(groups, sample_count(source.settings))
+    verdict = samples_verdict(groups, resolve(source.settings).sampling.count)
     if triangle is not None or len(groups) == 1:
         verdict = f"{verdict} {' '.join(verdicts)}"
     mark = Mark.COVERED if any(shown >= 0 for shown, _ in groups) else Mark.REJECTED

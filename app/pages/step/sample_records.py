@@ -3,8 +3,8 @@
 import numpy as np
 
 from core import Trace
-from core.antialiasing.sample_counts import positions_of, sample_count
 from core.records.arrays import Integers
+from core.resolved import resolve
 from core.trace import StageTrace
 from widgets.grid.sample_dots import SampleDots
 
@@ -23,7 +23,7 @@ def sample_dots(trace: Trace, stage: StageTrace, position: int, is_hidden: bool)
         Whether the result is to be predicted: then no sample tells it.
     """
     source = trace.source
-    count = sample_count(source.settings)
+    count = resolve(source.settings).sampling.count
     if count == 1:
         return None
     done = stage.steps.rows_done(position)
@@ -41,7 +41,7 @@ def sample_dots(trace: Trace, stage: StageTrace, position: int, is_hidden: bool)
         samples = source.picture.samples
         assert samples is not None
         shown[:] = samples.primitive
-    return SampleDots(positions_of(source.settings), shown)
+    return SampleDots(resolve(source.settings).sampling.position, shown)
 
 
 def _mark_covered(shown: Integers, trace: Trace, raster: StageTrace, done: int) -> None:

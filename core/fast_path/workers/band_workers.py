@@ -25,7 +25,6 @@ from core.fast_path.workers.throttle import Pace
 from core.fast_path.workers.worker import Worker, WorkerFailedError
 from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
-from core.records.timing import timed
 from core.scene import AnyScene
 from core.settings import Settings
 
@@ -266,7 +265,7 @@ class BandWorkers:
         if not have_colors_of_whole(routes, self._plain_colors):
             return own, ()
         statistics = joined_counts([own.statistics, *(band.statistics for band in done)])
-        with timed(statistics["resolve"]):
+        with statistics["resolve"]:
             for worker, (first, end) in zip(self._workers, rows[1:], strict=True):
                 worker.copy_band(pixels[first:end])
             depth = order.joined_depth(rows, [own.depth, *(band.depth for band in done)])

@@ -8,6 +8,7 @@ in which numbers the edges are computed, is up to the number format (``number_fo
 """
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -78,6 +79,13 @@ class WindowVertices:
     """(M,) bool, where ``x`` and ``y`` hold."""
 
 
+class Lattice(Protocol):
+    """What is asked of a number format here (``core.raster.number_formats``)."""
+
+    def place(self, window: Floats) -> tuple[Floats, Flags]:
+        """Return positions (P, 3, 2) on the lattice, and where (P, 3) bool there are any."""
+
+
 def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
     """Put corners on the lattice of a coverage method.
 
@@ -98,9 +106,9 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
     return CornerPositions(homogeneous, window, decided, is_projected, clip, size, coverage)
 
 
-def place_vertices(clip: Floats, size: tuple[int, int], coverage: str) -> WindowVertices:
-    """Put vertices (M, 4) on the lattice of a coverage method, as ``place_corners`` does with corners."""
-    decided, is_projected = table.get("coverage", coverage).function().place(window_position(clip, size))
+def place_vertices(clip: Floats, size: tuple[int, int], numbers: Lattice) -> WindowVertices:
+    """Put vertices (M, 4) on the lattice of a number format, as ``place_corners`` does with corners."""
+    decided, is_projected = numbers.place(window_position(clip, size))
     return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
 
 

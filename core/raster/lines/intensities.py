@@ -1,7 +1,7 @@
 """Fragments of lines with intensities: their alpha, which of them the depth buffer keeps, and how their segments run.
 
 The intensity scales the fragment's alpha, as OpenGL does with the coverage of smooth lines, and the fragment is blended
-over what is there (`core.stages.blend_choice`). Its depth is tested like any other, but stored only where the
+over what is there (`core.resolved`). Its depth is tested like any other, but stored only where the
 intensity is at
 least 1/2: a paler pixel shows mostly what is behind it, so it must not hide what is drawn there later. With the depth
 stored of every pixel, lines that pass behind others would end in front of them, at a gap as wide as the pale pixels;

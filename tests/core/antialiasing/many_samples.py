@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.antialiasing.supersampling import bands_of, supersample
+from core.antialiasing.sample_rasters import bands_of
+from core.pipeline import draw_supersampled
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
 from core.scene import AnyScene
@@ -34,4 +35,6 @@ def many_samples(scene: AnyScene, settings: Settings, side: int = REFERENCE_SIDE
     raster = make_raster(scene.size, settings.pixel_center)
     boxed = replace(settings, resolve_filter="box")
     bands = bands_of(raster, 1, max(BAND // (side * side), 1))
-    return read_only(np.concatenate([supersample(scene, boxed, band, None, side).color for band in bands]))
+    return read_only(
+        np.concatenate([draw_supersampled(scene, boxed, band, None, side).color for band in bands])
+    )

@@ -109,7 +109,7 @@ def test_neighbours_cut_no_slivers_of_rounding():
     scene = replace(make_scene("torus"), size=(120, 90))
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, Settings(), counts)
-    pieces = draw_pieces(scene, geometry, Settings(), make_raster(scene.size, "half"), counts)
+    pieces = draw_pieces(scene, geometry, make_raster(scene.size, "half"), counts)
     assert len(pieces.area) > 3 * len(pieces.touched)
     assert pieces.area.min() > 1e-15
     assert np.abs(np.bincount(pieces.pixel, pieces.area)[pieces.touched] - 1).max() <= 1e-12

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 
 from core import ClipScene, Settings, render
-from core.framebuffer.sample_positions import ROTATED_GRID
+from core.antialiasing.sampling import ROTATED_GRID
 from core.methods import table
 from tests.core.covering import in_turn
 from tests.core.exact_reference import edge_signs, facing

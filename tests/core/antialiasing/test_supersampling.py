@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import ClipScene, Settings, draw_picture, render
-from core.antialiasing import supersampling
+from core import ClipScene, Settings, draw_picture, pipeline, render
 from core.framebuffer.display import to_display
 from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
@@ -116,7 +115,7 @@ def test_a_region_is_the_crop_of_the_picture(antialiasing, resolve_filter, pixel
 def test_bands_do_not_matter(monkeypatch):
     settings = Settings(antialiasing="ssaa-4", resolve_filter="tent")
     whole = render(SCENES["lit"], settings)
-    monkeypatch.setattr(supersampling, "BAND", 100)
+    monkeypatch.setattr(pipeline, "SAMPLE_BAND", 100)
     parts = render(SCENES["lit"], settings)
     assert parts.color.tobytes() == whole.color.tobytes()
     assert parts.statistics["shade"].outgoing == whole.statistics["shade"].outgoing

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, set_up_planes
+from core.fragments.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, perspective, set_up_planes
 from core.fragments.mixing import BLOCK, LocalNumbers
+from core.methods import table
 from core.records.primitives import CornerValues
 
 MODES = ["perspective", "affine", "flat"]
@@ -34,14 +35,16 @@ def test_values_are_those_of_the_formula(mode, primitive_count):
     planes, varyings, primitive, x, y = random_case(primitive_count, 2 * BLOCK + 5)
     weights, values = interpolate(planes, varyings, primitive, x, y, mode, "last")
     assert np.array_equal(values, by_the_formula(weights, varyings, primitive), equal_nan=True)
-    picture = Interpolator(planes, varyings, mode, "last").values(primitive, x, y)
+    picture = Interpolator(planes, varyings, table.get("interpolation", mode).function, 2).values(
+        primitive, x, y
+    )
     assert np.array_equal(values, picture, equal_nan=True)
 
 
 def test_memory_that_is_given_is_used():
     planes, varyings, primitive, x, y = random_case(50, 100)
     rows = np.zeros((5, 100))
-    values = Interpolator(planes, varyings, "perspective", "last").values(primitive, x, y, rows)
+    values = Interpolator(planes, varyings, perspective, 2).values(primitive, x, y, rows)
     assert np.shares_memory(values, rows)
     assert values.shape == (100, 5)
 
@@ -66,8 +69,8 @@ def test_corners_may_share_rows(primitive_count):
     planes, _, primitive, x, y = random_case(primitive_count, 3000)
     random = np.random.default_rng(1)
     shared = CornerValues(random.normal(size=(77, 4)), {}, random.integers(0, 77, (3, primitive_count)))
-    own = Interpolator(planes, shared.at_corners, "perspective", "last").values(primitive, x, y)
-    assert np.array_equal(Interpolator(planes, shared, "perspective", "last").values(primitive, x, y), own)
+    own = Interpolator(planes, shared.at_corners, perspective, 2).values(primitive, x, y)
+    assert np.array_equal(Interpolator(planes, shared, perspective, 2).values(primitive, x, y), own)
 
 
 def test_no_fragments_no_primitives_no_values():

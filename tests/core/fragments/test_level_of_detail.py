@@ -21,7 +21,7 @@ from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import make_raster
 from core.records.frame import STAGES, StageCount
 from core.records.primitives import CornerValues, own_corners
-from core.stages.texture_slopes import texture_slopes
+from core.stages.fragments import texture_slopes
 from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
 from tests.core.exact_reference import determinant, homogeneous_window
@@ -278,4 +278,4 @@ def test_without_mipmaps_or_a_texture_no_slopes_are_computed() -> None:
         geometry = process_geometry(of_scene, settings, {stage: StageCount() for stage in STAGES})
         raster = make_raster((8, 6), "half")
         place = np.array([0]), np.array([4]), np.array([1])
-        assert texture_slopes(geometry, settings, raster, Fragments(*place), np.zeros((1, 4))) is None
+        assert texture_slopes(geometry, raster, Fragments(*place), np.zeros((1, 4))) is None

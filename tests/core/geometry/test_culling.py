@@ -22,7 +22,7 @@ def cull_corners(clip: np.ndarray, facing: np.ndarray, faces: str) -> CullVerdic
     """Cull triangles (T, 3, 4) that share no vertices."""
     number = np.arange(len(clip))
     assembled = index_corners(Primitives(clip, np.zeros((len(clip), 3, 0)), number, number, {}))
-    return cull(assembled, outcodes(assembled.vertex_clip.T), facing, faces)
+    return cull(assembled, outcodes(assembled.vertex_clip.T), facing, table.get("cull", faces).function)
 
 
 def verdict_of(triangle, faces: str = "none") -> tuple[str, int]:

@@ -12,7 +12,7 @@ from core.pixel_history import why
 from core.raster.lines.drawing import draw_lines
 from core.raster.lines.intensities import WRITTEN_INTENSITY, run_rightwards
 from core.raster.lines.traits import has_intensities
-from core.stages.blend_choice import blend_choice
+from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import clip_of_window
@@ -41,6 +41,10 @@ def edges_of(corners) -> np.ndarray:
     return np.array([sorted(map(tuple, points[[k, (k + 1) % 3]].tolist())) for k in range(3)])
 
 
+def blend_of(settings: Settings) -> tuple[str, str]:
+    return resolve(settings).blend_name, resolve(settings).blend_inserted_for
+
+
 def test_the_methods_with_intensities():
     assert SMOOTH == ["wu", "gupta-sproull"]
 
@@ -63,11 +67,11 @@ def test_intensities_blend_white_edges_over_black(line):
 
 
 def test_opaque_is_replaced_where_the_lines_need_it_and_nowhere_else():
-    assert blend_choice(wireframe("wu")) == ("over", "wu")
-    assert blend_choice(wireframe("gupta-sproull")) == ("over", "gupta-sproull")
-    assert blend_choice(wireframe("wu", blend="over")) == ("over", "")
-    assert blend_choice(wireframe("bresenham")) == ("opaque", "")
-    assert blend_choice(Settings(line="wu")) == ("opaque", "")
+    assert blend_of(wireframe("wu")) == ("over", "wu")
+    assert blend_of(wireframe("gupta-sproull")) == ("over", "gupta-sproull")
+    assert blend_of(wireframe("wu", blend="over")) == ("over", "")
+    assert blend_of(wireframe("bresenham")) == ("opaque", "")
+    assert blend_of(Settings(line="wu")) == ("opaque", "")
 
 
 @pytest.mark.parametrize("line", SMOOTH)

@@ -11,10 +11,10 @@ from core import ClipScene, Settings, trace
 from core.antialiasing.exact_area import piece_sum
 from core.antialiasing.pixel_pieces import SQUARE
 from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
-from core.antialiasing.sample_counts import side_of
 from core.framebuffer.display import srgb_byte
 from core.framebuffer.resolve import weighted_mean
 from core.methods import table
+from core.resolved import resolve
 from core.trace import StageTrace, Trace, TraceSource
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.tracers import TRACERS
@@ -97,7 +97,7 @@ class OnePart:
 def check_all(traced: Trace) -> None:
     """Execute the listings of all stages: of several samples, on what the rows of each were made from."""
     source = traced.source
-    side = side_of(source.settings)
+    side = resolve(source.settings).sampling.side
     check_resolve(traced)
     if side:
         parts = [(finer_source(source, side), CHECKS)]

@@ -139,7 +139,7 @@ def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometr
     geometry = process_geometry(scene, settings, counts)
     raster = make_raster(scene.size, settings.pixel_center)
     cover = np.zeros(scene.size[::-1], np.int64)
-    for fragments in covered(geometry, settings, raster, counts):
+    for fragments in covered(geometry, raster, counts):
         cover += count_pixels(fragments.column, fragments.row, scene.size)
     return cover, geometry
 

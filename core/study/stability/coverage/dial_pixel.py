@@ -149,7 +149,7 @@ def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> In
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts)
     raster = make_raster(scene.size, settings.pixel_center, (*pixel, 1, 1))
-    parts = [fragments.primitive for fragments in covered(geometry, settings, raster, counts)]
+    parts = [fragments.primitive for fragments in covered(geometry, raster, counts)]
     primitive = np.concatenate([np.empty(0, np.int64), *parts])
     return geometry.primitives.triangle.take(primitive)
 

@@ -1,0 +1,147 @@
+"""Settings resolved: what the names in settings stand for, looked up once for all runs with the same settings.
+
+Each is looked up when it is first asked for: a picture that draws no outlines does not wait for the files of lines.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from core.methods import Method, ReplacedName, is_registered, table
+from core.records.cached import cached_property
+from core.settings import Settings, import_methods
+
+if TYPE_CHECKING:
+    from core.antialiasing.sampling import Sampling
+    from core.framebuffer.depth import DepthFormat
+    from core.geometry.polygon_clipping.methods import PolygonClipping
+    from core.raster.number_formats.number_format import NumberFormat
+    from core.records.primitives import DrawingOrder
+
+MIXING = "over"
+"""Blend method of lines with intensities where the settings choose none that mixes."""
+
+
+class ResolvedSettings:
+    """What runs with some settings; make it with `resolve`."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+
+    def method(self, family: str) -> Method:
+        """Return the row of the table, or the one in its place, that the settings choose of a family."""
+        return table.get(family, getattr(self.settings, family))
+
+    @cached_property
+    def imported(self) -> "ResolvedSettings":
+        """The same, all methods imported: before stages are timed, so that no stage's time contains it."""
+        import_methods(self.settings)
+        return self
+
+    @cached_property
+    def drops_facing(self) -> Callable[..., Any]:
+        """Culling: which facings (T,) are dropped."""
+        return self.method("cull").function
+
+    @cached_property
+    def drawing_order(self) -> "Callable[..., DrawingOrder]":
+        """Visibility: from the corners of all triangles to their order."""
+        return self.method("visibility").function
+
+    @cached_property
+    def clipping(self) -> "PolygonClipping":
+        """How triangles are clipped."""
+        clipping: PolygonClipping = self.method("clipping").function()
+        return clipping
+
+    @cached_property
+    def numbers(self) -> "NumberFormat":
+        """The numbers that edge functions are computed in."""
+        numbers: NumberFormat = self.method("coverage").function()
+        return numbers
+
+    @cached_property
+    def owns_tie(self) -> Callable[..., Any]:
+        """Fill rule: who owns a centre on an edge, by the edge's coefficients."""
+        return self.method("fill_rule").function
+
+    @cached_property
+    def center(self) -> float:
+        """Where in a pixel its centre lies."""
+        center: float = self.method("pixel_center").function()
+        return center
+
+    @cached_property
+    def fill_name(self) -> str:
+        """The fill that runs; see `core.raster.fills.tested.effective_fill`."""
+        from core.raster.fills.tested import effective_fill
+
+        return effective_fill(self.settings.fill, self.settings.coverage)
+
+    @cached_property
+    def fill(self) -> Callable[..., Any]:
+        """The schedule of pixels that the fill looks at."""
+        return table.get("fill", self.fill_name).function
+
+    @cached_property
+    def is_outlined(self) -> bool:
+        """Whether the edges of triangles are drawn, and not their areas."""
+        is_outlined: bool = self.method("polygon_mode").function()
+        return is_outlined
+
+    @cached_property
+    def clips_lines(self) -> bool:
+        """Whether outlines are cut to the raster before they are drawn."""
+        return self.is_outlined and not is_registered(self.settings.line_clipping, "none")
+
+    @cached_property
+    def interpolation(self) -> tuple[Callable[..., Any], int, int]:
+        """What an `Interpolator` takes: the rule of the weights, the provoking corner, columns between corrections."""
+        provoking: int = self.method("provoking").function()
+        return self.method("interpolation").function, provoking, self.settings.correction_interval
+
+    @cached_property
+    def depth_format(self) -> "DepthFormat":
+        """How depth is stored and compared."""
+        made: DepthFormat = self.method("depth").function()
+        return made
+
+    @cached_property
+    def blend_inserted_for(self) -> str:
+        """The line method that needs blending although the settings have none, else empty.
+
+        The pixels of a line with intensities are mixed with what is there (`core.raster.lines.intensities`).
+        """
+        from core.framebuffer.blending import blend_traits
+        from core.raster.lines.traits import has_intensities
+
+        needs_mixing = self.is_outlined and has_intensities(self.settings.line)
+        return self.settings.line if needs_mixing and not blend_traits(self.settings.blend).mixes else ""
+
+    @cached_property
+    def blend_name(self) -> str:
+        """The blend method that runs."""
+        return MIXING if self.blend_inserted_for else self.settings.blend
+
+    @cached_property
+    def blend_method(self) -> Method:
+        """Its row: from the fragment's colour and the one that is there to the one that is left."""
+        return table.get("blend", self.blend_name)
+
+    @cached_property
+    def is_mixed(self) -> bool:
+        """Whether colours are mixed with what is there, so that every fragment that passes is shaded."""
+        mixes: bool = self.blend_method.traits.mixes
+        return mixes or isinstance(self.blend_name, ReplacedName)
+
+    @cached_property
+    def sampling(self) -> "Sampling":
+        """Where the samples of a pixel lie, and how they are drawn."""
+        sampling: Sampling = self.method("antialiasing").function(self.settings.samples_across)
+        return sampling
+
+
+@lru_cache(maxsize=16)
+def resolve(settings: Settings) -> ResolvedSettings:
+    """Return what settings stand for; that of the last few settings is kept."""
+    return ResolvedSettings(settings)

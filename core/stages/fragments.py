@@ -1,0 +1,121 @@
+"""What is known of fragments wherever they come from: who owns them, their attributes, how their texture changes.
+
+Pixels of areas take their values from planes over the window, pixels of outlines from the ends of their segments.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.fragments.interpolation import Interpolator
+from core.fragments.textures import uses_mipmaps
+from core.fragments.uv_slopes import uv_slopes
+from core.raster.coverage import Fragments
+from core.raster.lines.slopes import line_slopes
+from core.raster.lines.wireframe import LineFragments, interpolate_outlines
+from core.raster.pixel_runs import Raster
+from core.records.arrays import Floats, Integers
+from core.records.frame import StageCount
+from core.records.primitives import interpolation_form
+from core.resolved import resolve
+from core.scene import AnyScene
+from core.stages.fragment_color import shade_fragments
+from core.stages.geometry import Geometry
+
+
+def owner_of(fragments: Fragments) -> Integers:
+    """Return what each fragment belongs to, (F,) int64: its segment or its primitive."""
+    return fragments.segment if isinstance(fragments, LineFragments) else fragments.primitive
+
+
+def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Integers) -> Fragments:
+    """Return the fragments of owners (F,), see ``owner_of``, at pixels."""
+    if geometry.outlines is None:
+        return Fragments(owner, column, row)
+    return LineFragments(geometry.outlines.primitive.take(owner), column, row, owner)
+
+
+def fragment_values(geometry: Geometry, fragments: Fragments, raster: Raster) -> tuple[Floats, Floats]:
+    """Return weights of the corners (F, 3) and interpolated values (F, K) of fragments."""
+    mode, varyings = geometry.settings.interpolation, geometry.primitives.varyings
+    if isinstance(fragments, LineFragments) and interpolation_form(mode) != "flat":
+        assert geometry.outlines is not None
+        return interpolate_outlines(geometry.outlines, varyings, fragments, raster.center, mode)
+    interpolator = Interpolator(geometry.planes, varyings, *resolve(geometry.settings).interpolation)
+    return interpolator.weighted(fragments.primitive, *raster.centers(fragments.column, fragments.row))
+
+
+def interpolate(geometry: Geometry, raster: Raster, fragments: Fragments, count: StageCount) -> Floats:
+    """Return the interpolated values (F, K) float64 of fragments."""
+    with count:
+        count.incoming = count.outgoing = len(fragments)
+        if isinstance(fragments, LineFragments):
+            return fragment_values(geometry, fragments, raster)[1]
+        how = resolve(geometry.settings).interpolation
+        interpolator = Interpolator(geometry.planes, geometry.primitives.values, *how)
+        return interpolator.values(fragments.primitive, *raster.centers(fragments.column, fragments.row))
+
+
+def shade(
+    scene: AnyScene,
+    geometry: Geometry,
+    raster: Raster,
+    fragments: Fragments,
+    values: Floats,
+    count: StageCount,
+) -> Floats:
+    """Return the colours (F, 4) float64 of fragments with interpolated ``values`` (F, K)."""
+    with count:
+        count.incoming = count.outgoing = len(fragments)
+        mesh = geometry.primitives.mesh[fragments.primitive]
+        slopes = texture_slopes(geometry, raster, fragments, values)
+        layout = geometry.primitives.layout
+        return shade_fragments(scene, geometry.settings, layout, mesh, values, slopes).color
+
+
+def shade_once(
+    scene: AnyScene,
+    geometry: Geometry,
+    raster: Raster,
+    samples: Sequence[Fragments],
+    counts: dict[str, StageCount],
+) -> tuple[Floats, list[Integers]]:
+    """Shade once for every triangle in a pixel: colours (U, 4) at pixels' centres, and which (F,) each sample's has."""
+    pixel_count = raster.shape[0] * raster.shape[1]
+    keys = [owner_of(of) * pixel_count + raster.index(of.column, of.row) for of in samples]
+    every, number = np.unique(np.concatenate(keys), return_inverse=True)
+    owner, pixel = np.divmod(every, pixel_count)
+    once = fragments_of(geometry, owner, *raster.position(pixel))
+    values = interpolate(geometry, raster, once, counts["interpolate"])
+    colors = shade(scene, geometry, raster, once, values, counts["shade"])
+    return colors, np.split(number.reshape(-1), np.cumsum([len(key) for key in keys])[:-1])
+
+
+def texture_slopes(geometry: Geometry, raster: Raster, fragments: Fragments, values: Floats) -> Floats | None:
+    """Return du/dx, dv/dx, du/dy, dv/dy (4, F) of fragments with interpolated ``values`` (F, K).
+
+    ``None`` where no texture is looked up, or the texture filter does not ask for them.
+    """
+    if not _asks_for_slopes(geometry):
+        return None
+    interpolation = geometry.settings.interpolation
+    if isinstance(fragments, LineFragments) and interpolation_form(interpolation) != "flat":
+        assert geometry.outlines is not None
+        varyings = geometry.primitives.varyings[..., geometry.primitives.layout["uv"]]
+        slopes = line_slopes(geometry.outlines, varyings, fragments, raster.center, interpolation)
+        return slopes.reshape(4, len(fragments))
+    x, y = raster.centers(fragments.column, fragments.row)
+    return slopes_at(geometry, fragments.primitive, x, y, values)
+
+
+def slopes_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats, values: Floats) -> Floats | None:
+    """Return the same (4, F), or ``None``, for primitives at window positions (F,)."""
+    if not _asks_for_slopes(geometry):
+        return None
+    uv = values[:, geometry.primitives.layout["uv"]]
+    how = geometry.settings.interpolation
+    return uv_slopes(geometry.planes, geometry.primitives.values, primitive, x, y, uv, how)
+
+
+def _asks_for_slopes(geometry: Geometry) -> bool:
+    return "uv" in geometry.primitives.layout and uses_mipmaps(geometry.settings.texture_filter)
