@@ -1,9 +1,10 @@
-"""Combinations of choices to test: every pair of values meets in some case; with --all the whole product."""
+"""Combinations of choices to test: a few every day in which all choices meet, with --all every combination."""
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations, product
 from typing import Any, TypeVar
 
+import pytest
 from hypothesis import settings
 
 First = TypeVar("First")
@@ -21,15 +22,21 @@ def in_turn(first: Iterable[First], second: Iterable[Second]) -> list[tuple[Firs
     if is_everything():
         return list(product(first, second))
     # The longer list goes round the shorter one, and a step further every time.
-    rounds = min(len(first), len(second))
-    count = max(len(first), len(second))
+    rounds, count = sorted((len(first), len(second)))
     turns = [(k + k // rounds) % rounds for k in range(count)]
     if len(first) < len(second):
         return [(first[turn], second[k]) for k, turn in enumerate(turns)]
     return [(first[k], second[turn]) for k, turn in enumerate(turns)]
 
 
-def covering(factors: Mapping[str, Sequence[Hashable]]) -> list[dict[str, Any]]:
+def every_pair(**factors: Sequence[Any]) -> pytest.MarkDecorator:
+    """Parametrize a test so that every two values of two factors meet; with --all, all combinations."""
+    if is_everything():
+        return pytest.mark.parametrize(tuple(factors), list(product(*factors.values())))
+    return pytest.mark.parametrize(tuple(factors), [tuple(case.values()) for case in covering(factors)])
+
+
+def covering(factors: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     """Return cases, each a value of every factor, in which every two values of two factors meet.
 
     References
@@ -37,31 +44,27 @@ def covering(factors: Mapping[str, Sequence[Hashable]]) -> list[dict[str, Any]]:
     D. M. Cohen, S. R. Dalal, M. L. Fredman, G. C. Patton, "The AETG System: An Approach to Testing Based on
     Combinatorial Design", IEEE Transactions on Software Engineering 23 (1997): greedy, here without chance.
     """
-    names = list(factors)
+    values = list(factors.values())
+    numbers = range(len(values))
     missing = {
-        ((a, value), (b, other)): None
-        for a, b in combinations(names, 2)
-        for value in factors[a]
-        for other in factors[b]
+        ((a, i), (b, j)): None
+        for a, b in combinations(numbers, 2)
+        for i in range(len(values[a]))
+        for j in range(len(values[b]))
     }
-    cases = []
+    cases: list[dict[int, int]] = []
     while missing:
         case = dict(next(iter(missing)))
-        for name in sorted(names, key=lambda name: -len(factors[name])):
-            if name not in case:
+        for factor in sorted(numbers, key=lambda factor: -len(values[factor])):
+            if factor not in case:
                 gains = [
-                    sum(_pair(names, (name, value), each) in missing for each in case.items())
-                    for value in factors[name]
+                    sum(tuple(sorted(((factor, value), each))) in missing for each in case.items())
+                    for value in range(len(values[factor]))
                 ]
                 # A tie goes to another value than in the last case.
                 turn = len(cases) % len(gains)
-                best = max(range(len(gains)), key=lambda k: (gains[k], (k - turn) % len(gains)))
-                case[name] = factors[name][best]
-        for pair in combinations([(name, case[name]) for name in names], 2):
+                case[factor] = max(range(len(gains)), key=lambda k: (gains[k], (k - turn) % len(gains)))
+        for pair in combinations(sorted(case.items()), 2):
             missing.pop(pair, None)
-        cases.append({name: case[name] for name in names})
-    return cases
-
-
-def _pair(names: list[str], one: tuple, other: tuple) -> tuple[tuple, tuple]:
-    return (one, other) if names.index(one[0]) < names.index(other[0]) else (other, one)
+        cases.append(case)
+    return [{name: factors[name][case[number]] for number, name in enumerate(factors)} for case in cases]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from core import Settings, draw_triangles
+from tests.core.covering import in_turn
 from tests.oracle.record_multisampled import FOLDER
 
 FILES = sorted(path.stem for path in FOLDER.glob("*.npz"))
@@ -20,8 +21,7 @@ def read(path: Path) -> tuple[dict[str, np.ndarray], dict]:
     return arrays, json.loads(str(arrays.pop("options")))
 
 
-@pytest.mark.parametrize("fill", FILLS)
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize(("name", "fill"), in_turn(FILES, FILLS))
 def test_every_sample_shows_the_same_triangle(name: str, fill: str) -> None:
     case, options = read(FOLDER / f"{name}.npz")
     settings = Settings(

@@ -10,6 +10,7 @@ from app.opengl_check.command import describe
 from app.opengl_check.compare import PIXELS_ALLOWED, compare, draw_with_core
 from app.opengl_check.families import FAMILIES
 from core.methods import table
+from tests.core.covering import in_turn
 from tests.oracle.record_cases import FOLDER, read_case
 
 FILES = sorted(path.stem for path in FOLDER.glob("*.npz"))
@@ -44,8 +45,7 @@ def test_fills_that_are_not_wrong_by_design():
     assert "scanline-lecture" not in EXACT_FILLS
 
 
-@pytest.mark.parametrize("fill", EXACT_FILLS)
-@pytest.mark.parametrize("name", TRIANGLES)
+@pytest.mark.parametrize(("name", "fill"), in_turn(TRIANGLES, EXACT_FILLS))
 def test_triangles_are_the_same(name, fill):
     case, picture = read(name)
     assert_agrees(compare(case, picture, fill))

@@ -8,6 +8,7 @@ import pytest
 from core.fragments.corrected_affine import largest_affine_error
 from core.study.stability import Outcome, experiments
 from core.study.stability.fragments.affine import HALF_TEXEL, StripCase, leaning_strip
+from tests.core.covering import in_turn
 
 AFFINE = experiments.get("affine-w-ratio")
 PLACES = [
@@ -34,8 +35,7 @@ def test_affine_strays_by_the_closed_form(place: tuple[float, float]) -> None:
     assert verdict.outcome == (Outcome.WRONG_PICTURE if closed_form(ratio) > HALF_TEXEL else Outcome.RIGHT)
 
 
-@pytest.mark.parametrize("interval", [64, 16, 4, 1])
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(("place", "interval"), in_turn(PLACES, [64, 16, 4, 1]))
 def test_corrected_affine_strays_by_the_ratio_within_an_interval(
     place: tuple[float, float], interval: int
 ) -> None:

@@ -25,6 +25,7 @@ from core.scene import ClipScene
 from lessons.scenes import make_scene, scene_names
 from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
+from tests.core.covering import in_turn
 
 HALF_COVERED = ClipScene(
     [[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]], [[-1, -1, 0.5, 1], [1, -1, 0.5, 1], [1, 1, 0.5, 1]]],
@@ -172,8 +173,7 @@ def test_the_npz_has_the_columns_bit_for_bit(tmp_path):
         assert found["buffer_depth"].shape == (12, 20)
 
 
-@pytest.mark.parametrize("stage", STAGES)
-@pytest.mark.parametrize("fill", ["hierarchy", "scanline", "scanline-lecture"])
+@pytest.mark.parametrize(("fill", "stage"), in_turn(["hierarchy", "scanline", "scanline-lecture"], STAGES))
 def test_csv_and_npz_of_every_stage(tmp_path, capsys, stage, fill):
     path = tmp_path / "a.npz"
     common = ["trace", "near-plane", "--stage", stage, "--size", "12x8", "--set", f"fill={fill}"]

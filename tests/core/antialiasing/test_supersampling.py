@@ -10,7 +10,7 @@ from core.framebuffer.display import to_display
 from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
-from tests.core.covering import in_turn
+from tests.core.covering import every_pair, in_turn
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
 
 SIDES = {"ssaa-4": 2, "ssaa-16": 4, "ssaa-n": 3}
@@ -127,10 +127,12 @@ def test_a_picture_that_would_be_too_large_is_refused():
         render(scene, Settings(antialiasing="ssaa-16"))
 
 
-@pytest.mark.parametrize("encoding", ["srgb", "linear"])
-@pytest.mark.parametrize("resolve_filter", ["box", "tent"])
-@pytest.mark.parametrize("antialiasing", list(SIDES))
-@pytest.mark.parametrize("name", ["clip", "lit", "textured-clip"])
+@every_pair(
+    encoding=["srgb", "linear"],
+    resolve_filter=["box", "tent"],
+    antialiasing=list(SIDES),
+    name=["clip", "lit", "textured-clip"],
+)
 def test_the_fast_picture_is_near(name, antialiasing, resolve_filter, encoding):
     scene = SCENES[name]
     settings = Settings(antialiasing=antialiasing, resolve_filter=resolve_filter, fill="spans")

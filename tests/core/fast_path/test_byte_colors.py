@@ -13,6 +13,7 @@ from core.fast_path.byte_colors import VertexBytes, chord_error, perspective_err
 from core.framebuffer.display import srgb
 from core.records.frame import StageCount
 from core.stages.vertices import process_geometry
+from tests.core.covering import every_pair
 from tests.core.fast_path.band_scenes import SPANS, ball
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import projected
@@ -71,9 +72,7 @@ def test_pictures_are_within_a_byte(
     assert_within_a_byte(scene, Settings(interpolation=interpolation, visibility=visibility), encoding)
 
 
-@pytest.mark.parametrize("shift", range(3))
-@pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize("extent", [(250, 250), (3000, 14), (14, 3000), (500, 400)])
+@every_pair(shift=range(3), turned=[False, True], extent=[(250, 250), (3000, 14), (14, 3000), (500, 400)])
 def test_long_ramps_from_black_and_from_white(shift: int, turned: bool, extent: tuple[int, int]) -> None:
     # Steps are rounded and add up over the triangle: no channel may run below 0 or above 255.
     width, height = extent

@@ -9,6 +9,7 @@ from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Sett
 from core.fast_path import Split
 from core.methods import table
 from lessons.shapes import cube, knot, sphere, torus
+from tests.core.covering import every_pair
 from tests.core.fast_path.numbered import assert_same, numbered, numbers
 from tests.core.fast_path.references import exact_bytes
 from tests.core.raster.spans.adversarial import slivers, tiny
@@ -58,9 +59,11 @@ def test_the_same_triangle_twice_keeps_the_first(depth: str) -> None:
     assert set(np.unique(numbers(picture.pixels))) == {-1, 0, 1}
 
 
-@pytest.mark.parametrize("depth", table.names("depth"))
-@pytest.mark.parametrize("visibility", ["z-buffer", "last-drawn"])
-@pytest.mark.parametrize("z", [1.0, 1 - 1e-9, 1 - 2.0**-26, 1 - 2.0**-20, 1 - 2.0**-12, -1.0])
+@every_pair(
+    depth=table.names("depth"),
+    visibility=["z-buffer", "last-drawn"],
+    z=[1.0, 1 - 1e-9, 1 - 2.0**-26, 1 - 2.0**-20, 1 - 2.0**-12, -1.0],
+)
 def test_what_is_as_far_as_the_cleared_buffer_is_not_drawn(depth: str, visibility: str, z: float) -> None:
     single = clip_of_window([[(0, 0), (130, 0), (0, 100)]], SIZE, 1.0, z)
     slanted = clip_of_window([[(0, 0), (130, 0), (0, 100)]], SIZE, 1.0, [[0.5, z, z]])
@@ -101,22 +104,21 @@ def without(mesh: Mesh, kept: slice) -> Mesh:
     return Mesh(mesh.positions, mesh.triangles[kept], mesh.normals)
 
 
-@pytest.mark.parametrize("turn", [0.1, 0.9, 2.0, 3.3])
-@pytest.mark.parametrize("cull", ["back", "front", "none"])
-@pytest.mark.parametrize(
-    ("mesh", "is_convex"),
-    [
-        (cube(1.6), True),
-        (sphere(1.0, 40, 20), True),
-        (torus(), False),
-        (knot(columns=120, rows=8), False),
-        (without(sphere(1.0, 40, 20), slice(0, 900)), True),
-        (without(torus(), slice(0, 1500)), False),
-    ],
-    ids=["cube", "sphere", "torus", "knot", "open sphere", "open torus"],
-)
-def test_meshes(mesh: Mesh, is_convex: bool, cull: str, turn: float) -> None:
-    scene = solid(mesh, turn)
+MESHES = {
+    "cube": (cube(1.6), True),
+    "sphere": (sphere(1.0, 40, 20), True),
+    "torus": (torus(), False),
+    "knot": (knot(columns=120, rows=8), False),
+    "open sphere": (without(sphere(1.0, 40, 20), slice(0, 900)), True),
+    "open torus": (without(torus(), slice(0, 1500)), False),
+}
+"""Name to a mesh, and whether it is convex."""
+
+
+@every_pair(mesh=list(MESHES), cull=["back", "front", "none"], turn=[0.1, 0.9, 2.0, 3.3])
+def test_meshes(mesh: str, cull: str, turn: float) -> None:
+    solid_mesh, is_convex = MESHES[mesh]
+    scene = solid(solid_mesh, turn)
     chosen = Settings(cull=cull, shading="flat", interpolation="flat")
     picture = draw_picture(scene, Settings(**{**vars(chosen), "fill": "spans"}))
     assert np.array_equal(picture.pixels, exact_bytes(scene, chosen, "srgb"))

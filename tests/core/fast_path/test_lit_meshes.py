@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
 from core.fast_path.lit.by_mesh import MOST
 from lessons.shapes import cube, sphere, torus
+from tests.core.covering import every_pair
 from tests.core.fast_path.references import exact_bytes
 
 LIGHTS = (DirectionalLight(np.array([0.4, -0.8, -0.7])), DirectionalLight(np.array([-0.9, -0.1, -0.3])))
@@ -105,9 +106,7 @@ def assert_close(scene: Scene, encoding: str, chosen: Settings = PHONG) -> None:
     assert picture.route.visible >= np.count_nonzero((picture.pixels != background).any(axis=2))
 
 
-@pytest.mark.parametrize("encoding", ["srgb", "linear"])
-@pytest.mark.parametrize("cull", ["none", "back"])
-@pytest.mark.parametrize("name", list(MESHES))
+@every_pair(encoding=["srgb", "linear"], cull=["none", "back"], name=list(MESHES))
 def test_every_mesh_is_lit_as_in_the_buffers(name: str, cull: str, encoding: str) -> None:
     assert_close(scene_of(MESHES[name]), encoding, replace(PHONG, cull=cull))
 

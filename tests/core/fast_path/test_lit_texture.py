@@ -12,6 +12,7 @@ from core.fast_path.lit.corner_places import CornerPlaces
 from core.fast_path.lit.textured import position_error
 from core.methods import table
 from lessons.shapes import floor, knot, sphere, torus
+from tests.core.covering import every_pair
 from tests.core.fast_path.references import exact_bytes
 
 LIGHTS = (
@@ -55,9 +56,7 @@ def test_a_sphere_is_lit_as_in_the_buffers(encoding: str, cull: str, depth: str)
     assert_close(scene_of(sphere()), encoding, Settings(depth=depth, cull=cull))
 
 
-@pytest.mark.parametrize("wrap", table.names("wrap"))
-@pytest.mark.parametrize("channels", [1, 3, 4])
-@pytest.mark.parametrize("shape", [(16, 32), (7, 5), (1, 1), (3, 64)])
+@every_pair(wrap=table.names("wrap"), channels=[1, 3, 4], shape=[(16, 32), (7, 5), (1, 1), (3, 64)])
 def test_every_wrap_of_every_texture(wrap: str, channels: int, shape: tuple[int, int]) -> None:
     mesh = torus()
     assert mesh.uvs is not None

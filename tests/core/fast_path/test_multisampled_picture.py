@@ -1,6 +1,7 @@
 """The fast way to a multisampled picture has the bytes of the plain one, whatever is drawn."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -27,13 +28,12 @@ def is_like_the_plain_one(scene, settings, encoding="srgb") -> bool:
     return picture.route.visibility == "multisampled" and np.array_equal(picture.pixels, wanted)
 
 
-@pytest.mark.parametrize("resolve_filter", ["box", "tent"])
-@pytest.mark.parametrize(
-    ("name", "choice"),
-    in_turn(["lit", "clip", "orthographic", "textured-clip", "intersecting"], SAMPLED),
-    ids=name_of,
-)
-def test_every_choice_has_the_bytes_of_the_plain_way(name, choice, resolve_filter):
+NAMES = list(product(["lit", "clip", "orthographic", "textured-clip", "intersecting"], ["box", "tent"]))
+
+
+@pytest.mark.parametrize(("shown", "choice"), in_turn(NAMES, SAMPLED), ids=name_of)
+def test_every_choice_has_the_bytes_of_the_plain_way(shown, choice):
+    name, resolve_filter = shown
     scene = SCENES[name]
     settings = settings_of(choice | {"antialiasing": "msaa-4", "resolve_filter": resolve_filter}, scene)
     picture = draw_picture(scene, settings)

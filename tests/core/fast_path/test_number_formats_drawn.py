@@ -8,6 +8,7 @@ from core.fast_path.draw import is_drawn_by_spans
 from core.framebuffer.display import to_display
 from core.methods import table
 from core.pixel_history import why
+from tests.core.covering import in_turn
 from tests.core.strategies import clip_of_window
 
 SIZE = (300, 40)
@@ -23,8 +24,9 @@ def scene() -> ClipScene:
     return ClipScene(clip, generator.random((12, 3, 4)), SIZE)
 
 
-@pytest.mark.parametrize("fill", ["spans", "incremental", "blocks"])
-@pytest.mark.parametrize("coverage", table.names("coverage"))
+@pytest.mark.parametrize(
+    ("coverage", "fill"), in_turn(table.names("coverage"), ["spans", "incremental", "blocks"])
+)
 def test_a_picture_is_what_render_draws(coverage: str, fill: str) -> None:
     settings = Settings(coverage=coverage, fill=fill)
     drawn = draw_picture(scene(), settings)

@@ -5,6 +5,7 @@ import pytest
 
 from core import Camera, DirectionalLight, Frame, Mesh, Scene, Settings, draw_picture, render
 from lessons.shapes import cube, floor, knot, sphere, torus
+from tests.core.covering import in_turn
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
 
 MESHES = {
@@ -45,8 +46,7 @@ def test_spans_draw_the_same_triangles(name: str) -> None:
             assert_equal_frames(frame, render(scene, Settings(**chosen)))
 
 
-@pytest.mark.parametrize("name", list(MESHES))
-@pytest.mark.parametrize("shading", ["phong", "gouraud", "flat", "unlit"])
+@pytest.mark.parametrize(("shading", "name"), in_turn(["phong", "gouraud", "flat", "unlit"], list(MESHES)))
 def test_pictures_have_the_bytes_of_the_buffers(name: str, shading: str) -> None:
     for turn, depth in ((0, "z-float32"), (3, "fixed-38")):
         scene = seen_from(MESHES[name], turn)

@@ -1,13 +1,13 @@
 """A picture shows the same triangle at every pixel, at the same depth, as the buffers of ``render``."""
 
 import numpy as np
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from core import Settings
 from core.methods import table
 from core.raster.spans.bands import BIG_AREA
+from tests.core.covering import every_pair
 from tests.core.fast_path.numbered import assert_same
 from tests.core.raster.spans.adversarial import SIZES, mixed, projected
 from tests.core.strategies import clip_of_window
@@ -98,9 +98,7 @@ def test_the_order_of_triangles_changes_nothing_where_no_depths_tie(seed: int, d
         assert (~same).sum() <= 2
 
 
-@pytest.mark.parametrize("depth", table.names("depth"))
-@pytest.mark.parametrize("visibility", ["z-buffer", "last-drawn"])
-@pytest.mark.parametrize("turned", [1, -1])
+@every_pair(depth=table.names("depth"), visibility=["z-buffer", "last-drawn"], turned=[1, -1])
 def test_a_tie_keeps_the_triangle_drawn_first(depth: str, visibility: str, turned: int) -> None:
     # The same triangle three times over, one of them the other way round.
     corners = [[(2.5, 1.5), (40, 3), (9, 30.5)]] * 3
@@ -117,9 +115,11 @@ def with_area(area: float, at: np.ndarray, slant: float) -> np.ndarray:
     return at + np.array([[0.0, 0.0], [width, 0.0], [slant, 2 * area / width]])
 
 
-@pytest.mark.parametrize("depth", table.names("depth"))
-@pytest.mark.parametrize("area", [BIG_AREA - 0.25, BIG_AREA, BIG_AREA + 0.25, 3 * BIG_AREA])
-@pytest.mark.parametrize("visibility", ["z-buffer", "last-drawn"])
+@every_pair(
+    depth=table.names("depth"),
+    area=[BIG_AREA - 0.25, BIG_AREA, BIG_AREA + 0.25, 3 * BIG_AREA],
+    visibility=["z-buffer", "last-drawn"],
+)
 def test_triangles_just_below_and_above_the_area_of_bands(depth: str, area: float, visibility: str) -> None:
     size = (310, 233)
     corners = [

@@ -12,6 +12,7 @@ from core import Camera, draw_picture
 from core.fast_path import Route
 from core.fast_path.workers import BandWorkers
 from core.fast_path.workers.sharing import have_colors_of_whole, joined_route
+from tests.core.covering import in_turn
 from tests.core.fast_path.band_scenes import SCENES, SPANS, ball, textured_ball
 
 
@@ -23,8 +24,7 @@ def workers() -> Iterator[BandWorkers]:
         assert started.failure == ""
 
 
-@pytest.mark.parametrize("encoding", ["srgb", "linear"])
-@pytest.mark.parametrize("name", list(SCENES))
+@pytest.mark.parametrize(("name", "encoding"), in_turn(list(SCENES), ["srgb", "linear"]))
 def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, encoding: str) -> None:
     scene, settings = SCENES[name]
     alone = draw_picture(scene, settings, encoding=encoding)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core import ClippedLines, clip_lines
 from core.geometry.line_clipping.records import LINE_CLIP_LIMIT
 from core.methods import table
-from tests.core.covering import is_everything
+from tests.core.covering import in_turn, is_everything
 
 WINDOW = (0.0, 0.0, 16.0, 11.0)
 CLIPPERS = ["cohen-sutherland", "liang-barsky", "cyrus-beck", "exact"]
@@ -313,8 +313,10 @@ def test_no_segments(clipper: str) -> None:
     assert clipped.rows is None or len(clipped.rows.segment) == 0
 
 
-@pytest.mark.parametrize("clipper", table.names("line_clipping"))
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 2 * LINE_CLIP_LIMIT])
+@pytest.mark.parametrize(
+    ("value", "clipper"),
+    in_turn([np.nan, np.inf, -np.inf, 2 * LINE_CLIP_LIMIT], table.names("line_clipping")),
+)
 def test_what_is_not_finite_is_refused(clipper: str, value: float) -> None:
     with pytest.raises(ValueError, match=r"segments must be (finite|at most)"):
         clip_lines([[[0, 0], [1, value]]], WINDOW, clipper)

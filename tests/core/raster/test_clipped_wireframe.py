@@ -5,6 +5,7 @@ import pytest
 
 from core import Settings, draw_triangles
 from core.methods import table
+from tests.core.covering import every_pair
 from tests.core.strategies import clip_of_window
 
 SIZE = (16, 11)
@@ -20,9 +21,9 @@ def frame(corners, clipper: str, line: str = "bresenham", **choices):
     return draw_triangles(clip, *SIZE, attributes=values, settings=settings)
 
 
-@pytest.mark.parametrize("interpolation", ["perspective", "affine"])
-@pytest.mark.parametrize("line", ["bresenham", "dda", "diamond-exit"])
-@pytest.mark.parametrize("clipper", CLIPPERS)
+@every_pair(
+    interpolation=["perspective", "affine"], line=["bresenham", "dda", "diamond-exit"], clipper=CLIPPERS
+)
 def test_values_and_depth_are_those_of_the_whole_edge(clipper: str, line: str, interpolation: str) -> None:
     whole = frame(CORNERS, "none", line, interpolation=interpolation)
     cut = frame(CORNERS, clipper, line, interpolation=interpolation)

@@ -15,6 +15,7 @@ from core.raster.lines.traits import has_intensities
 from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
+from tests.core.covering import every_pair
 from tests.core.strategies import clip_of_window
 
 SMOOTH = [line for line in table.names("line") if has_intensities(line)]
@@ -156,9 +157,7 @@ def test_segments_run_to_the_right_and_keep_their_ends():
         )
 
 
-@pytest.mark.parametrize("line", SMOOTH)
-@pytest.mark.parametrize("depth", table.names("depth"))
-@pytest.mark.parametrize("blend", table.names("blend"))
+@every_pair(line=SMOOTH, depth=table.names("depth"), blend=table.names("blend"))
 def test_rows_give_the_picture_with_every_depth_and_blend_method(line, depth, blend):
     scene = make_scene("cube")
     settings = wireframe(line, depth=depth, blend=blend)

@@ -11,6 +11,7 @@ from core.raster.lines import wireframe
 from core.raster.lines.drawing import draw_lines
 from core.raster.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from lessons.scenes import make_scene
+from tests.core.covering import in_turn
 from tests.core.drawing import text
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 
@@ -277,8 +278,7 @@ def test_segments_are_cut_at_the_neighbourhood_of_the_window():
     assert (cut[3:, 0] > cut[3:, 1]).all()
 
 
-@pytest.mark.parametrize("line", LINES)
-@pytest.mark.parametrize("distance", [1e3, 1e5, 1e7, 1e12])
+@pytest.mark.parametrize(("distance", "line"), in_turn([1e3, 1e5, 1e7, 1e12], LINES))
 def test_far_corners_change_nothing_near_the_window(line, distance):
     # Two edges from (2.5, 2.5) to the right and upwards, however far they go.
     clip = clip_of_window([[(2.5, 2.5), (distance, 2.5), (2.5, distance)]], (8, 6))

@@ -14,6 +14,7 @@ from core.raster.lines.traits import has_intensities, line_traits
 from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.records.steps import Level
 from core.trace import StageTrace
+from tests.core.covering import every_pair
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.trace_cases import SCENES, settings_of
 
@@ -81,9 +82,11 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
             assert np.array_equal(index, c["index"][rows])
 
 
-@pytest.mark.parametrize("pixel_center", table.names("pixel_center"))
-@pytest.mark.parametrize("line", LINES)
-@pytest.mark.parametrize("name", ["clip", "lit", "single-triangle", "near-plane"])
+@every_pair(
+    pixel_center=table.names("pixel_center"),
+    line=LINES,
+    name=["clip", "lit", "single-triangle", "near-plane"],
+)
 def test_the_listing_executed_gives_the_rows(name, line, pixel_center):
     traced = trace(SCENES[name], wireframe(line, pixel_center=pixel_center))
     assert traced.stage("raster").steps.row_count

@@ -125,8 +125,13 @@ def test_listings_of_all_stages(name, choice):
     check_all(traced)
 
 
-@pytest.mark.parametrize("name", [name for name in SCENES if name not in ("clip", "lit", "orthographic")])
-@pytest.mark.parametrize("fill", ["hierarchy", "scanline", "scanline-lecture", "spans"])
+@pytest.mark.parametrize(
+    ("fill", "name"),
+    in_turn(
+        ["hierarchy", "scanline", "scanline-lecture", "spans"],
+        [name for name in SCENES if name not in ("clip", "lit", "orthographic")],
+    ),
+)
 def test_listings_on_the_built_in_scenes(name, fill):
     depth = "fixed-38" if fill == "spans" else "z-float32"
     traced = trace(SCENES[name], Settings(fill=fill, depth=depth), region=small_region(SCENES[name]))
