@@ -31,7 +31,7 @@ class Command:
 
 COMMANDS = (
     Command("render", "draw a scene into a PNG file, and its buffers into an npz file", "app.cli.render"),
-    Command("trace", "write what one stage did, row by row, as JSON, CSV or npz", "app.cli.trace"),
+    Command("trace", "write what one stage did, row by row, as text, JSON, CSV or npz", "app.cli.trace"),
     Command("methods", "list the methods that settings choose from", "app.cli.methods"),
     Command("scenes", "list the built-in scenes", "app.cli.scenes"),
     Command("screenshot", "save a picture of the window without showing it", "app.cli.screenshot"),

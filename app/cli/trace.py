@@ -17,20 +17,20 @@ from app.cli.arguments import (
     size_from_text,
 )
 from app.cli.commands import UsageError
-from app.cli.trace_tables import arrays, csv_lines, json_lines
+from app.cli.trace_tables import arrays, csv_lines, json_lines, text_lines
 from app.files.file_writing import whole_file
 from app.files.open_any import Opened
 from app.session.document import Document, focus_on
 from core import STAGES, Trace, trace
 from core.raster.binning import bound
 from core.raster.fills.traits import fill_traits
-from core.trace import StageTrace
 
 DESCRIPTION = (
     """Write the trace of one stage: a row for each thing that it did, with every number that took part."""
 )
-EXAMPLES = """json  rows with kind, triangle, pixel, all numbers, and for every operation its key, its sentence and the
-      line of the algorithm's listing; no value (NaN) is null
+EXAMPLES = """text  for reading: rows with the sentence and the formula of every operation, in symbols and in numbers
+json  rows with kind, triangle, pixel, all numbers, and for every operation its key, its sentence, its formula
+      (LaTeX) and the line of the algorithm's listing; no value (NaN) is null
 csv   rows with all numbers; no value is an empty cell
 npz   each column as an array, row_kind, row_triangle, row_pixel, marks, and the buffers after the last row
 
@@ -70,8 +70,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--triangle", metavar="N", type=triangle_from_text, help="number in the scene, from 0; default: all"
     )
     parser.add_argument("--stage", metavar="NAME", choices=STAGES, required=True, help=", ".join(STAGES))
-    parser.add_argument("--format", choices=("json", "csv", "npz"), default="json", help="default: json")
-    parser.add_argument("-o", "--output", metavar="PATH", help="file; default: standard output (json, csv)")
+    parser.add_argument(
+        "--format", choices=("json", "text", "csv", "npz"), default="json", help="default: json"
+    )
+    parser.add_argument("-o", "--output", metavar="PATH", help="file; default: standard output (not npz)")
     parser.add_argument(
         "--size", metavar="WxH", type=size_from_text, help="trace the whole view at this size, same camera"
     )
@@ -103,7 +105,11 @@ def run(options: argparse.Namespace) -> int:
         with whole_file(options.output) as file:
             np.savez(file, **arrays(stage))  # type: ignore[arg-type]
         return 0
-    lines = csv_lines(stage) if options.format == "csv" else json_of(stage, traced, opened.document)
+    header = header_of(traced, opened.document)
+    if options.format == "csv":
+        lines = csv_lines(stage)
+    else:
+        lines = text_lines(stage, header) if options.format == "text" else json_lines(stage, header)
     write_lines(lines, options.output)
     return 0
 
@@ -145,12 +151,10 @@ def check_length(traced: Trace) -> None:
         )
 
 
-def json_of(stage: StageTrace, traced: Trace, document: Document) -> Iterable[str]:
-    """Return the lines of the JSON format."""
-    from core.explain import sentence
-
+def header_of(traced: Trace, document: Document) -> dict[str, object]:
+    """Return what was traced, in values that JSON has."""
     source = traced.source
-    header = {
+    return {
         "program": "rasterscope",
         "scene": document.title,
         "size": list(source.scene.size),
@@ -159,7 +163,6 @@ def json_of(stage: StageTrace, traced: Trace, document: Document) -> Iterable[st
         "before": source.before,
         "settings": {name: getattr(source.settings, name) for name in source.settings.__dataclass_fields__},
     }
-    return json_lines(stage, header, sentence)
 
 
 def write_lines(lines: Iterable[str], path: str | None) -> None:

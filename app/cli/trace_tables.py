@@ -1,22 +1,49 @@
-"""The trace of a stage as a table: JSON with a sentence for every operation, CSV, and arrays."""
+"""The trace of a stage as text and JSON, with a sentence and a formula for every operation, as CSV, and as arrays."""
 
 import csv
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from io import StringIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from core.explain import account
+from core.explain.latex import plain_text, without_macros
 from core.trace import Explanation, StageTrace
 
-Sentence = Callable[[Explanation, int, tuple[int, int] | None], str]
 Header = dict[str, Any]
 
 
-def json_lines(stage: StageTrace, header: Header, sentence: Sentence) -> Iterator[str]:
+def explanations(stage: StageTrace, row: int) -> Iterator[tuple[int, Explanation]]:
+    """Yield the operations of a row with their positions."""
+    start, end = (int(position) for position in stage.steps.starts[row : row + 2])
+    for position in range(start + 1, end + 1):
+        explanation = stage.explain(position)
+        assert explanation is not None
+        yield position, explanation
+
+
+def text_lines(stage: StageTrace, header: Header) -> Iterator[str]:
+    """Yield the trace for reading: every row, the sentence of each of its operations, and the formula below it."""
+    yield f"{header['scene']}, stage {stage.stage}{f', {stage.method}' if stage.method else ''}"
+    for row in range(stage.steps.row_count):
+        triangle, pixel = int(stage.triangle[row]), pixel_of(stage, row)
+        about = [f"triangle {triangle}"] if triangle >= 0 else []
+        about += [f"pixel {pixel}"] if pixel is not None else []
+        yield ""
+        yield f"Row {row}, {', '.join([stage.kind_of(row), *about])}"
+        for position, explanation in explanations(stage, row):
+            sentence, made = account(explanation, triangle, pixel)
+            yield f"{position:>6}  {sentence}"
+            if made is not None:
+                lines = (line for line in (made.symbolic, made.substituted) if line)
+                yield from (f"          {plain_text(line)}" for line in lines)
+
+
+def json_lines(stage: StageTrace, header: Header) -> Iterator[str]:
     """Yield the lines of a JSON object: what was traced, then every row on a line of its own.
 
     Parameters
@@ -24,8 +51,6 @@ def json_lines(stage: StageTrace, header: Header, sentence: Sentence) -> Iterato
     stage : StageTrace
     header : dict
         What was traced, values that JSON has.
-    sentence : callable
-        Says what a step did, as ``core.explain.sentence``.
 
     Notes
     -----
@@ -47,26 +72,30 @@ def json_lines(stage: StageTrace, header: Header, sentence: Sentence) -> Iterato
         yield f" {json.dumps(name)}: {json.dumps(value, allow_nan=False)},"
     yield ' "rows": ['
     for row in range(steps.row_count):
-        text = json.dumps(row_record(stage, row, sentence), allow_nan=False)
+        text = json.dumps(row_record(stage, row), allow_nan=False)
         yield f"  {text}{',' if row + 1 < steps.row_count else ''}"
     yield " ]"
     yield "}"
 
 
-def row_record(stage: StageTrace, row: int, sentence: Sentence) -> dict[str, Any]:
+def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
     """Return everything that is known of one row, in values that JSON has."""
-    start, end = (int(position) for position in stage.steps.starts[row : row + 2])
     triangle, pixel = int(stage.triangle[row]), pixel_of(stage, row)
     operations = []
-    for position in range(start + 1, end + 1):
-        explanation = stage.explain(position)
-        assert explanation is not None
+    for position, explanation in explanations(stage, row):
         listing, line = explanation.listing, explanation.line
+        sentence, made = account(explanation, triangle, pixel)
         operations.append(
             {
                 "position": position,
                 "key": explanation.key,
-                "sentence": sentence(explanation, triangle, pixel),
+                "sentence": sentence,
+                "formula": {
+                    "symbolic": without_macros(made.symbolic),
+                    "substituted": without_macros(made.substituted),
+                }
+                if made is not None
+                else None,
                 "changed": list(explanation.changed),
                 "function": listing.function.__name__ if listing is not None and line else None,
                 "line": line or None,

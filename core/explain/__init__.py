@@ -16,11 +16,11 @@ if TYPE_CHECKING:
         stage_card,
         summary_sentence,
     )
-    from core.explain.steps import formula, question, sentence, variables
+    from core.explain.steps import account, formula, question, sentence, variables
 else:
     __getattr__ = import_on_demand(
         globals(),
-        **dict.fromkeys(("formula", "question", "sentence", "variables"), "core.explain.steps"),
+        **dict.fromkeys(("account", "formula", "question", "sentence", "variables"), "core.explain.steps"),
         **dict.fromkeys(
             ("family_title", "initial_sentence", "method_text", "stage_card", "summary_sentence"),
             "core.explain.stage_texts",
@@ -28,6 +28,7 @@ else:
     )
 
 __all__ = [
+    "account",
     "family_title",
     "formula",
     "initial_sentence",

@@ -205,6 +205,7 @@ def plain_text(latex: str) -> str:
     text = re.sub(r"\\(?:begin|end)\{[^{}]*\}(?:\{[^{}]*\})?", " ", text).replace(r"\\", "; ")
     text = re.sub(r"\\(?:quad|qquad|,|;|!|left|right)(?![A-Za-z])", " ", text)
     text = re.sub(r"\\[A-Za-z]+", lambda match: _PLAIN.get(match[0], match[0][1:]), text)
+    text = re.sub(r"([_^])\{\s*([^{}]*?)\s*\}", r"\1\2", text)
     text = re.sub(r"[{}&\\]", " ", text).replace("-", "\u2212")
     text = re.sub(r"\((\w+)\)/\((\w+)\)", r"\1/\2", text)
     return re.sub(r"\s+", " ", text).strip()

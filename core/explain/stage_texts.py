@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from core.explain.number_text import counted
 from core.explain.records import StageCard
@@ -231,6 +232,15 @@ class MethodText:
         return "\n".join(lines + ([f"Breaks where: {self.breaks_where}"] if self.breaks_where else []))
 
 
+class DepthText(NamedTuple):
+    """How a buffer of depths is shown."""
+
+    unit: str
+    """Behind every number."""
+    description: str
+    """One sentence: range, cleared value, and which of two is nearer."""
+
+
 def initial_sentence(stage: str) -> str:
     """Return the sentence of a stage before its first step."""
     return STAGE_TEXTS[stage].initial
@@ -284,6 +294,23 @@ def stage_card(stage: str, method: str = "") -> StageCard:
     family, name = method.split("=", 1)
     text = method_text(family, name)
     return replace(card, source=f"{card.source}. {family_title(family)}, {text.title}: {text.source}")
+
+
+NEARNESS = DepthText(
+    "",
+    "1/w of a perspective scene, else −z/w, where the ray meets the nearest triangle so far: larger is nearer.",
+)
+"""What rays compare, in float64."""
+
+
+def depth_text(buffer: str, method: str) -> DepthText | None:
+    """Return the text of a buffer of the stage depth under a depth method; ``None``: it holds no depths."""
+    if buffer == "nearness":
+        return NEARNESS
+    if buffer != "depth":
+        return None
+    kept = table.get("depth", method).function()
+    return DepthText(kept.unit, kept.description)
 
 
 def method_text(family: str, name: str) -> MethodText:

@@ -34,8 +34,10 @@ def row_of(key: str) -> Row | None:
     return find_row(row_key(key))
 
 
-def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
-    """Say in one sentence what a step did and why.
+def account(
+    explanation: Explanation, triangle: int, pixel: tuple[int, int] | None
+) -> tuple[str, Formula | None]:
+    """Return what a step did and why, in one sentence, and its formula; ``None`` where it computes nothing.
 
     Parameters
     ----------
@@ -46,17 +48,18 @@ def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | N
         The pixel that it is about; by default the one that the explanation names.
     """
     row, step = row_of(explanation.key), StepValues(explanation, triangle, pixel)
-    if row is None:
-        return _plain_account(step)
-    said = row.say(step)
-    return said if isinstance(said, str) else said[0]
+    said = row.say(step) if row is not None else _plain_account(step)
+    return (said, None) if isinstance(said, str) else said
+
+
+def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
+    """Return the sentence of a step, as `account` does."""
+    return account(explanation, triangle, pixel)[0]
 
 
 def formula(explanation: Explanation) -> Formula | None:
     """Return the formula of a step; ``None`` where it computes nothing."""
-    row = row_of(explanation.key)
-    said = row.say(StepValues(explanation)) if row is not None else ""
-    return None if isinstance(said, str) else said[1]
+    return account(explanation, -1, None)[1]
 
 
 def question(trace: StageTrace, row: int) -> Asked | None:

@@ -1,4 +1,4 @@
-"""Conditions of breakpoints: ``value_0 < 0.5 and not covered``, read safely, evaluated on all rows at once.
+"""Conditions of breakpoints: ``E0 < 0.5 and not covered``, read safely, evaluated on all rows at once.
 
 Only names of a trace's variables, numbers, texts in quotes, arithmetic, comparisons, and / or / not are known.
 The text is parsed, never executed as Python.
@@ -19,6 +19,12 @@ from core.trace.stage_trace import StageTrace
 TEXT_LIMIT = 300
 """Longest condition in characters."""
 
+SYMBOLS = {
+    **{f"E{k}": f"value_{k}" for k in range(3)},
+    **{"D": "decision", "m": "slope", "I": "intensity"},
+}
+"""Symbols of formulas, to the names that a trace has for them; a condition may use either."""
+
 _ARITHMETIC: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -34,7 +40,7 @@ _COMPARISONS: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
 }
-_WANTED = "a condition compares variables and numbers, as value_0 < 0.5 and not covered"
+_WANTED = "a condition compares variables and numbers, as E0 < 0.5 and not covered"
 
 
 @dataclass(frozen=True)
@@ -65,7 +71,7 @@ def parse_condition(text: str) -> Condition:
     Parameters
     ----------
     text : str
-        For example ``value_0 < 0.5``, ``weights[2] >= 0 and covered``, ``verdict == "outside"``.
+        For example ``E0 < 0.5``, ``weights[2] >= 0 and covered``, ``verdict == "outside"``.
 
     Raises
     ------
@@ -175,11 +181,15 @@ def _flags(node: ast.expr, trace: StageTrace) -> Any:
 
 def variable_names(trace: StageTrace) -> tuple[str, ...]:
     """Return the names that a condition on this stage may use."""
-    return tuple(sorted({*trace.columns, *trace.constants, "kind", "triangle"}))
+    symbols = {name: symbol for symbol, name in SYMBOLS.items()}
+    names = {symbols.get(name, name) for name in trace.columns} | {*trace.constants, "kind", "triangle"}
+    return tuple(sorted(names, key=str.lower))
 
 
 def _column(name: str, trace: StageTrace) -> Any:
-    """Return a variable of all rows: a column, a constant, ``kind`` or ``triangle``."""
+    """Return a variable of all rows: a column by name or symbol, a constant, ``kind`` or ``triangle``."""
+    if name not in trace.columns and SYMBOLS.get(name) in trace.columns:
+        name = SYMBOLS[name]
     if name in trace.columns:
         return trace.columns[name]
     if name in trace.constants:

@@ -78,6 +78,7 @@ C, D = RASTER.columns, DEPTH.columns
 @pytest.mark.parametrize(
     ("found", "text", "wanted"),
     [
+        (RASTER, "E0 < 0.5", C["value_0"] < 0.5),
         (RASTER, "value_0 < 0.5", C["value_0"] < 0.5),
         (RASTER, " covered ", C["covered"]),
         (RASTER, "not covered", ~C["covered"]),

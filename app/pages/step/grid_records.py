@@ -6,7 +6,7 @@ import numpy as np
 
 from app.session.document import Document
 from core import Trace
-from core.explain.depth_texts import depth_text
+from core.explain.stage_texts import depth_text
 from core.framebuffer.display import to_display
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster

@@ -285,7 +285,7 @@ class SteppingPresenter(QObject):
         return self._condition.text if self._condition else ""
 
     def set_condition(self, text: str) -> None:
-        """Stop where a condition holds, as ``value_0 < 0.5 and covered``; an empty text takes it away.
+        """Stop where a condition holds, as ``E0 < 0.5 and covered``; an empty text takes it away.
 
         Raises
         ------

@@ -8,12 +8,13 @@ from core.explain.equation import (
     conclusion,
     digits_that_differ,
     equation,
+    fraction,
     linear,
     number_latex,
     relation,
 )
 from core.explain.number_text import number_text, pair_text, spoken
-from core.explain.records import Asked, choice
+from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import GIVEN, VariableText, hides, shows
@@ -27,51 +28,56 @@ QUANTITIES = {
 """Quantity of the depth buffer to its name, its symbol and the variable that holds it."""
 
 
-def quantity_of(step: StepValues) -> str:
-    """Return what the depth buffer holds: a name of ``QUANTITIES``."""
-    if step.has("quantity"):
-        return step.text("quantity")
-    return "inverse-w" if step.flag("larger_is_nearer") else "z"
+def quantity_of(step: StepValues) -> tuple[str, str, str]:
+    """Return the quantity of the depth buffer: its name, its symbol and its variable."""
+    known = "inverse-w" if step.flag("larger_is_nearer") else "z"
+    quantity = step.text("quantity") if step.has("quantity") else known
+    return QUANTITIES.get(quantity, (quantity.replace("-", " "), "q", "value"))
 
 
 @explains("depth.*.value")
 def value_made(step: StepValues) -> Said:
-    """The reversed or the logarithmic depth, before it is rounded."""
+    """The number that is stored instead of z, before it is rounded."""
     value, depth = step.number("value"), spoken(step.number("depth"))
-    if quantity_of(step) == "logarithm":
+    name, symbol, _ = quantity_of(step)
+    text, made = f"its {name} is {spoken(value)} (z = {depth})", equation((symbol, value))
+    if name == "logarithmic depth":
         inverse_w, near, far = (step.number(name) for name in ("inverse_w", "near", "far"))
         text = (
-            f"{step.pixel_name}: on a scale of octaves from w = {spoken(near)} to w = {spoken(far)}, "
-            f"1/w = {spoken(inverse_w)} is at {spoken(value)} (z = {depth})."
+            f"on a scale of octaves from w = {spoken(near)} to w = {spoken(far)}, "
+            f"1/w = {spoken(inverse_w)} is at {spoken(value)} (z = {depth})"
         )
-        symbols = r"\frac{\log_2 (w / n)}{\log_2 (f / n)}"
         above = rf"\log_2 (1 / ({number_latex(inverse_w)} \cdot {number_latex(near)}))"
-        numbers = rf"\frac{{{above}}}{{\log_2 ({number_latex(far)} / {number_latex(near)})}}"
-        return text, equation(("l", value), "=", (symbols, numbers))
-    where = "along the outline" if step.has("t") else "on the triangle's plane"
-    text = (
-        f"{step.pixel_name}: {where}, from 1 at the near plane to 0 at the far plane, "
-        f"the reversed z is {spoken(value)} (z = {depth})."
-    )
-    if step.has("t"):
-        t, (start, end) = step.number("t"), step.vector("ends")
-        first = ("(1 - t)", f"(1 - {number_latex(t)})")
-        terms = (first, r"\cdot", ("r_0", start), "+", ("t", t), r"\cdot", ("r_1", end))
-        return text, equation(("r", value), "=", *terms)
-    coefficients = [(name, step.number(name)) for name in "abc"]
-    return text, linear("r", value, coefficients, ("x", step.number("x")), ("y", step.number("y")))
+        below = rf"\log_2 ({number_latex(far)} / {number_latex(near)})"
+        made = equation(
+            (symbol, value), "=", fraction((r"\log_2 (w / n)", above), (r"\log_2 (f / n)", below))
+        )
+    elif name == "reversed z":
+        where = "along the outline" if step.has("t") else "on the triangle's plane"
+        text = f"{where}, from 1 at the near to 0 at the far plane, the reversed z is {spoken(value)} (z = {depth})"
+        made = _reversed(step, value)
+    return f"{step.pixel_name}: {text}.", made
+
+
+def _reversed(step: StepValues, value: float) -> Formula:
+    """Return the reversed depth along a line, or on the plane of a triangle."""
+    if not step.has("t"):
+        coefficients = [(name, step.number(name)) for name in "abc"]
+        return linear("r", value, coefficients, ("x", step.number("x")), ("y", step.number("y")))
+    t, (start, end) = step.number("t"), step.vector("ends")
+    first = ("(1 - t)", f"(1 - {number_latex(t)})")
+    return equation(("r", value), "=", first, r"\cdot", ("r_0", start), "+", ("t", t), r"\cdot", ("r_1", end))
 
 
 @explains("depth.*.depth")
 def stored(step: StepValues) -> Said:
     """What the depth format stores of a fragment."""
-    value, quantity = step.number("stored"), quantity_of(step)
-    name, symbol, variable = QUANTITIES[quantity]
+    value, (name, symbol, variable) = step.number("stored"), quantity_of(step)
     before = step.number(variable)
-    if quantity == "z":
+    if name == "z":
         of_steps = f" of {step.whole('scale'):,} steps" if step.has("scale") else ""
         text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
-    elif quantity == "inverse-w":
+    elif name == "1/w":
         text = f"{step.pixel_name}: its 1/w = {spoken(before)} is stored as {spoken(value)}."
     else:
         limited = "" if 0 <= before <= 1 else "limited to 0 to 1 and "
@@ -79,7 +85,7 @@ def stored(step: StepValues) -> Said:
             f"{step.pixel_name}: {name} {spoken(before)} is {limited}stored as the float32 {spoken(value)}."
         )
     symbols, numbers = rf"\mathrm{{store}}({symbol})", rf"\mathrm{{store}}({number_latex(before)})"
-    if quantity == "z" and step.has("scale"):
+    if name == "z" and step.has("scale"):
         symbols = rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})"
         numbers = rf"\mathrm{{round}}({number_latex(step.number('scale'))} \cdot {number_latex(before)})"
     return text, equation((r"z_{\mathrm{new}}", value), "=", (symbols, numbers))
@@ -100,7 +106,7 @@ def passes(step: StepValues) -> Asked:
 def compared(step: StepValues) -> Said:
     """The depth test."""
     new, old = step.number("stored"), step.number("before")
-    (shown, shown_before), name = pair_text(new, old), QUANTITIES[quantity_of(step)][0]
+    (shown, shown_before), name = pair_text(new, old), quantity_of(step)[0]
     if math.isnan(new) or math.isnan(old):
         text = f"fails: its {name}, {shown}, cannot be compared with the buffer's {shown_before}."
     elif new == old:
@@ -193,7 +199,7 @@ shows(
         "nearest_error": VariableText("e nearest", "Bound of the rounding error of v nearest."),
         "sign": VariableText("sign", "1: nearer than the nearest so far, −1: farther, 0: equally near."),
         "value": VariableText(
-            lambda step: QUANTITIES[quantity_of(step)][1], "Value to store instead of z, before rounding."
+            lambda step: quantity_of(step)[1], "Value to store instead of z, before rounding."
         ),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText(

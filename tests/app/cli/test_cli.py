@@ -128,10 +128,26 @@ def test_the_json_of_a_stage_has_every_number_and_a_sentence_for_every_operation
             assert np.array_equal(numbers, np.asarray(column), equal_nan=column.dtype.kind == "f")
         for operation in row["operations"]:
             assert operation["key"].startswith(f"{stage}.{row['kind']}.")
-            assert operation["sentence"].endswith((".", "!"))
+            assert operation["sentence"].endswith(".")
+            lines = (operation["formula"] or {"symbolic": ""}).values()
+            assert not any("\\vertex" in line for line in lines)
             assert (operation["line"] is None) == (operation["code"] is None)
     positions = [operation["position"] for row in found["rows"] for operation in row["operations"]]
     assert positions == list(range(1, found["operation_count"] + 1))
+
+
+def test_the_text_has_the_sentence_and_the_formula_of_every_operation():
+    text = succeeded(
+        "trace", "shared-edge", "--triangle", "1", "--stage", "depth", "--format", "text", "--size", "8x6"
+    )
+    assert text.splitlines()[:6] == [
+        "Two triangles sharing an edge, stage depth, depth=z-float32",
+        "",
+        "Row 0, test, triangle 1, pixel (6, 1)",
+        "     1  Pixel (6, 1): its depth z = 0.5 is stored as 0.5.",
+        "          z_new = store(z)",
+        "          0.5 = store(0.5)",
+    ]
 
 
 def test_infinities_and_missing_numbers_are_json(capsys):

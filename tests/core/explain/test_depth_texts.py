@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core.explain.depth_texts import NEARNESS, depth_text
+from core.explain.stage_texts import NEARNESS, depth_text
 from core.methods import table
 
 
