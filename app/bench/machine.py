@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 from app import __version__
-from core.study.accuracy.machine import processor_name
+from core.study.accuracy.record import processor_name
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ def machine_sentence(study: Study) -> str:
 
 
 def machine_words(here: Mapping[str, str]) -> str:
-    """Return a machine as `core.study.accuracy.machine` describes it, in words."""
+    """Return a machine as `core.study.accuracy.record.machine` describes it, in words."""
     if not here:
         return "The machine was not noted."
     return (

@@ -1,8 +1,16 @@
 """The program measures itself: speed against accuracy, stability, and what a scene needs."""
 
 from core.study.accuracy.families import study_families, study_family
-from core.study.accuracy.machine import machine
-from core.study.accuracy.record import ErrorMeasure, Opening, Pictures, Point, Study, WorkKind, pareto_front
+from core.study.accuracy.record import (
+    ErrorMeasure,
+    Opening,
+    Pictures,
+    Point,
+    Study,
+    WorkKind,
+    machine,
+    pareto_front,
+)
 from core.study.accuracy.speed_accuracy import StudyCancelledError, measure, opening, pictures
 from core.study.planner import (
     Decision,

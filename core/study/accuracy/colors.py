@@ -1,24 +1,22 @@
-"""Studies of texture filters and antialiasing: colours against the picture of 256 samples."""
+"""Studies of colours: texture filters and antialiasing against 256 samples, shading against the sphere itself."""
 
 import numpy as np
 
-from core.records.arrays import Floats
-from core.records.cached import cached_property
 from core.records.frame import Frame
-from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Errors, StudyFamily
-from core.study.accuracy.frame_task import (
-    LARGEST_COLOR,
-    MEAN_COLOR,
-    FrameTask,
-    color_errors,
-    color_pictures,
-    premultiplied,
-)
-from core.study.accuracy.record import Dial, Pictures, WorkKind
+from core.study.accuracy.family import Assignment, StudyFamily
+from core.study.accuracy.frame_task import LARGEST_COLOR, MEAN_COLOR, ColorTask
+from core.study.accuracy.record import Dial, WorkKind
 from core.study.accuracy.sampled import sampled_picture
-from core.study.accuracy.workloads import checkerboard, clip_of_window, flat_scene, textured_quad, window_mesh
+from core.study.accuracy.workloads import (
+    checkerboard,
+    clip_of_window,
+    flat_scene,
+    sphere_scene,
+    textured_quad,
+    window_mesh,
+)
+from core.study.exact.sphere import sphere_picture
 from core.trace import trace
 
 TEXELS = 256
@@ -27,31 +25,7 @@ DENSITIES = Dial("density", "Texels for a pixel", "", (0.125, 0.25, 0.5, 1, 2, 4
 SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
 
 
-class SampledTask(FrameTask):
-    """A scene whose reference is the mean of 256 samples in every pixel."""
-
-    def __init__(
-        self, scene: AnyScene, unit_count: int, base: Settings, stages: tuple[str, ...], stage: str
-    ) -> None:
-        super().__init__(scene, unit_count, stages)
-        self.stage = stage
-        self._base = base
-
-    @cached_property
-    def reference(self) -> Floats:
-        """(H, W, 4) float64 colours times alpha."""
-        return sampled_picture(self.scene, self._base)
-
-    def errors(self, settings: Settings, made: Frame) -> Errors:
-        """Return the differences of the colours."""
-        return color_errors(premultiplied(made.color, settings), self.reference)
-
-    def pictures(self, settings: Settings, made: Frame) -> Pictures:
-        """Return the colours times alpha."""
-        return color_pictures(premultiplied(made.color, settings), self.reference)
-
-
-class TextureTask(SampledTask):
+class TextureTask(ColorTask):
     """A textured square."""
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
@@ -75,7 +49,7 @@ def make_texture_filter(assignment: Assignment) -> TextureTask:
     ratio = 1.0 if assignment.work == "facing" else 4.0
     scene = textured_quad(side, ratio, repeats, checkerboard(TEXELS, assignment.seed))
     base = Settings(texture_filter="bilinear" if assignment.dials["density"] < 1 else "nearest")
-    return TextureTask(scene, side * side, base, ("shade",), "shade")
+    return TextureTask(scene, side * side, "shade", lambda: (sampled_picture(scene, base), None), ("shade",))
 
 
 TEXTURE_FILTER = StudyFamily(
@@ -91,13 +65,13 @@ TEXTURE_FILTER = StudyFamily(
 )
 
 
-def make_antialiasing(assignment: Assignment) -> SampledTask:
+def make_antialiasing(assignment: Assignment) -> ColorTask:
     """Make a mesh of flat colours with edges in all directions."""
     side = int(assignment.dials["side"])
     window = window_mesh((side, side), 6, assignment.seed)
     level = np.ones(window.shape[:2])
     scene = flat_scene(clip_of_window(window, (side, side), 0.5 * level, level), (side, side))
-    return SampledTask(scene, side * side, Settings(), (), "resolve")
+    return ColorTask(scene, side * side, "resolve", lambda: (sampled_picture(scene, Settings()), None))
 
 
 ANTIALIASING = StudyFamily(
@@ -107,4 +81,30 @@ ANTIALIASING = StudyFamily(
     (WorkKind("edges", "A mesh of flat colours, edges in all directions", "pixel", (SIDES,)),),
     (MEAN_COLOR, LARGEST_COLOR),
     make_antialiasing,
+)
+
+
+def make_shading(assignment: Assignment) -> ColorTask:
+    """Make a sphere of triangles; the reference is the sphere itself, met by every pixel's ray."""
+    scene = sphere_scene(int(assignment.dials["rings"]), int(assignment.dials["side"]))
+    return ColorTask(scene, 1, "shade", lambda: sphere_picture(scene, 1.0)[::-1])
+
+
+SHADING = StudyFamily(
+    "shading",
+    "Shading",
+    ("shading",),
+    (
+        WorkKind(
+            "sphere",
+            "A shining sphere",
+            "frame",
+            (
+                Dial("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32, 48, 64), 16, is_cost=True),
+                Dial("side", "Side of the picture", "pixels", (32, 64, 128, 256), 128),
+            ),
+        ),
+    ),
+    (MEAN_COLOR, LARGEST_COLOR),
+    make_shading,
 )

@@ -51,11 +51,6 @@ class Divergence:
     values: tuple[Mapping[str, Value], Mapping[str, Value]]
     """All variables of each row; empty where there is none."""
 
-    @property
-    def is_missing_in(self) -> int | None:
-        """Which of the two traces, 0 or 1, has no row for it; ``None``: both have."""
-        return self.rows.index(None) if None in self.rows else None
-
 
 def first_divergence(
     scene: AnyScene,

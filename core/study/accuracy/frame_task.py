@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from core.methods import table
 from core.pipeline import render
 from core.raster.fills.traits import fill_traits
-from core.records.arrays import Flags, Floats, Singles, read_only
+from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.family import Task
+from core.study.accuracy.family import Errors, Task
 from core.study.accuracy.record import ErrorMeasure, Opening, Pictures
+from core.study.accuracy.workloads import COLORS
 from core.trace import scene_triangle_count
 
 MILLION = 1_000_000
@@ -69,6 +71,83 @@ class FrameTask(Task):
     def first_wrong(self, settings: Settings, made: Frame) -> tuple[int, int] | None:
         """Return column and row of the first pixel that differs from the reference, from the bottom left."""
         return first_pixel(self.pictures(settings, made).difference != 0)
+
+
+class SeenTask(FrameTask):
+    """A scene of which it is known what is to be seen at every pixel.
+
+    Parameters
+    ----------
+    reference : callable
+        Returns (H, W) int64: the number of what is to be seen, -1: nothing.
+    shown : callable
+        Returns the numbers (H, W) of what triangles (H, W) show; themselves by default.
+    """
+
+    def __init__(
+        self,
+        scene: AnyScene,
+        unit_count: int,
+        stage: str,
+        reference: Callable[[], Integers],
+        stages: tuple[str, ...] = (),
+        shown: Callable[[Integers], Integers] = lambda triangles: triangles,
+    ) -> None:
+        super().__init__(scene, unit_count, stages)
+        self.stage, self._make, self._shown = stage, reference, shown
+
+    @cached_property
+    def reference(self) -> Integers:
+        """(H, W) int64, what is to be seen."""
+        return self._make()
+
+    def errors(self, settings: Settings, made: Frame) -> Errors:
+        """Count the pixels that show something else."""
+        wrong = int(np.count_nonzero(self._shown(made.primitive.astype(np.int64)) != self.reference))
+        return {WRONG_VISIBLE.name: per_million(wrong, made.primitive.size)}
+
+    def pictures(self, settings: Settings, made: Frame) -> Pictures:
+        """Return a colour for each number."""
+        return color_pictures(
+            colors_of(self._shown(made.primitive.astype(np.int64))), colors_of(self.reference)
+        )
+
+
+class ColorTask(FrameTask):
+    """A scene whose colours are known.
+
+    Parameters
+    ----------
+    reference : callable
+        Returns colours (H, W, 4) float64 times alpha, and (H, W) bool where they count together with triangles that
+        are seen; ``None``: everywhere.
+    """
+
+    def __init__(
+        self,
+        scene: AnyScene,
+        unit_count: int,
+        stage: str,
+        reference: Callable[[], tuple[Floats, Flags | None]],
+        stages: tuple[str, ...] = (),
+    ) -> None:
+        super().__init__(scene, unit_count, stages)
+        self.stage, self._make = stage, reference
+
+    @cached_property
+    def reference(self) -> tuple[Floats, Flags | None]:
+        """Colours (H, W, 4), and where they count."""
+        return self._make()
+
+    def errors(self, settings: Settings, made: Frame) -> Errors:
+        """Return the differences of the colours."""
+        color, seen = self.reference
+        where = None if seen is None else seen & (made.primitive >= 0)
+        return color_errors(premultiplied(made.color, settings), color, where)
+
+    def pictures(self, settings: Settings, made: Frame) -> Pictures:
+        """Return the colours times alpha."""
+        return color_pictures(premultiplied(made.color, settings), self.reference[0])
 
 
 def check_pixel_tests(scene: AnyScene, settings: Settings) -> None:
@@ -129,6 +208,13 @@ def premultiplied(color: Singles | Floats, settings: Settings) -> Floats:
     if settings.blend == "opaque" and settings.antialiasing == "none":
         values[..., :3] *= values[..., 3:]
     return values
+
+
+def colors_of(triangle: Integers) -> Floats:
+    """Return a colour (H, W, 4) for each triangle (H, W), nothing for -1."""
+    colors = COLORS[triangle % len(COLORS)].copy()
+    colors[triangle < 0] = 0
+    return np.asarray(colors)
 
 
 def color_errors(result: Floats, reference: Floats, where: Flags | None = None) -> dict[str, float | str]:

@@ -26,8 +26,9 @@ class InterpolationTask(FrameTask):
 
     stage = "interpolate"
 
-    def __init__(self, side: int, w_ratio: float) -> None:
-        self._quad = textured_quad(side, w_ratio, 1.0, None)
+    def __init__(self, assignment: Assignment) -> None:
+        side = int(assignment.dials["side"])
+        self._quad = textured_quad(side, assignment.dials["w-ratio"], 1.0, None)
         super().__init__(self._quad, side * side, ("interpolate",))
 
     def _coordinates(self, settings: Settings) -> tuple[Floats, Floats]:
@@ -65,16 +66,11 @@ class InterpolationTask(FrameTask):
         return scalar_pictures(result[..., 1], exact[..., 1])
 
 
-def make_interpolation(assignment: Assignment) -> InterpolationTask:
-    """Make the square."""
-    return InterpolationTask(int(assignment.dials["side"]), assignment.dials["w-ratio"])
-
-
 INTERPOLATION = StudyFamily(
     "interpolation",
     "Interpolation",
     ("interpolation",),
     (WorkKind("square", "A square in perspective", "pixel", (RATIOS, SIDES)),),
     (MEAN_TEXEL, LARGEST_TEXEL),
-    make_interpolation,
+    InterpolationTask,
 )

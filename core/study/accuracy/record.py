@@ -1,7 +1,10 @@
 """What a study says: the methods of one family on the same work, their time, their work counts and their errors."""
 
+import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,3 +167,26 @@ def pareto_front(points: tuple[Point, ...], measure: str, count: str = "") -> tu
         if not front or error < front[-1].errors[measure]:
             front.append(points[place])
     return tuple(front)
+
+
+def machine(program_version: str) -> dict[str, str]:
+    """Return processor, system, versions of Python, NumPy and Rasterscope, and the date (ISO): nothing of a user."""
+    return {
+        "processor": processor_name(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "rasterscope": program_version,
+        "date": datetime.now(UTC).strftime("%Y-%m-%d"),
+    }
+
+
+def processor_name() -> str:
+    """Return the processor's name, where the system tells it."""
+    table = Path("/proc/cpuinfo")
+    if table.is_file():
+        for line in table.read_text(encoding="utf-8", errors="replace").splitlines():
+            key, _, value = line.partition(":")
+            if key.strip() == "model name":
+                return " ".join(value.split())
+    return platform.processor() or platform.machine()

@@ -116,7 +116,7 @@ def measure(
     seed : int
         Of the random numbers that the work is made from.
     machine : mapping of str to str, optional
-        Kept in the study, see `core.study.accuracy.machine.machine`.
+        Kept in the study, see `core.study.accuracy.record.machine`.
     progress : callable, optional
         Called before every run with the fraction done and what is being done.
     is_cancelled : callable, optional

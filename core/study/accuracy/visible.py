@@ -1,86 +1,59 @@
-"""Studies of what is seen: hidden surfaces and polygon clipping, against exact comparison."""
-
-from typing import Any
+"""Studies of what is seen: hidden surfaces, culling, depth formats and polygon clipping, against exact comparison."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import Frame
+from core.scene import Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
 from core.study.accuracy.family import Assignment, Errors, StudyFamily
 from core.study.accuracy.fill import MISCLASSIFIED
-from core.study.accuracy.frame_task import (
-    WRONG_VISIBLE,
-    FrameTask,
-    color_pictures,
-    per_million,
-    scalar_pictures,
-)
+from core.study.accuracy.frame_task import WRONG_VISIBLE, SeenTask, depth_bits, per_million, scalar_pictures
 from core.study.accuracy.record import Dial, Pictures, WorkKind
 from core.study.accuracy.workloads import (
-    COLORS,
     clip_of_window,
     cyclic_triangles,
     flat_scene,
     overlapping_triangles,
     random_source,
     random_triangles,
+    sphere_mesh,
+    wall_scene,
 )
 from core.study.exact.coverage import count_pixels
-from core.study.exact.values import ExactFragments, exact_fragments, exact_visible
+from core.study.exact.values import exact_fragments, exact_visible
 
 SIZE = (128, 128)
 COUNTS = Dial("count", "Triangles", "", (2, 4, 8, 16, 32, 64, 128), 16, is_cost=True)
+SIDE = 96
+"""Pixels on a side of the sphere's picture."""
+RINGS = Dial("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32), 12, is_cost=True)
+SIDES = Dial("side", "Side of the picture", "pixels", (32, 64, 128, 256, 512), 128, is_cost=True)
 
 
-class VisibleTask(FrameTask):
-    """Triangles given in clip space; the reference is the nearest one at every pixel, exactly."""
-
-    def __init__(self, clip: Floats, size: tuple[int, int], stage: str) -> None:
-        super().__init__(flat_scene(clip, size), 1)
-        self.stage = stage
-        self._clip = clip
-
-    @cached_property
-    def fragments(self) -> ExactFragments:
-        """What is covered and in depth range."""
-        return exact_fragments(self._clip, self.scene.size)
-
-    @cached_property
-    def reference(self) -> Integers:
-        """(H, W) int64, the triangle seen; -1: none."""
-        return exact_visible(self.fragments, self.scene.size)
-
-    def errors(self, settings: Settings, made: Frame) -> Errors:
-        """Count the pixels that show another triangle."""
-        wrong = int(np.count_nonzero(made.primitive != self.reference))
-        return {WRONG_VISIBLE.name: per_million(wrong, made.primitive.size)}
-
-    def pictures(self, settings: Settings, made: Frame) -> Pictures:
-        """Return the colours of the triangles seen."""
-        return color_pictures(colors_of(made.primitive), colors_of(self.reference))
+def nearest(clip: Floats, size: tuple[int, int]) -> Integers:
+    """Return (H, W) int64, the nearest of triangles (T, 3, 4) in clip space, whichever way it faces; -1: none."""
+    return exact_visible(exact_fragments(clip, size), size)
 
 
-def colors_of(triangle: NDArray[Any]) -> Floats:
-    """Return a colour (H, W, 4) for each triangle (H, W), nothing for -1."""
-    colors = COLORS[triangle % len(COLORS)].copy()
-    colors[triangle < 0] = 0
-    return np.asarray(colors)
+def nearest_task(clip: Floats) -> SeenTask:
+    """Return triangles (T, 3, 4) in clip space, of which the nearest is to be seen."""
+    return SeenTask(flat_scene(clip, SIZE), 1, "depth", lambda: nearest(clip, SIZE))
 
 
-def make_visibility(assignment: Assignment) -> VisibleTask:
+def make_visibility(assignment: Assignment) -> SeenTask:
     """Make triangles that hide each other."""
     if assignment.work == "cycle":
-        return VisibleTask(cyclic_triangles(SIZE), SIZE, "depth")
+        return nearest_task(cyclic_triangles(SIZE))
     count = int(assignment.dials["count"])
     if assignment.work == "layers":
         window = random_triangles(SIZE, count, 0.6 * min(SIZE), assignment.seed)
         depth = random_source(assignment.seed + 1).permutation(count) / max(count, 1) * 0.8 + 0.1
         clip = clip_of_window(window, SIZE, np.repeat(depth[:, None], 3, axis=1), np.ones((count, 3)))
-        return VisibleTask(clip, SIZE, "depth")
-    return VisibleTask(overlapping_triangles(SIZE, count, assignment.seed), SIZE, "depth")
+        return nearest_task(clip)
+    return nearest_task(overlapping_triangles(SIZE, count, assignment.seed))
 
 
 VISIBILITY = StudyFamily(
@@ -97,13 +70,92 @@ VISIBILITY = StudyFamily(
 )
 
 
-class ClippingTask(VisibleTask):
+def make_culling(assignment: Assignment) -> SeenTask:
+    """Make a sphere, whole or without its upper part; the reference sees both sides."""
+    mesh = sphere_mesh(int(assignment.dials["rings"]))
+    if assignment.work == "open":
+        lower = mesh.positions[mesh.triangles][..., 1].mean(axis=1) < 0.4
+        mesh = Mesh(mesh.positions, mesh.triangles[lower], mesh.normals, name="open sphere")
+    camera = Camera(np.array([0.0, 2.0, 2.6]), np.zeros(3), near=1.0, far=6.0)
+    scene = Scene((mesh,), camera, (DirectionalLight(np.array([0.4, -0.8, -0.7])),), (SIDE, SIDE))
+
+    def reference() -> Integers:
+        vertices = transform_vertices(scene)
+        return nearest(vertices.clip[vertices.corners], scene.size)
+
+    return SeenTask(scene, len(mesh.triangles), "cull", reference)
+
+
+CULL = StudyFamily(
+    "cull",
+    "Culling",
+    ("cull",),
+    (
+        WorkKind("closed", "A closed surface", "triangle", (RINGS,)),
+        WorkKind("open", "A surface that is open on one side", "triangle", (RINGS,)),
+    ),
+    (WRONG_VISIBLE,),
+    make_culling,
+    Settings(shading="unlit"),
+)
+
+
+class WallTask(SeenTask):
+    """Two walls, one a little nearer than the other: 0, the nearer one, has to be seen everywhere."""
+
+    def __init__(self, scene: Scene) -> None:
+        first = len(scene.meshes[0].triangles)
+        end = first + len(scene.meshes[1].triangles)
+        super().__init__(
+            *(scene, 1, "depth", lambda: np.zeros(scene.size[::-1], np.int64), ("depth",)),
+            shown=lambda triangles: np.where((triangles < first) | (triangles >= end), 1, 0),
+        )
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the counts of the frame, and the bits of one depth."""
+        return super().counts(settings, made) | {"bits of a depth": depth_bits(settings)}
+
+
+def make_depth(assignment: Assignment) -> WallTask:
+    """Make the two walls, at all distances at once."""
+    dials = assignment.dials
+    return WallTask(wall_scene(dials["far"], dials["gap"], int(dials["side"])))
+
+
+DEPTH = StudyFamily(
+    "depth",
+    "Depth formats",
+    ("depth",),
+    (
+        WorkKind(
+            "walls",
+            "Two walls, one just before the other",
+            "frame",
+            (
+                Dial("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), 1e4),
+                Dial("gap", "Gap, as a part of the distance", "", (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), 1e-5),
+                SIDES,
+            ),
+        ),
+    ),
+    (WRONG_VISIBLE,),
+    make_depth,
+    Settings(shading="unlit", fill="bounding-box"),
+)
+
+
+class ClippingTask(SeenTask):
     """Triangles that cross planes of the view volume; the reference keeps what is covered and in depth range."""
+
+    def __init__(self, clip: Floats) -> None:
+        super().__init__(flat_scene(clip, SIZE), len(clip), "clip", lambda: nearest(clip, SIZE))
+        self._clip = clip
 
     @cached_property
     def cover_reference(self) -> Integers:
         """(H, W) int64, how many triangles cover each pixel in depth range."""
-        return count_pixels(self.fragments.column, self.fragments.row, self.scene.size)
+        fragments = exact_fragments(self._clip, SIZE)
+        return count_pixels(fragments.column, fragments.row, SIZE)
 
     def errors(self, settings: Settings, made: Frame) -> Errors:
         """Count pixels that are covered too often or too seldom."""
@@ -137,10 +189,7 @@ def crossing_clip(work: str, count: int, seed: int) -> Floats:
 
 def make_clipping(assignment: Assignment) -> ClippingTask:
     """Make triangles that have to be clipped, or drawn without."""
-    clip = crossing_clip(assignment.work, int(assignment.dials["count"]), assignment.seed)
-    task = ClippingTask(clip, SIZE, "clip")
-    task.unit_count = len(clip)
-    return task
+    return ClippingTask(crossing_clip(assignment.work, int(assignment.dials["count"]), assignment.seed))
 
 
 CLIPPING = StudyFamily(

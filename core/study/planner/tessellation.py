@@ -5,7 +5,7 @@ rises (l/2) tan(t/4) above it, its sagitta. A sphere of radius r with n edges ar
 It falls with the square of the edge, so with the number of triangles.
 """
 
-from math import acos, ceil, pi
+from math import ceil, pi
 
 import numpy as np
 
@@ -48,13 +48,6 @@ def angle(first: Floats, second: Floats) -> Floats:
 def sagitta(length: Floats, turned: Floats) -> Floats:
     """Return how far an arc over chords of ``length`` (E,), whose ends are ``turned`` (E,) radians, rises."""
     return np.asarray(length / 2 * np.tan(np.minimum(turned, pi / 2) / 4))
-
-
-def sphere_edges(radius: float, deviation: float) -> int:
-    """Return how many edges around a sphere of ``radius`` lie no more than ``deviation`` from it; the same unit."""
-    if deviation >= radius:
-        return 3
-    return max(ceil(pi / acos(1 - deviation / radius)), 3)
 
 
 def _advice(name: str, count: int, deviation: float) -> Tessellation:

@@ -13,7 +13,7 @@ from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, as_unsigned, l
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.methods import table
 from core.numeric.logarithm import log2, log2_of
-from core.study.accuracy.hidden_surfaces import wrong_visible
+from core.study.stability.fragments.depth_gaps import visible_triangles
 from tests.core.strategies import clip_of_window
 
 FORMATS = table.names("depth")
@@ -117,7 +117,7 @@ def layered(distance: float, gap: float, near: float, far: float, projection: st
 
 def wrong_pixels(scene: Scene, depth: str) -> int:
     settings = Settings(depth=depth, shading="unlit")
-    return int(wrong_visible(render(scene, settings).primitive, scene, settings).sum())
+    return int((render(scene, settings).primitive != visible_triangles(scene, settings)).sum())
 
 
 def test_z_fighting_far_from_the_eye() -> None:

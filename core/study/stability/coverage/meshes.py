@@ -1,15 +1,10 @@
-"""Meshes without gaps, and how often each pixel is covered: 0 is a crack, 1 is right, 2 is a double hit."""
-
-from collections.abc import Callable, Mapping
+"""Meshes without gaps: every pixel of the window is to be covered exactly once."""
 
 import numpy as np
 
-from core.records.arrays import Integers
 from core.scene import ClipScene
-from core.settings import Settings
 from core.study.accuracy.workloads import flat_scene, on_lattice, random_source, window_mesh
 from core.study.stability.coverage.covered_pixels import (
-    count_cover,
     coverage_experiment,
     once_everywhere,
 )
@@ -23,15 +18,6 @@ SIDE = 32
 def uneven_grid(cells: int, steps: int, seed: int) -> ClipScene:
     """Return a mesh of uneven cells that reaches beyond the window, with corners at multiples of 1/steps pixel."""
     return scene_of_window(window_mesh((SIDE, SIDE), cells, seed, steps), (SIDE, SIDE))
-
-
-def fan(spokes: int, steps: int, seed: int) -> ClipScene:
-    """Return triangles around one corner in the middle, on a pixel centre if ``steps`` is even."""
-    turn = (np.arange(spokes) + random_source(seed).uniform(-0.3, 0.3, spokes)) * (2 * np.pi / spokes)
-    middle = np.array([SIDE / 2, SIDE / 2]) + np.floor(steps / 2) / steps
-    rim = on_lattice(middle + 2 * SIDE * np.stack([np.cos(turn), np.sin(turn)], axis=1), steps)
-    corners = np.stack([np.broadcast_to(middle, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
-    return scene_of_window(corners, (SIDE, SIDE))
 
 
 def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
@@ -54,48 +40,6 @@ def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
     fourth, third = clip[1:, :-1].reshape(-1, 4), clip[1:, 1:].reshape(-1, 4)
     pairs = np.stack([first, second, third, first, third, fourth], axis=1).reshape(-1, 3, 4)
     return flat_scene(pairs, (SIDE, SIDE))
-
-
-MESHES: Mapping[str, Callable[[int], ClipScene]] = {
-    "grid on pixel centres": lambda seed: uneven_grid(8, 2, seed),
-    "grid between them": lambda seed: uneven_grid(8, 1024, seed),
-    "fan on a pixel centre": lambda seed: fan(24, 2, seed),
-    "plane through the eye": lambda seed: through_the_eye(0.5, 8, seed),
-}
-"""Meshes whose triangles cover every pixel of the window exactly once, for a seed."""
-
-
-def audit(mesh: str, settings: Settings, seed: int = 0) -> Integers:
-    """Draw a mesh without gaps and count how often each pixel is covered.
-
-    Parameters
-    ----------
-    mesh : str
-        A name of `MESHES`.
-    settings : Settings
-    seed : int
-
-    Returns
-    -------
-    (H, W) int64
-        0: a crack, 1: right, 2 or more: drawn twice. Row 0 is the bottom row.
-
-    Raises
-    ------
-    ValueError
-        For a mesh that is not there, or settings that do not take it.
-
-    Examples
-    --------
-    >>> settings = Settings(fill="bounding-box", fill_rule="inclusive")
-    >>> cover = audit("grid on pixel centres", settings)
-    >>> int(cover.min()), int(cover.max()) > 1
-    (1, True)
-    """
-    if mesh not in MESHES:
-        raise ValueError(f"mesh must be one of {', '.join(MESHES)}, got {mesh}")
-    cover, _ = count_cover(MESHES[mesh](seed), settings)
-    return cover
 
 
 SHARED_EDGES = coverage_experiment(

@@ -8,15 +8,16 @@ N. Reed, *Depth precision visualized*, 2015.
 K. Akeley, J. Su, *Minimum triangle separation for correct z-buffer occlusion*, 2006.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from core.pipeline import render
 from core.records.arrays import Floats
 from core.records.cached import cached_property
-from core.scene import Camera, Scene
+from core.scene import AnyScene, Camera, Scene
 from core.settings import Settings
-from core.study.accuracy.hidden_surfaces import visible_triangles
 from core.study.accuracy.workloads import layered_walls, random_source, wall_scene
 from core.study.stability.experiment import Case, Experiment, Judgement
 from core.study.stability.fragments.cases import NearestCase, judge_order
@@ -37,6 +38,18 @@ FORMATS = (
     "visibility=ray-casting",
 )
 """From the coarsest to the referee."""
+
+
+def visible_triangles(scene: AnyScene, settings: Settings | None = None) -> NDArray[np.int32]:
+    """Return the number of the nearest triangle at every pixel, (H, W) int32, -1: none.
+
+    Notes
+    -----
+    ``settings`` say what is covered and culled; shading, blending and the depth format play no part. Of triangles that
+    are exactly as near, it is the first.
+    """
+    chosen = replace(settings or Settings(), visibility="ray-casting", depth="z-float32", blend="opaque")
+    return render(scene, replace(chosen, shading="unlit", interpolation="flat")).primitive
 
 
 class HiddenCase(Case):

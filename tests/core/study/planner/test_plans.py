@@ -17,7 +17,7 @@ from core.study.planner.costs import Costs
 from core.study.planner.measuring import check_plan, measure_plan
 from core.study.planner.phrases import PHRASES, counted, figure, listed
 from core.study.planner.planning import CHEAPER
-from core.study.planner.tessellation import sagitta, sphere_edges, tessellations
+from core.study.planner.tessellation import sagitta, tessellations
 from core.study.planner.trials import difference, shown
 
 
@@ -154,7 +154,6 @@ def test_an_arc_rises_by_the_closed_form_of_the_sphere() -> None:
     chord, turned = 2 * radius * np.sin(np.pi / count), 2 * np.pi / count
     rise = radius * (1 - np.cos(np.pi / count))
     assert sagitta(np.array([chord]), np.array([turned]))[0] == pytest.approx(rise)
-    assert sphere_edges(radius, rise) == count
     coarse, fine = (tessellations(sphere_scene(rings, 128))[0].deviation for rings in (8, 16))
     assert coarse / fine == pytest.approx(4, rel=0.3)
 
