@@ -61,34 +61,29 @@ def test_a_dropped_mesh_opens_paused_at_the_start(window: MainWindow, qtbot: QtB
     assert window.session.document.title == "Two triangles sharing an edge"
 
 
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [
+def test_a_broken_file_leaves_the_scene_as_it_was(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    for name, content in [
         ("broken.obj", b"v 0 0 nan\nf 1 1 9\n"),
         ("empty.obj", b""),
         ("truncated.glb", b"glTF\x02\x00\x00\x00\xff\xff"),
         ("not_a_mesh.ply", b"hello"),
         ("other.rasterscope", b'{"version": 999}'),
         ("notes.txt", b"hello"),
-    ],
-)
-def test_a_broken_file_leaves_the_scene_as_it_was(
-    window: MainWindow, qtbot: QtBot, tmp_path: Path, name: str, content: bytes
-) -> None:
-    path = tmp_path / name
-    path.write_bytes(content)
-    window.session.set_stage("depth", 400)
-    document, cursor = window.session.document, window.session.cursor
-    window.page.timeline.toggle_play()
-    drop(window, path)
-    qtbot.waitUntil(lambda: not window.files.job.is_running, timeout=20000)
-    window.page.timeline.show_playing(False)
-    assert window.session.document is document
-    assert window.session.cursor.stage == cursor.stage
-    assert window.messages.isVisible()
-    assert window.messages.text.text().endswith("The open scene stays as it was.")
-    window.dismiss()
-    assert not window.messages.isVisible()
+    ]:
+        path = tmp_path / name
+        path.write_bytes(content)
+        window.session.set_stage("depth", 400)
+        document, cursor = window.session.document, window.session.cursor
+        window.page.timeline.toggle_play()
+        drop(window, path)
+        qtbot.waitUntil(lambda: not window.files.job.is_running, timeout=20000)
+        window.page.timeline.show_playing(False)
+        assert window.session.document is document
+        assert window.session.cursor.stage == cursor.stage
+        assert window.messages.isVisible()
+        assert window.messages.text.text().endswith("The open scene stays as it was.")
+        window.dismiss()
+        assert not window.messages.isVisible()
 
 
 def test_a_file_that_is_gone(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
@@ -165,12 +160,12 @@ def test_a_lost_last_state_is_told(window: MainWindow) -> None:
     assert opened.document.title == "Single triangle"
 
 
-@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
-def test_the_view_is_exported(window: MainWindow, tmp_path: Path, ending: str) -> None:
-    path = tmp_path / f"view.{ending}"
-    window.files.export_to(str(path))
-    assert path.stat().st_size > 500
-    assert window.statusBar().currentMessage() == f"Exported view.{ending}."
+def test_the_view_is_exported(window: MainWindow, tmp_path: Path) -> None:
+    for ending in ["png", "svg", "pdf"]:
+        path = tmp_path / f"view.{ending}"
+        window.files.export_to(str(path))
+        assert path.stat().st_size > 500
+        assert window.statusBar().currentMessage() == f"Exported view.{ending}."
 
 
 def test_an_export_that_fails_is_told(window: MainWindow, tmp_path: Path) -> None:

@@ -82,19 +82,19 @@ def test_a_reveal_counts_neither_way(asking: MainWindow) -> None:
     assert view.count.text() == ""
 
 
-@pytest.mark.parametrize("stage", STAGES)
-def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow, stage: str) -> None:
-    session, view = asking.session, asking.page.prediction
-    session.set_stage(stage, 0)
-    for _ in range(6):
-        session.step(1)
-        QApplication.processEvents()
-        row = session.stage_trace.steps.rows_done(session.cursor.position)
-        if row < session.stage_trace.steps.row_count:
-            asked = question(session.stage_trace, row)
-            assert (asked is None) == ("nothing to predict" in view.question.text())
-    session.go_to(session.stage_trace.steps.count)
-    assert view.question.text().startswith("This stage is done.")
+def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow) -> None:
+    for stage in STAGES:
+        session, view = asking.session, asking.page.prediction
+        session.set_stage(stage, 0)
+        for _ in range(6):
+            session.step(1)
+            QApplication.processEvents()
+            row = session.stage_trace.steps.rows_done(session.cursor.position)
+            if row < session.stage_trace.steps.row_count:
+                asked = question(session.stage_trace, row)
+                assert (asked is None) == ("nothing to predict" in view.question.text())
+        session.go_to(session.stage_trace.steps.count)
+        assert view.question.text().startswith("This stage is done.")
 
 
 def test_a_history_that_is_hidden_says_so(window: MainWindow) -> None:
