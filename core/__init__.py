@@ -19,7 +19,7 @@ nor the other way round. Methods are imported by their table (`core.methods`).
 from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
-from core.records.frame import STAGES, Frame
+from core.records.frame import Frame
 from core.scene import (
     Camera,
     ClipScene,
@@ -31,6 +31,7 @@ from core.scene import (
     Texture,
 )
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.trace import Trace, trace
 
 if TYPE_CHECKING:

@@ -43,10 +43,11 @@ from core.raster.lines.intensities import weigh_alpha, writes_depth
 from core.raster.lines.wireframe import draw_outlines
 from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
 from core.records.arrays import Integers, Singles, read_only
-from core.records.frame import STAGES, Frame, Samples, StageCount
+from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import DEFAULTS, Settings
+from core.stages.declared import STAGES
 from core.stages.fragment_depth import fragment_depth
 from core.stages.fragments import interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments

@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from core.explain.stage_texts import SHORT_TITLES
-from core.records.frame import STAGES
+from core.stages.declared import STAGES, stage_of
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ ACTIONS: tuple[KeyAction, ...] = (
             KeyAction(
                 f"stage_{k}",
                 (str((k + 1) % 10),) if k < 10 else (),
-                SHORT_TITLES[stage],
+                stage_of(stage).short_title,
                 STAGE_GROUP,
                 "Stage",
             )

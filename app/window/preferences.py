@@ -9,7 +9,7 @@ from PySide6.QtCore import QStandardPaths
 
 from app.files.field_problems import field_problem
 from app.files.file_writing import FileWriteError, make_folder, whole_file
-from core.records.frame import STAGES
+from core.stages.declared import STAGES
 
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
 """Environment variable that names another folder."""

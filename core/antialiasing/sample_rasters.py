@@ -17,10 +17,11 @@ from core.antialiasing.sampling import ROTATED_GRID, grid_positions
 from core.framebuffer.resolve import resolve_samples
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats, Singles, read_only
-from core.records.frame import STAGES, Frame, Samples, StageCount
+from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.geometry import Geometry
 
 GEOMETRY = STAGES[: STAGES.index("bin") + 1]

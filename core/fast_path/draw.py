@@ -18,10 +18,11 @@ from core.numeric.numpy_buffers import short_buffers
 from core.raster.pixel_runs import Raster, make_raster
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers, read_only
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import DEFAULTS, Settings
+from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 
 ENCODINGS = ("srgb", "linear")

@@ -26,10 +26,11 @@ from core.pipeline import draw
 from core.raster.pixel_runs import Raster
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Singles, read_only
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 
 BAND = 1 << 19
 """Samples that are drawn and resolved in one go."""

@@ -2,10 +2,11 @@
 
 from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
 from core.pixel_history.candidates import PixelCandidates, whole_geometry
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 

@@ -15,9 +15,10 @@ from core.raster.lines.wireframe import Outlines, draw_outlines
 from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 

@@ -12,8 +12,9 @@ from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
 from core.pixel_history.candidates import whole_geometry
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.resolved import resolve
+from core.stages.declared import STAGES
 from core.trace.source import TraceSource
 
 

@@ -1,4 +1,4 @@
-"""The stages by name, and what drawing a scene returns."""
+"""What drawing a scene returns, and what each stage counts."""
 
 from dataclasses import dataclass, field
 from threading import local
@@ -9,21 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.records.arrays import Floats, Singles
-
-STAGES = (
-    "transform",
-    "cull",
-    "clip",
-    "edges",
-    "bin",
-    "raster",
-    "interpolate",
-    "shade",
-    "depth",
-    "blend",
-    "resolve",
-)
-"""Names of the pipeline's stages in order."""
 
 
 class _OpenBlocks(local):

@@ -21,9 +21,10 @@ from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
 from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.scene import Camera, Scene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
 

@@ -23,6 +23,7 @@ from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitive
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import Settings, families
+from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances
 
 __all__ = [
@@ -51,8 +52,6 @@ def check_needs(scene: AnyScene, settings: Settings) -> None:
                 f"{family} {chosen.name} needs a perspective camera: 1/w is constant for an orthographic one"
             )
 
-
-GEOMETRY_STAGES = ("transform", "cull", "clip", "edges")
 
 _last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []
 """The geometry of the last whole scene, with its counts: scenes never change, so another look at the same one, a pixel

@@ -7,9 +7,9 @@ and what traces it is imported no earlier.
 from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
-from core.records.frame import STAGES
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 
 if TYPE_CHECKING:
     from core.trace.source import TraceSource

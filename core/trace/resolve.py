@@ -10,11 +10,12 @@ from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
 from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.records.listing import Listing, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
+from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.trace.blend import trace_blend
 from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts

@@ -14,7 +14,8 @@ from core.raster.coverage import Fragments
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats
 from core.records.cached import cached_property
-from core.records.frame import STAGES, Frame, StageCount
+from core.records.frame import Frame, StageCount
+from core.stages.declared import STAGES
 from core.stages.fragments import fragment_values, fragments_of, owner_of
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource

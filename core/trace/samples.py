@@ -17,6 +17,7 @@ from core.raster.edges.edge_functions import edge_value
 from core.records.arrays import Floats, Integers
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
+from core.stages.declared import UNSAMPLED_STAGES
 from core.trace.raster_rows import occurrence
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.source import TraceSource
@@ -27,13 +28,11 @@ OF_EVERY_SAMPLE = ("depth", "primitive", "color")
 """Tracks of the frame's buffers."""
 AT_CENTERS = ("interpolate", "shade")
 """Stages that multisampling has once a pixel and triangle."""
-BEFORE_SAMPLES = ("transform", "cull", "clip")
-"""Stages that know of no pixels."""
 
 
 def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace:
     """Trace a stage before the samples are resolved; ``source`` has an antialiasing with samples."""
-    if stage in BEFORE_SAMPLES:
+    if stage in UNSAMPLED_STAGES:
         return tracer(source)
     side = resolve(source.settings).sampling.side
     if side:

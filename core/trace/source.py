@@ -16,10 +16,11 @@ from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batch
 from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
-from core.records.frame import STAGES, Frame, StageCount
+from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
 from core.stages.fragments import fragment_values, texture_slopes

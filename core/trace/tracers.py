@@ -2,37 +2,21 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 
 from core.resolved import resolve
 from core.settings import Settings
-from core.trace.binning import trace_bin
-from core.trace.blend import trace_blend
-from core.trace.clip import trace_clip
-from core.trace.cull import trace_cull
-from core.trace.depth import trace_depth
-from core.trace.edges import trace_edges
-from core.trace.interpolate import trace_interpolate
-from core.trace.raster import trace_raster
-from core.trace.resolve import trace_resolve
+from core.stages.declared import stage_of
 from core.trace.samples import trace_samples
-from core.trace.shade import trace_shade
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace
-from core.trace.transform import trace_transform
 
-TRACERS: dict[str, Callable[[TraceSource], StageTrace]] = {
-    "transform": trace_transform,
-    "cull": trace_cull,
-    "clip": trace_clip,
-    "edges": trace_edges,
-    "bin": trace_bin,
-    "raster": trace_raster,
-    "interpolate": trace_interpolate,
-    "shade": trace_shade,
-    "depth": trace_depth,
-    "blend": trace_blend,
-    "resolve": trace_resolve,
-}
+
+def tracer_of(stage: str) -> Callable[[TraceSource], StageTrace]:
+    """Return the function that traces a stage."""
+    module, _, name = stage_of(stage).tracer.rpartition(".")
+    found: Callable[[TraceSource], StageTrace] = getattr(import_module(module), name)
+    return found
 
 
 def trace_stage(source: TraceSource, name: str) -> StageTrace:
@@ -42,8 +26,8 @@ def trace_stage(source: TraceSource, name: str) -> StageTrace:
     """
     antialiasing = source.settings.antialiasing
     if name == "resolve" or antialiasing == Settings.antialiasing:
-        return TRACERS[name](source)
+        return tracer_of(name)(source)
     if resolve(source.settings).sampling.is_area:
         at_centers = replace(source.settings, antialiasing=Settings.antialiasing)
-        return TRACERS[name](replace(source, settings=at_centers))
-    return trace_samples(source, name, TRACERS[name])
+        return tracer_of(name)(replace(source, settings=at_centers))
+    return trace_samples(source, name, tracer_of(name))

@@ -5,7 +5,7 @@ from functools import partial
 from app.pages.page_bar import Handlers
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
-from core.records.frame import STAGES
+from core.stages.declared import STAGES
 from widgets.timeline.transport import Timeline
 
 BOOKMARKS = 10

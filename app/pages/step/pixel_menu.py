@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
 from core import STAGES
-from core.explain.stage_texts import SHORT_TITLES
+from core.stages.declared import stage_of
 
 
 class PixelMenu(QObject):
@@ -39,7 +39,7 @@ class PixelMenu(QObject):
         self._add("Take the breakpoint away" if has_breakpoint else "Breakpoint", "breakpoint")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
-            self._add(f"Step into it: {SHORT_TITLES[stage]}", stage)
+            self._add(f"Step into it: {stage_of(stage).short_title}", stage)
 
     def _add(self, text: str, name: str) -> None:
         self.menu.addAction(text).setData(name)

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 
 from core import STAGES
-from core.explain.stage_texts import SHORT_TITLES
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
+from core.stages.declared import stage_of
 from widgets.timeline.pipeline_rail import StageEntry, StageState
 
 INSERTED_FOR = {
@@ -52,7 +52,7 @@ def rail_entries(
             incoming, reason = counts["bin"].outgoing, reason or COMPUTED
         entries.append(
             StageEntry(
-                SHORT_TITLES[stage],
+                stage_of(stage).short_title,
                 str((index + 1) % 10) if index < 10 else "",
                 "? → ?" if is_predicting else f"{incoming:,} → {count.outgoing:,}",
                 f"{count.seconds * 1000:.1f} ms",

@@ -11,16 +11,9 @@ from core.families import WholeNumber
 from core.methods import table
 from core.scene import Scene
 from core.settings import FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
+from core.stages.declared import DECLARED, stage_of
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
-
-GROUPS = {
-    "Geometry": ("cull", "clip"),
-    "Raster": ("edges", "raster"),
-    "Fragments": ("interpolate", "shade"),
-    "Framebuffer": ("depth", "blend", "resolve"),
-}
-"""Headings of the panel, and the stages whose settings stand under each."""
 
 
 class SceneOutlinePresenter(QObject):
@@ -97,14 +90,14 @@ def _document_group(document: Document) -> OutlineGroup:
 
 def settings_records(document: Document) -> list[Setting]:
     """Return one record per setting, with what does not matter now and why."""
-    return [
-        _record(document, name, heading if name == first else "")
-        for heading, stages in GROUPS.items()
-        for names in [[family for family in FAMILIES if FAMILIES[family].stage in stages]]
-        for first in names[:1]
-        for family in names
-        for name in (family, *(number for number in WHOLE_NUMBERS if FIELDS[number].taken_by == family))
-    ]
+    records, last = [], ""
+    order = [stage.name for stage in DECLARED]
+    for family in sorted(FAMILIES, key=lambda family: order.index(FAMILIES[family].stage)):
+        for name in (family, *(number for number in WHOLE_NUMBERS if FIELDS[number].taken_by == family)):
+            heading = stage_of(FAMILIES[family].stage).heading
+            records.append(_record(document, name, heading if heading != last else ""))
+            last = heading
+    return records
 
 
 def _record(document: Document, name: str, heading: str) -> Setting:

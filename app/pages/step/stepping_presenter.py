@@ -10,10 +10,12 @@ from app.pages.step.rail_entries import rail_entries
 from app.session.session import Session
 from app.views.scene_figures import FrameFigures
 from core import STAGES
-from core.explain.stage_texts import SHORT_TITLES
+from core.methods import table
 from core.raster.fills.tested import effective_fill
+from core.raster.fills.traits import fill_traits
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level
+from core.stages.declared import stage_of
 from core.trace import StageTrace
 from core.trace.conditions import Condition, parse_condition
 from core.trace.run_to import next_at_pixel, next_marked
@@ -35,21 +37,6 @@ EVENT_TITLES = {
     "tie": "tie",
     "nan": "NaN or infinity",
     "depth-failed": "depth failed",
-}
-LEVEL_NAMES = {
-    "transform": {Level.GROUP: "Vertex", Level.PIXEL: "Matrix"},
-    "cull": {Level.GROUP: "Test", Level.PIXEL: "Plane"},
-    "clip": {Level.GROUP: "Plane", Level.PIXEL: "Edge"},
-    "edges": {Level.GROUP: "All corners, edges", Level.PIXEL: "Corner or edge"},
-    "bin": {Level.GROUP: "Large block", Level.PIXEL: "Block"},
-}
-"""What the levels between triangle and operation are in the stages before the first pixel."""
-GROUP_OF_FILL = {
-    "hierarchy": "Block",
-    "blocks": "Block",
-    "scanline": "Span",
-    "scanline-lecture": "Span",
-    "spans": "Lane or span",
 }
 
 
@@ -140,12 +127,13 @@ class SteppingPresenter(QObject):
 
     def _level_names(self, stage: str) -> dict[Level, str]:
         """Return what a step of each level is in a stage."""
-        settings = self._session.document.settings
-        fill = effective_fill(settings.fill, settings.coverage)
+        declared, settings = stage_of(stage), self._session.document.settings
         if stage == "raster":
-            is_wireframe = settings.polygon_mode == "wireframe"
-            return {Level.GROUP: "Line" if is_wireframe else GROUP_OF_FILL.get(fill, "Row")}
-        return LEVEL_NAMES.get(stage, {Level.GROUP: "Row"})
+            is_wireframe = table.get("polygon_mode", settings.polygon_mode).function()
+            fill = effective_fill(settings.fill, settings.coverage)
+            return {Level.GROUP: "Line" if is_wireframe else fill_traits(fill).group_label}
+        names = {Level.GROUP: declared.group_label}
+        return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
 
     @Slot()
     def refresh_marks(self) -> None:
@@ -262,7 +250,7 @@ class SteppingPresenter(QObject):
         if len(rows):
             self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
         else:
-            self._tell(f"{SHORT_TITLES[stage]} does nothing at pixel ({column}, {row}).")
+            self._tell(f"{stage_of(stage).short_title} does nothing at pixel ({column}, {row}).")
 
     def _go_on(self, reached: int | None, direction: int, what: str) -> None:
         """Go to a position that a run has reached, or tell that there is none."""

@@ -27,6 +27,7 @@ from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import UNSAMPLED_STAGES
 
 DEFAULT_PROCESSES = 2
 """Every process does the vertices and the culling of all triangles again, so each one more gains less."""
@@ -35,8 +36,6 @@ START_LIMIT = 2
 SECONDS_TO_START = 30.0
 SECONDS_TO_ANSWER = 10.0
 """More than the band of this process took; then the worker is given up."""
-STAGES_OF_ALL = ("transform", "cull", "clip")
-"""Stages whose time does not depend on the rows of a band."""
 
 
 class BandWorkers:
@@ -277,7 +276,7 @@ class BandWorkers:
         return picture, tuple(BandTime(*band, time) for band, time in zip(rows, times, strict=True))
 
     def _move_cuts(self, times: list[float], asking: float, statistics: list[dict[str, StageCount]]) -> None:
-        fixed = [sum(part[stage].seconds for stage in STAGES_OF_ALL) for part in statistics]
+        fixed = [sum(part[stage].seconds for stage in UNSAMPLED_STAGES) for part in statistics]
         fixed[0] += asking
         self._cuts = moved_cuts(self._cuts, np.array(times), np.array(fixed))
 

@@ -4,10 +4,8 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
 
 from core.fast_path.record import Route, Split
-from core.records.frame import STAGES, StageCount
-
-WHOLE_STAGES = STAGES[: STAGES.index("bin")]
-"""Stages whose counts are those of the whole picture in every band."""
+from core.records.frame import StageCount
+from core.stages.declared import GEOMETRY_STAGES
 
 
 @dataclass(frozen=True)
@@ -45,7 +43,7 @@ def joined_counts(statistics: Sequence[dict[str, StageCount]]) -> dict[str, Stag
     """
     counts = {stage: replace(count) for stage, count in statistics[0].items()}
     for stage, count in counts.items():
-        if stage not in WHOLE_STAGES:
+        if stage not in GEOMETRY_STAGES:
             count.incoming = sum(part[stage].incoming for part in statistics)
             count.outgoing = sum(part[stage].outgoing for part in statistics)
     # Each band clips its own triangles; one that reaches into two is clipped, and counted, twice.

@@ -16,6 +16,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside
+from core.raster.fills.traits import FillTraits
 from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
 from core.records.arrays import Flags, Floats, Integers
 
@@ -27,6 +28,7 @@ from core.records.arrays import Flags, Floats, Integers
     source="LMU 2020, Scan line algorithm; Newman and Sproull 1979",
     exact_for="every triangle",
     needs=("float64-edges",),
+    traits=FillTraits(group_label="Span"),
 )
 def scanline(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the span of inside pixels of every row; a row without one has an empty run."""

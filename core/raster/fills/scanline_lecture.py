@@ -90,7 +90,7 @@ def draw_top(
     breaks_where="shared edges (both drawn), flat sides (lost), level first and last corner (division by zero)",
     needs=("projected",),
     listing=draw_triangle,
-    traits=FillTraits(span_row="line"),
+    traits=FillTraits(group_label="Span", span_row="line"),
 )
 def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the spans that the printed program draws, limited to the raster.

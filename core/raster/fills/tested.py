@@ -42,6 +42,7 @@ def bounding_box(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size:
     source="Zwicker 2016, Further improvement; Greene 1996",
     exact_for="every triangle",
     takes=("block_size",),
+    traits=FillTraits(group_label="Block"),
 )
 def hierarchy(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Look at blocks of blocks first, then at the blocks of those that the triangle's border crosses."""
@@ -55,6 +56,7 @@ def hierarchy(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: in
     source="Zwicker 2016, Improvement",
     exact_for="every triangle",
     takes=("block_size",),
+    traits=FillTraits(group_label="Block"),
 )
 def blocks(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Discard or accept whole blocks, test the pixels of the others."""

@@ -13,6 +13,8 @@ class FillTraits:
     """Whether it tests every pixel of the raster for every triangle."""
     has_lanes: bool = False
     """Whether it sets all rows of a triangle up in one lane, and draws rows of the same length of all triangles."""
+    group_label: str = "Row"
+    """What a step between a pixel and a triangle is, on a button."""
     span_row: str = "span"
     """Kind of row in a trace that stands before the pixels of a span."""
 

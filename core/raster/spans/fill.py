@@ -22,7 +22,7 @@ from core.raster.spans.lane_rows import is_in_lane, lane_rows, owners_of
     source="Wylie et al. 1967 (spans); Pineda 1988 and Fuchs et al. 1985 (linear expressions in parallel)",
     exact_for="every triangle",
     needs=("float64-edges",),
-    traits=FillTraits(has_lanes=True),
+    traits=FillTraits(has_lanes=True, group_label="Lane or span"),
 )
 def spans(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the span of inside pixels of every row that has one."""

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.records.arrays import Flags, Integers
-from core.records.frame import STAGES
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.trace import StageTrace, Trace, trace
 from core.trace.stage_trace import Value
 

@@ -10,10 +10,11 @@ from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry.vertex_stage import unit
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
+from core.stages.declared import STAGES
 from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
 from core.study.planner.phrases import figure

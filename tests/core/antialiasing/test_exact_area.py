@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render
 from core.antialiasing.exact_area import draw_pieces
 from core.raster.pixel_runs import make_raster
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
+from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from lessons.scenes import make_scene
 from tests.core.antialiasing.many_samples import many_samples

@@ -5,21 +5,20 @@ from pytestqt.qtbot import QtBot
 
 from core import STAGES
 from core.explain.stage_texts import (
-    SHORT_TITLES,
-    STAGE_TEXTS,
+    ACCOUNTS,
     family_title,
     method_text,
     stage_card,
 )
 from core.methods import table
 from core.settings import FAMILIES, families
+from core.stages.declared import DECLARED, stage_of
 from widgets.timeline.stage_card import StageCardView
 
 
 def test_the_texts_follow_the_stages() -> None:
-    assert tuple(STAGE_TEXTS) == STAGES
-    assert tuple(SHORT_TITLES) == STAGES
-    assert len(set(SHORT_TITLES.values())) == len(STAGES)
+    assert tuple(ACCOUNTS) == STAGES
+    assert len({stage.short_title for stage in DECLARED}) == len(STAGES)
 
 
 @pytest.mark.parametrize("stage", STAGES)
@@ -28,14 +27,14 @@ def test_a_card_is_complete(stage: str) -> None:
     for text in (card.gets, card.gives, card.purpose):
         assert text.endswith(".")
         assert 20 < len(text) < 140
-    assert SHORT_TITLES[stage].lower().removesuffix("s") in card.title.lower()
+    assert stage_of(stage).short_title.lower().removesuffix("s") in card.title.lower()
     assert card.source
-    assert len(SHORT_TITLES[stage]) <= 11
+    assert len(stage_of(stage).short_title) <= 11
 
 
 def test_a_card_names_the_method_that_ran() -> None:
     source = stage_card("raster", "fill=scanline-lecture").source
-    assert source.startswith(STAGE_TEXTS["raster"].card.source)
+    assert source.startswith(stage_of("raster").source)
     assert source.endswith("Fill, Scanline as printed (LMU): LMU 2020, Scan line algorithm for triangles")
 
 
@@ -65,4 +64,4 @@ def test_the_view_shows_a_card(qtbot: QtBot) -> None:
     view = StageCardView()
     qtbot.addWidget(view)
     view.show_card(stage_card("edges"))
-    assert view.fold_button.text() == STAGE_TEXTS["edges"].card.title
+    assert view.fold_button.text() == stage_of("edges").title

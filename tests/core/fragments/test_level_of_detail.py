@@ -19,8 +19,9 @@ from core.methods import table
 from core.raster.coverage import Fragments
 from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import make_raster
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.records.primitives import CornerValues, own_corners
+from core.stages.declared import STAGES
 from core.stages.fragments import texture_slopes
 from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource

@@ -13,7 +13,8 @@ from core.geometry.vertex_stage import place_meshes, transform_vertices
 from core.methods import table
 from core.raster.edges.edge_functions import orient, set_up_edges
 from core.raster.edges.snapping import place_corners
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
+from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 
 NUMBERS = st.one_of(

@@ -17,7 +17,7 @@ from core.methods import table
 from core.resolved import resolve
 from core.trace import StageTrace, Trace, TraceSource
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
-from core.trace.tracers import TRACERS
+from core.trace.tracers import tracer_of
 from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.depth_listings import check_blend, check_depth
@@ -91,7 +91,7 @@ class OnePart:
         self.source = source
 
     def stage(self, name: str) -> StageTrace:
-        return TRACERS[name](self.source)
+        return tracer_of(name)(self.source)
 
 
 def check_all(traced: Trace) -> None:

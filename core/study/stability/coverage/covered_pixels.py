@@ -10,9 +10,10 @@ from core.pipeline import covered
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Integers
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.study.accuracy.family import settings_of
 from core.study.exact.coverage import count_pixels, exact_spans

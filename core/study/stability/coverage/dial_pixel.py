@@ -16,9 +16,10 @@ from core.raster.edges.edge_functions import edge_value, set_up_edges
 from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Flags, Integers
-from core.records.frame import STAGES, StageCount
+from core.records.frame import StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.study.stability.coverage.covered_pixels import Wanted, count_cover
 from core.study.stability.coverage.number_formats import FORMATS

@@ -1,0 +1,211 @@
+"""The stages of the pipeline, each declared once: rail, cards, keys, settings and traces read it here."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stage:
+    """One stage."""
+
+    name: str
+    """The spelling of files, command line and API."""
+    short_title: str
+    """Its name on the pipeline rail."""
+    title: str
+    """Heading of its card."""
+    purpose: str
+    takes: str
+    gives: str
+    source: str
+    """Author, title, year, or the lecture it is from."""
+    heading: str
+    """What the settings of its families stand under."""
+    tracer: str
+    """The function that traces it, with its module."""
+    initial: str
+    """The sentence before its first step."""
+    group: str = "one row of pixels"
+    """What a step of level GROUP is, in a sentence."""
+    group_label: str = "Row"
+    """The same on a button."""
+    row_label: str = ""
+    """What a step of level PIXEL is, where it is not a pixel."""
+    of_triangles: bool = False
+    """Whether its work is on triangles, before any pixel is looked at."""
+    is_sampled: bool = True
+    """Whether it is done anew for every sample of a pixel."""
+
+
+DECLARED = (
+    Stage(
+        name="transform",
+        short_title="Transform",
+        title="Transform: from the mesh to the window",
+        purpose="Brings all triangles into window space, where pixels are counted.",
+        takes="The vertices of every mesh in object space, the camera, and the size of the picture.",
+        gives="Every vertex in world, camera, clip, NDC and window space.",
+        source="Zwicker 2016, The complete vertex transform; Pellacini, Vertex processing",
+        heading="Geometry",
+        tracer="core.trace.transform.trace_transform",
+        initial="No vertex is transformed yet: the corners are in object space.",
+        group="one corner",
+        group_label="Vertex",
+        row_label="Matrix",
+        of_triangles=True,
+        is_sampled=False,
+    ),
+    Stage(
+        name="cull",
+        short_title="Cull",
+        title="Cull: drop triangles that cannot be seen",
+        purpose="Saves all work on triangles behind the eye, outside the view, without area, or turned away.",
+        takes="Triangles in clip space.",
+        gives="The triangles that may be visible, and a reason for each dropped one.",
+        source="LMU 2020, Culling; Jubair, Backface culling",
+        heading="Geometry",
+        tracer="core.trace.cull.trace_cull",
+        initial="No triangle has been tested yet.",
+        group="one kind of test",
+        group_label="Test",
+        row_label="Plane",
+        of_triangles=True,
+        is_sampled=False,
+    ),
+    Stage(
+        name="clip",
+        short_title="Clip",
+        title="Clip: cut triangles at the view volume",
+        purpose="Makes every w positive, for methods that divide by it. Homogeneous rasterization does without.",
+        takes="Triangles in clip space, some of which cross a plane of the view volume.",
+        gives="Triangles wholly inside: each cut one becomes a polygon, split into a fan.",
+        source="Sutherland and Hodgman 1974; Pellacini, Polygon clipping",
+        heading="Geometry",
+        tracer="core.trace.clip.trace_clip",
+        initial="No triangle has been clipped yet.",
+        group="one plane",
+        group_label="Plane",
+        row_label="Edge",
+        of_triangles=True,
+        is_sampled=False,
+    ),
+    Stage(
+        name="edges",
+        short_title="Edges",
+        title="Edges: one linear function for each",
+        purpose="Turns the inside test of a pixel into three signs, for any signs of w.",
+        takes="The three corners of a triangle as (x, y, w) in the window.",
+        gives="Three functions E = a x + b y + c that are positive inside the triangle.",
+        source="Zwicker 2016, Homogeneous rasterization; Olano and Greer 1997",
+        heading="Raster",
+        tracer="core.trace.edges.trace_edges",
+        initial="No corner has been snapped and no edge function set up yet.",
+        group="one part of the set-up",
+        group_label="All corners, edges",
+        row_label="Corner or edge",
+        of_triangles=True,
+    ),
+    Stage(
+        name="bin",
+        short_title="Bin",
+        title="Bin: find the pixels to test",
+        purpose="Skips most pixels without testing them one by one.",
+        takes="The edge functions and the corners in the window.",
+        gives="A bounding box for every triangle, and blocks that lie inside, outside, or neither.",
+        source="Zwicker 2016, Binning; Greene 1996",
+        heading="Raster",
+        tracer="core.trace.binning.trace_bin",
+        initial="No box and no block has been tested yet.",
+        group="one block with its parts",
+        group_label="Large block",
+        row_label="Block",
+    ),
+    Stage(
+        name="raster",
+        short_title="Raster",
+        title="Raster: which pixels are covered",
+        purpose="Decides by the sign of three edge functions at the pixel's centre.",
+        takes="The edge functions and the pixels to test.",
+        gives="The covered pixels of every triangle; a pixel on a shared edge belongs to exactly one.",
+        source="Zwicker 2016, Pixel inside/outside test; Pineda 1988; LMU 2020, Scan line algorithm",
+        heading="Raster",
+        tracer="core.trace.raster.trace_raster",
+        initial="No pixel has been tested yet.",
+        group="one row or block",
+    ),
+    Stage(
+        name="interpolate",
+        short_title="Interpolate",
+        title="Interpolate: values between the corners",
+        purpose="Extends the values of three corners over the triangle, in correct perspective.",
+        takes="Covered pixels, and colours, texture coordinates or normals at the corners.",
+        gives="Three weights at every pixel, and the weighted sum of the corners' values.",
+        source="Zwicker 2016, Perspective correct interpolation; Jubair, Barycentric interpolation",
+        heading="Fragments",
+        tracer="core.trace.interpolate.trace_interpolate",
+        initial="No pixel has weights and values yet.",
+    ),
+    Stage(
+        name="shade",
+        short_title="Shade",
+        title="Shade: the colour of a fragment",
+        purpose="Reads the surface's colour from its texture and lights it.",
+        takes="The interpolated values, textures, lights and materials.",
+        gives="One linear colour with alpha for every fragment.",
+        source="Zwicker 2016, Texture mapping; Pellacini, Lighting computation",
+        heading="Fragments",
+        tracer="core.trace.shade.trace_shade",
+        initial="No fragment has a colour yet.",
+    ),
+    Stage(
+        name="depth",
+        short_title="Depth",
+        title="Depth: which fragment is in front",
+        purpose="Makes the picture independent of the order in which opaque triangles are drawn.",
+        takes="Fragments in drawing order with their depth, and the depth buffer.",
+        gives="The fragments that are nearer than the buffer's depth.",
+        source="Catmull 1974; Zwicker 2016, Z-buffering",
+        heading="Framebuffer",
+        tracer="core.trace.depth.trace_depth",
+        initial="No fragment has been tested yet: the depth buffer is unchanged.",
+    ),
+    Stage(
+        name="blend",
+        short_title="Blend",
+        title="Blend: into the colour buffer",
+        purpose="Lets a fragment replace the buffer's colour, or mix with it.",
+        takes="The colours of the fragments that passed, and the colour buffer.",
+        gives="The colour buffer with every fragment written or mixed into it.",
+        source="Porter and Duff 1984; Pellacini, Framebuffer processing",
+        heading="Framebuffer",
+        tracer="core.trace.blend.trace_blend",
+        initial="No fragment has been written yet: the colour buffer is unchanged.",
+    ),
+    Stage(
+        name="resolve",
+        short_title="Resolve",
+        title="Resolve: samples to display bytes",
+        purpose="Averages the samples of a pixel, and encodes the mean with the sRGB curve of displays.",
+        takes="The colour buffer in linear light, every sample of it.",
+        gives="One colour per pixel: red, green and blue as sRGB bytes, and unchanged alpha.",
+        source="LMU 2020, Supersampling and multisampling; IEC 61966-2-1, sRGB, 1999",
+        heading="Framebuffer",
+        tracer="core.trace.resolve.trace_resolve",
+        initial="No pixel has display bytes yet.",
+    ),
+)
+"""All stages, in pipeline order."""
+
+STAGES = tuple(stage.name for stage in DECLARED)
+"""Their names."""
+GEOMETRY_STAGES = tuple(stage.name for stage in DECLARED if stage.of_triangles)
+"""Those of triangles."""
+UNSAMPLED_STAGES = tuple(stage.name for stage in DECLARED if not stage.is_sampled)
+"""Those that are done once, however many samples a pixel has."""
+BY_NAME = {stage.name: stage for stage in DECLARED}
+
+
+def stage_of(name: str) -> Stage:
+    """Return a stage; ValueError names those that there are."""
+    if name not in BY_NAME:
+        raise ValueError(f"stage must be one of {', '.join(STAGES)}, got {name}")
+    return BY_NAME[name]
