@@ -1,9 +1,10 @@
-"""Work that a page is asked for and does in the background: shown as it goes on, then done, cancelled or failed."""
+"""Work that a page does in the background: drawn as it goes on, then done, cancelled or failed."""
 
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, QTimer, Signal, Slot
+from PySide6.QtWidgets import QWidget
 
 from app.background.workers import Job
 from widgets.basics.message_bar import Progress
@@ -106,3 +107,46 @@ class BackgroundTask(QObject):
 
     def _come_to_nothing(self) -> None:
         """Forget what was chosen in work that was cancelled or failed; there may be nothing to choose in it."""
+
+
+PAUSE = 250
+"""Milliseconds between the end of one drawing and the beginning of the next."""
+
+
+class PacedDrawing(QObject):
+    """Says when to draw: at once after a pause, else when the pause is over; of a hidden page, when it is shown."""
+
+    due = Signal()
+    """It is to be drawn now."""
+
+    def __init__(self, page: QWidget) -> None:
+        super().__init__(page)
+        self._page = page
+        self._is_owed = False
+        self._pause = QTimer(self)
+        self._pause.setSingleShot(True)
+        self._pause.setInterval(PAUSE)
+        self._pause.timeout.connect(self._draw_what_is_owed)
+        page.installEventFilter(self)
+
+    def ask(self) -> None:
+        """Something new has come."""
+        self._is_owed = True
+        self._draw_what_is_owed()
+
+    def settle(self) -> None:
+        """Owe nothing: everything has just been drawn."""
+        self._is_owed = False
+
+    @Slot()
+    def _draw_what_is_owed(self) -> None:
+        if self._is_owed and not self._pause.isActive() and self._page.isVisible():
+            self._is_owed = False
+            self.due.emit()
+            self._pause.start()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Draw what came while the page was hidden."""
+        if event.type() == QEvent.Type.Show:
+            self._draw_what_is_owed()
+        return False

@@ -5,13 +5,12 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from types import ModuleType
 
-from app.bench.checking import Difference, compare
 from app.bench.contender import Contender, Prepared
 from app.bench.libraries import contender_of, version_of
 from app.bench.records import Work
-from app.bench.reference import Reference, make_reference
+from app.bench.reference import Difference, Reference, compare, make_reference
+from app.bench.scenes import Workload
 from app.bench.timing import Times, time_in_turn
-from app.bench.workloads import Workload
 
 Note = Callable[[str], None]
 

@@ -10,7 +10,7 @@ from app.bench.libraries import LIBRARIES
 from app.bench.machine import Machine, this_machine
 from app.bench.report import foot_text, head_text, result_text
 from app.bench.results_file import results_text
-from app.bench.workloads import WORKLOADS, Workload
+from app.bench.scenes import WORKLOADS, Workload
 from app.files.file_writing import whole_file
 
 FILE_NAME = "benchmark"

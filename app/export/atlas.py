@@ -8,8 +8,7 @@ from pathlib import Path
 from app.export.sheet import MARGIN, WIDTH, Sheet, sheet_bytes
 from app.files.file_writing import whole_file
 from app.files.state_files import readable_json
-from app.pages.stability.records import atlas_record, cells_of, method_titles
-from app.pages.stability.severity_curves import has_curves, severity_chart
+from app.pages.stability.records import atlas_record, cells_of, has_curves, method_titles, severity_chart
 from app.pages.words import machine_words
 from core.study.stability import Atlas, Outcome
 from widgets.atlas.view import AtlasView

@@ -13,9 +13,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from app.files.field_problems import field_problem
 from app.files.file_writing import whole_file
 from app.files.mesh_formats import Report
+from app.files.saved_records import field_problem
 from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
 from app.files.state_scenes import StateFileError, in_field, scene_from_record, scene_record
 from app.session.document import VIEWS, Document, TeachingRaster

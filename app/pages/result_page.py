@@ -18,8 +18,7 @@ from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
-from widgets.basics.elided_label import ElidedLabel
-from widgets.basics.readout import Readout
+from widgets.basics.labels import ElidedLabel, Readout
 from widgets.charts.family_list import FamilyList
 
 

@@ -7,12 +7,11 @@ from typing import Any, Generic, Protocol, TypeVar
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QWidget
 
-from app.background.background_task import BackgroundTask, WorkWords
-from app.background.paced_drawing import PacedDrawing
+from app.background.background_task import BackgroundTask, PacedDrawing, WorkWords
 from app.background.workers import Job
 from app.pages.words import machine_words
+from widgets.basics.labels import Readout
 from widgets.basics.message_bar import Progress
-from widgets.basics.readout import Readout
 from widgets.charts.family_list import FamilyEntry, FamilyList
 
 

@@ -11,7 +11,7 @@ from app.session.session import Session
 from app.views.hidden_backs import HiddenBacks
 from app.views.pixel_ray import pixel_marks
 from app.views.pointed_pixel import pointed_pixels
-from app.views.scene_figures import drawing_text, figures_text
+from app.views.scene_figures import OWN_SIZE, drawing_text, figures_text, fixed_size, size_choices
 from app.views.scene_picture import (
     DrawnScene,
     SceneShot,
@@ -21,15 +21,13 @@ from app.views.scene_picture import (
     space_words,
     triangle_seen,
 )
-from app.views.scene_sizes import OWN_SIZE, fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
-from app.views.vertex_drag import move_corner_to
-from app.views.view_space import ViewSpace, make_space, thinned
+from app.views.view_space import ViewSpace, make_space, move_corner_to, thinned
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
 from core.scene import AnyScene, Scene
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.space.frame_rate import FrameRate
+from widgets.space.frame_corner import FrameRate
 from widgets.space.orbit import Orbit, fitted
 from widgets.space.scene_view import SceneHandle, ScenePicture, SceneView
 
@@ -133,7 +131,7 @@ class Scene3dPresenter(QObject):
 
     @Slot(str)
     def choose_size(self, name: str) -> None:
-        """Draw at a size of ``app.views.scene_sizes``, by its name."""
+        """Draw at a size of ``app.views.scene_figures``, by its name."""
         self._size_name = name
         self._offer_sizes()
 

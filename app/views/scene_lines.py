@@ -23,7 +23,7 @@ class SpaceLine:
     points: Floats = field(repr=False)
     """(N, 3) float64; a point that is not finite interrupts it."""
     ink: str
-    """Name of a colour, see ``widgets.basics.ink``."""
+    """Name of a colour, see ``widgets.basics.theme``."""
     width: int = 1
     """Pixels."""
     hidden: float = 0.25

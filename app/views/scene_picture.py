@@ -19,8 +19,7 @@ from core.raster.pixel_runs import make_raster
 from core.records.arrays import Floats, Integers
 from core.scene import AnyScene, Scene
 from core.trace import scene_triangle_count
-from widgets.basics.ink import ink_color
-from widgets.basics.theme import Theme
+from widgets.basics.theme import Theme, ink_color
 from widgets.space.orbit import Orbit
 from widgets.space.view_depth import ViewDepth
 

@@ -1,7 +1,8 @@
 """The space that the 3D view shows: the world of a scene, or the view volume of triangles in clip space.
 
 Both are reached from clip space by one matrix: back through camera and projection into the world, or from
-NDC to a box that is as wide as the picture and has the near plane in front.
+NDC to a box that is as wide as the picture and has the near plane in front. A corner that is dragged in it
+takes the same way back.
 """
 
 from dataclasses import dataclass, replace
@@ -9,6 +10,7 @@ from math import inf
 
 import numpy as np
 
+from app.session.scene_edits import set_clip_corner
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import projection, transform, world_to_camera
 from core.geometry.polygon_clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
@@ -175,3 +177,41 @@ def _mesh_of(mesh: Mesh, chosen: Integers) -> Mesh:
         colors=None if mesh.colors is None else mesh.colors[used],
         faces=None,
     )
+
+
+def move_corner_to(space: ViewSpace, triangle: int, corner: int, place: Floats) -> AnyScene:
+    """Return the scene with a corner at a place (3,) of the space that is shown.
+
+    In the world all triangles of the vertex move along. In the box of the view volume the corner keeps its w.
+
+    Raises
+    ------
+    ValueError
+        If the corner has no place there (w <= 0), or the mesh is flattened so that no vertex can get there.
+    """
+    scene = space.scene
+    if isinstance(scene, ClipScene):
+        w = scene.clip[triangle, corner, 3]
+        if w <= 0:
+            raise ValueError(
+                "a corner with w ≤ 0 has no place in the view volume and cannot be dragged there"
+            )
+        ndc = np.linalg.solve(space.from_clip, np.append(place, 1.0))
+        return set_clip_corner(scene, triangle, corner, ndc / ndc[3] * w)
+    vertex = int(space.vertices.corners[triangle, corner])
+    index, local = 0, vertex
+    while local >= len(scene.meshes[index].positions):
+        local -= len(scene.meshes[index].positions)
+        index += 1
+    mesh = scene.meshes[index]
+    try:
+        moved = np.linalg.solve(mesh.transform, np.append(place, 1.0))
+    except np.linalg.LinAlgError:
+        raise ValueError(
+            f"{mesh.name} is flattened by its transform: its vertices cannot be dragged"
+        ) from None
+    positions = mesh.positions.copy()
+    positions[local] = moved[:3] / moved[3]
+    meshes = list(scene.meshes)
+    meshes[index] = replace(mesh, positions=positions)
+    return replace(scene, meshes=tuple(meshes))

@@ -20,7 +20,7 @@ from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
 from app.window.appearance import Look, the_application
-from app.window.key_focus import has_use_for
+from app.window.keys import has_use_for
 from app.window.menus import Menus
 from app.window.message_words import sentence_case
 from app.window.overlays import Overlays

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QStandardPaths
 
-from app.files.field_problems import field_problem
 from app.files.file_writing import FileWriteError, make_folder, whole_file
+from app.files.saved_records import field_problem
 from core.stages.declared import STAGES
 
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"

@@ -16,8 +16,7 @@ from PySide6.QtWidgets import (
 from widgets.atlas.format_probe import DialRow, DialView
 from widgets.basics.flow_layout import FlowLayout
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import LinkedGrids
-from widgets.grid.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
+from widgets.grid.linked_grids import LinkedGrids, Pixel, button_with_tip, closing_button, reading_at
 
 WORDS = ("Picture", "Times covered")
 

@@ -4,11 +4,10 @@ from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
-from widgets.atlas.canvas import AtlasCanvas
-from widgets.atlas.paint import paint_cell
+from widgets.atlas.canvas import AtlasCanvas, paint_cell
 from widgets.atlas.records import UNKNOWN, AtlasRecord, CellKind, CellPlace
-from widgets.basics.elided_label import ElidedLabel
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.labels import ElidedLabel
 from widgets.basics.theme import current_theme, theme_notifier
 
 

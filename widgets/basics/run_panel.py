@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.basics.elided_label import ElidedLabel
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.labels import ElidedLabel
 from widgets.basics.message_bar import Progress
 
 Named = Sequence[tuple[str, str]]

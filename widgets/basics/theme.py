@@ -1,4 +1,4 @@
-"""The look of the program as one frozen record: named colours, text sizes and the 4-px rhythm.
+"""The appearance of the program as one frozen record: named colours, text sizes and the 4-px rhythm.
 
 One colour means one thing. Vertices, edges and weights 0, 1, 2 are blue, orange and green of the Okabe-Ito
 palette in every theme; the accent marks the step just done and nothing else; focus and selection are neutral.
@@ -235,3 +235,28 @@ def relative_luminance(color: str) -> float:
     channels = (parsed.redF(), parsed.greenF(), parsed.blueF())
     linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def ink_color(ink: str, theme: Theme | None = None) -> str:
+    """Return the colour ``#rrggbb`` of an ink for lines and fills."""
+    theme = theme or current_theme()
+    if ink.startswith("#"):
+        return ink
+    if ink.startswith("vertex "):
+        return theme.vertex[int(ink[7:])]
+    return str(getattr(theme, ink))
+
+
+def ink_text_color(ink: str, theme: Theme | None = None) -> str:
+    """Return the shade of an ink that is readable as text."""
+    theme = theme or current_theme()
+    if ink.startswith("vertex "):
+        return theme.vertex_text[int(ink[7:])]
+    return theme.accent_text if ink == "accent" else ink_color(ink, theme)
+
+
+def faded(color: str, opacity: float) -> QColor:
+    """Return a colour ``#rrggbb`` with an opacity from 0 to 1."""
+    result = QColor(color)
+    result.setAlphaF(opacity)
+    return result

@@ -6,11 +6,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
-from widgets.basics.caption_paint import paint_empty
-from widgets.basics.ink import faded
+from widgets.basics.drawn_text import LabelPlaces, paint_empty
 from widgets.basics.key_claim import is_focus_by_keyboard
-from widgets.basics.label_places import LabelPlaces
-from widgets.basics.theme import current_theme, text_font
+from widgets.basics.theme import current_theme, faded, text_font
 from widgets.charts.canvas import ChartCanvas
 from widgets.charts.records import ChartEmpty, ChartMark, ChartPicture
 from widgets.charts.series_marks import series_color

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from widgets.basics.elided_label import ElidedLabel
+from widgets.basics.labels import ElidedLabel
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import LinkedGrids
-from widgets.grid.pointed_grids import Pixel, button_with_tip, closing_button, reading_at
+from widgets.grid.linked_grids import LinkedGrids, Pixel, button_with_tip, closing_button, reading_at
 
 WORDS = ("Picture", "Reference", "Difference")
 

@@ -15,7 +15,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
-from widgets.basics.caption_paint import paint_empty
+from widgets.basics.drawn_text import paint_empty
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.charts.series_marks import SeriesIcon
 

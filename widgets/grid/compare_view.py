@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from widgets.basics.choice_box import ChoiceBox
-from widgets.basics.settings_panel import Setting
+from widgets.basics.settings_panel import ChoiceBox, Setting
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import LinkedGrids

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.key_claim import KeyClaim
+from widgets.basics.labels import set_role
 from widgets.basics.marks import mark_pixmap
-from widgets.basics.roles import set_role
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.history_row import EntryDelegate, ValueHeader
 from widgets.inspector.pixel_story import (

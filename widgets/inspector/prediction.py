@@ -5,8 +5,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBox
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
+from widgets.basics.labels import set_role
 from widgets.basics.marks import Mark, mark_pixmap
-from widgets.basics.roles import set_role
 from widgets.basics.theme import current_theme, theme_notifier
 
 

@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
+from widgets.basics.labels import set_role
 from widgets.basics.marks import Mark, mark_pixmap
-from widgets.basics.roles import set_role
 from widgets.basics.theme import current_theme, theme_notifier
 
 

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
-from widgets.basics.elided_label import ElidedLabel
 from widgets.basics.fold import Fold
+from widgets.basics.labels import ElidedLabel, set_role
 from widgets.basics.marks import Mark, mark_pixmap
-from widgets.basics.roles import set_role
 from widgets.basics.theme import current_theme, theme_notifier
 
 

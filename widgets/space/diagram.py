@@ -1,7 +1,7 @@
 """What a drawing in space consists of: lines, faces, points and words, as frozen records.
 
 The space is right-handed with y up; the viewer at rest looks along -z. An ``ink`` is a name of
-:mod:`widgets.basics.ink`. Coordinates may be anything: what is not finite is left out, what is far away is cut.
+:mod:`widgets.basics.theme`. Coordinates may be anything: what is not finite is left out, what is far away is cut.
 """
 
 from dataclasses import dataclass, field

@@ -1,8 +1,11 @@
-"""The corner of a drawn view: what its last picture took, and a menu of sizes to draw it at."""
+"""The corner of a drawn view: what its last picture took, a menu of sizes, and where a picture of a size lies."""
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil
+from itertools import pairwise
+from math import ceil, floor
+from statistics import median
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
@@ -19,9 +22,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractButton, QMenu, QWidget
 
-from widgets.basics.ink import faded
 from widgets.basics.key_claim import KeyClaim
-from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.basics.theme import current_theme, faded, text_font, theme_notifier
 
 _MARGIN = 6
 _ARROW = 14
@@ -157,3 +159,57 @@ class FrameCorner(QAbstractButton):
     @Slot(QAction)
     def _choose(self, action: QAction) -> None:
         self.size_chosen.emit(action.data())
+
+
+WINDOW_SECONDS = 1.0
+"""The rate is that of the last so many seconds; a longer pause begins it anew."""
+
+
+class FrameRate:
+    """Remembers when the pictures of the last second were painted."""
+
+    def __init__(self) -> None:
+        self._times: deque[float] = deque()
+
+    def add(self, seconds: float) -> None:
+        """Take a picture that was painted at a time of one clock."""
+        if self._times and seconds - self._times[-1] > WINDOW_SECONDS:
+            self._times.clear()
+        self._times.append(seconds)
+        while seconds - self._times[0] > WINDOW_SECONDS:
+            self._times.popleft()
+
+    def per_second(self) -> float | None:
+        """Return the rate of the median interval between two pictures, ``None``: there was only one.
+
+        The median, because a hand that rests for a moment is no slow picture.
+        """
+        intervals = [after - before for before, after in pairwise(self._times)]
+        typical = median(intervals) if intervals else 0.0
+        return 1 / typical if typical > 0 else None
+
+
+def picture_area(room: QRectF, size: tuple[int, int], ratio: float) -> QRectF:
+    """Return the part of ``room`` that a picture fills, in the middle.
+
+    Parameters
+    ----------
+    room : QRectF
+        Logical pixels.
+    size : (width, height)
+        Of the picture in its own pixels.
+    ratio : float
+        Pixels of the screen to a logical pixel.
+
+    Notes
+    -----
+    A picture that is too large is made smaller until it fits. One that is smaller is magnified by a whole number
+    only, so that all of its pixels stay of one size; its border is on a pixel of the screen, so that they stay sharp.
+    """
+    width, height = max(room.width() * ratio, 1.0), max(room.height() * ratio, 1.0)
+    factor = min(width / size[0], height / size[1])
+    if factor >= 1:
+        factor = floor(factor)
+    columns, rows = size[0] * factor, size[1] * factor
+    left, top = floor((width - columns) / 2), floor((height - rows) / 2)
+    return QRectF(room.left() + left / ratio, room.top() + top / ratio, columns / ratio, rows / ratio)

@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from widgets.basics.ink import faded, ink_color, ink_text_color
-from widgets.basics.label_places import LabelPlaces
-from widgets.basics.theme import Theme, text_font
+from widgets.basics.drawn_text import LabelPlaces
+from widgets.basics.theme import Theme, faded, ink_color, ink_text_color, text_font
 from widgets.grid.line_clip import clip_segments
 from widgets.space.diagram import Diagram, Patch, Spot, Stroke
 from widgets.space.orbit import Orbit

@@ -19,17 +19,14 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.drawn_text import LabelPlaces, caption_height, paint_caption, paint_empty
 from widgets.basics.image import display_image
-from widgets.basics.ink import faded, ink_color
-from widgets.basics.label_places import LabelPlaces
-from widgets.basics.theme import Theme, current_theme
+from widgets.basics.theme import Theme, current_theme, faded, ink_color
 from widgets.space.diagram import Spot
-from widgets.space.frame_corner import FrameCorner, SizeChoice
+from widgets.space.frame_corner import FrameCorner, SizeChoice, picture_area
 from widgets.space.orbit import Orbit
 from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
 from widgets.space.paint import paint_label, paint_spot
-from widgets.space.picture_area import picture_area
 from widgets.space.view_depth import ViewDepth
 
 

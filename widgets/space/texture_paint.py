@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QBrush, QColor, QImage, QPainter, QPen, QPixmap, QPolygonF, QTransform
 
-from widgets.basics.ink import faded
-from widgets.basics.label_places import LabelPlaces
-from widgets.basics.theme import Theme, text_font
+from widgets.basics.drawn_text import LabelPlaces
+from widgets.basics.theme import Theme, faded, text_font
 from widgets.grid.buffer import number_text
 from widgets.grid.line_clip import clip_segments
 from widgets.space.paint import clip_polygon, paint_label

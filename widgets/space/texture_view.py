@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.drawn_text import caption_height, paint_caption, paint_empty
 from widgets.basics.image import buffer_image
 from widgets.basics.key_claim import KeyClaim, is_focus_by_keyboard
 from widgets.basics.theme import current_theme, theme_notifier

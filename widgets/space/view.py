@@ -5,7 +5,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
-from widgets.basics.caption_paint import caption_height, paint_caption, paint_empty
+from widgets.basics.drawn_text import caption_height, paint_caption, paint_empty
 from widgets.basics.theme import current_theme
 from widgets.space.diagram import Diagram
 from widgets.space.orbit import Orbit, framed

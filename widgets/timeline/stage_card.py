@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from core.explain.records import StageCard
-from widgets.basics.roles import set_role
+from widgets.basics.labels import set_role
 
 
 class StageCardView(QWidget):

@@ -1,4 +1,4 @@
-"""Runs studies off the GUI thread: measures, draws the pictures of points, finds where two of them part ways."""
+"""Runs studies off the GUI thread: measures, draws the pictures of points, finds where two of them diverge."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ from app.pages.step.opening_document import part_around
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study import Opening, Pictures, Point, Study, machine, measure, opening, pictures
+from core.study import Opening, Pictures, Plan, Point, Study, machine, measure, opening, pictures
 from core.study.accuracy.divergence import first_divergence
-from core.study.accuracy.family import Candidate
+from core.study.accuracy.family import Candidate, settings_of
 from core.trace import scene_triangle_count
 
 
@@ -187,3 +187,38 @@ def first_difference(first: Pictures, second: Pictures) -> tuple[int, int] | Non
         differs = differs.any(axis=2)
     places = np.argwhere(differs)
     return (int(places[0][1]), int(places[0][0])) if len(places) else None
+
+
+CHOICE, EVERYTHING = "What the scene needs", "Everything on"
+
+
+def plan_candidates(plan: Plan, base: Settings, others: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+    """Return what a plan chose, and everything on, as points of a study, unless they are among the ``others`` already.
+
+    The other points change ``base`` in one setting, or not at all: once a plan is applied it is the scene as it is.
+    """
+    taken = {other.method for other in others}
+    found = []
+    for settings, title in ((plan.settings, CHOICE), (plan.everything, EVERYTHING)):
+        method = _method(settings, base)
+        if method not in taken:
+            taken.add(method)
+            found.append(Candidate(method, title))
+    return tuple(found)
+
+
+def _method(settings: Settings, base: Settings) -> str:
+    """Return settings as the method of a point: what differs from ``base``, or one setting as it is."""
+    changed = [name for name in vars(settings) if getattr(settings, name) != getattr(base, name)]
+    return " ".join(f"{name}={getattr(settings, name)}" for name in changed or ["fill"])
+
+
+def chosen_points(study: Study, plan: Plan | None) -> tuple[str, ...]:
+    """Return the methods of a study that draw with the very settings that a plan chose."""
+    if plan is None:
+        return ()
+    return tuple(
+        point.method
+        for point in study.points
+        if point.is_measured and settings_of(study.settings, point.method) == plan.settings
+    )

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QWidget
 from app.pages.compare.charts import MOST_NAMED, growth_of, numbers_of, scatter_of
 from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
 from app.pages.compare.figures import point_text, study_text, table_of
-from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult
-from app.pages.plan.points import chosen_points, plan_candidates
+from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult, chosen_points, plan_candidates
 from app.pages.result_presenter import ResultPresenter, ResultWords
 from app.pages.words import work_sentence
 from app.session.session import Session
@@ -19,7 +18,7 @@ from core.explain.number_text import counted
 from core.settings import Settings
 from core.study.accuracy.record import Point, Study
 from core.study.accuracy.whole_picture import PIPELINE, SAMPLED_COLOR
-from widgets.basics.readout import Readout
+from widgets.basics.labels import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend

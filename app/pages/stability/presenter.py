@@ -20,12 +20,13 @@ from app.pages.stability.records import (
     cells_of,
     counts_sentence,
     experiment_text,
+    has_curves,
     method_titles,
     place_on_curve,
     place_sentence,
+    severity_chart,
     values_at,
 )
-from app.pages.stability.severity_curves import has_curves, severity_chart
 from app.session.session import Session
 from core.records.arrays import Floats
 from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
@@ -35,7 +36,7 @@ from core.study.stability.stress import axes_at
 from widgets.atlas.records import UNKNOWN, CellPlace
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView
-from widgets.basics.readout import Readout
+from widgets.basics.labels import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend

@@ -1,4 +1,4 @@
-"""From an atlas to what the page shows: maps, the figures of a cell, and the picture of a case."""
+"""From an atlas to what the page shows: maps, curves of severity, the figures of a cell, the picture of a case."""
 
 from collections.abc import Mapping
 from html import escape
@@ -7,19 +7,20 @@ from math import isnan
 import numpy as np
 from numpy.typing import NDArray
 
-from app.export.atlas_text import WORDS
+from app.export.atlas_text import MARKS, WORDS
 from app.pages.stability.choices import AtlasResult, ExperimentChoice
 from app.pages.stability.jobs import CaseFound, ShrunkFound
-from app.pages.stability.outcome_looks import cell_kinds
 from app.pages.words import machine_words
 from core import Frame
 from core.explain.number_text import counted, number_text
 from core.framebuffer.display import to_display
+from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
 from widgets.atlas.case_view import CaseRecord
-from widgets.atlas.records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellPlace
+from widgets.atlas.records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace
+from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 from widgets.grid.buffer import GridBuffer
 
 Cells = Mapping[str, NDArray[np.int16]]
@@ -223,3 +224,74 @@ def counts_sentence(result: AtlasResult) -> str:
     if not total:
         return f"None of {cells:,} runs fails."
     return f"{total:,} of {cells:,} runs fail; {worst} most often, {fails[worst]:,} times."
+
+
+COLORS = {
+    Outcome.RIGHT: "#E8EEF2",
+    Outcome.HOLE: "#0072B2",
+    Outcome.DOUBLE_HIT: "#D55E00",
+    Outcome.WRONG_ORDER: "#CC79A7",
+    Outcome.NOT_A_NUMBER: "#000000",
+    Outcome.OVERFLOW: "#8A7A00",
+    Outcome.WRONG_PICTURE: "#882255",
+    Outcome.REFUSED: "#BBBBBB",
+}
+"""Colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008); wine (P. Tol, 2021) where they have green.
+
+Nothing that fails is green: a map of green cells would be read as one where all is well.
+"""
+DARK = {Outcome.HOLE, Outcome.DOUBLE_HIT, Outcome.NOT_A_NUMBER, Outcome.OVERFLOW, Outcome.WRONG_PICTURE}
+"""Outcomes whose character is white."""
+ON_DARK = {
+    Outcome.RIGHT: ("#2f3940", "#8d979f"),
+    Outcome.HOLE: ("#2f94d1", "#000000"),
+    Outcome.DOUBLE_HIT: ("#f07b23", "#000000"),
+    Outcome.NOT_A_NUMBER: ("#ffffff", "#000000"),
+    Outcome.OVERFLOW: ("#d8c400", "#000000"),
+    Outcome.WRONG_PICTURE: ("#c4548c", "#000000"),
+    Outcome.WRONG_ORDER: ("#d98cb8", "#000000"),
+    Outcome.REFUSED: ("#5a6066", "#ffffff"),
+}
+"""Fill and ink on a dark background: what is right keeps back, what is wrong is seen."""
+
+
+def cell_kinds() -> tuple[CellKind, ...]:
+    """Return the look of every outcome, in the order of `Outcome`."""
+    return tuple(
+        CellKind(
+            WORDS[outcome],
+            "·" if outcome is Outcome.RIGHT else MARKS[outcome],
+            (COLORS[outcome], ON_DARK[outcome][0]),
+            ("#ffffff" if outcome in DARK else "#3a4148", ON_DARK[outcome][1]),
+        )
+        for outcome in Outcome
+    )
+
+
+SEVERITY = "Severity, how wrong a run is"
+BELOW_ZERO = "This axis has values below 0, which have no place on a logarithmic axis: the maps show them."
+NOTHING_RUN = (
+    "How wrong each method is along the axis, one line for each; it comes with the cells of the map."
+)
+
+
+def has_curves(info: ExperimentInfo) -> bool:
+    """Return whether an experiment has one axis, so that severity can be drawn against it."""
+    return len(info.axes) == 1
+
+
+def severity_chart(
+    axis: Axis, severities: Mapping[str, Floats], titles: Mapping[str, str]
+) -> ChartPicture | ChartEmpty:
+    """Return the chart of the severities (N,) of methods at the N values of an axis; NaN has no place."""
+    if min(axis.values) < 0:
+        return ChartEmpty(BELOW_ZERO)
+    numbers = {method: number for number, method in enumerate(titles)}
+    series = tuple(
+        ChartSeries(method, titles[method], numbers[method], np.array(axis.values), values)
+        for method, values in severities.items()
+        if not np.isnan(values).all()
+    )
+    if not series:
+        return ChartEmpty(NOTHING_RUN)
+    return ChartPicture(ChartAxis(axis.title, axis.unit), ChartAxis(SEVERITY), series, is_named=False)

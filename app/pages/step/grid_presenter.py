@@ -5,17 +5,16 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.pages.step.area_overlays import area_overlays
-from app.pages.step.clip_overlays import clip_overlays
+from app.pages.step.cut_overlays import area_overlays, clip_overlays
 from app.pages.step.grid_records import (
     block_overlay,
     buffers_of,
     edge_overlay,
     geometry_of,
     mask_overlays,
+    sample_dots,
     span_overlay,
 )
-from app.pages.step.sample_records import sample_dots
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Session
 from core.records.arrays import Integers

@@ -11,6 +11,7 @@ from core.framebuffer.display import to_display
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.records.arrays import Integers
+from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace
 from widgets.grid.buffer import BufferKind, GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -25,6 +26,7 @@ from widgets.grid.overlay import (
     SegmentOverlay,
     SpanOverlay,
 )
+from widgets.grid.sample_dots import SampleDots
 
 OUTLINE_LIMIT = 400
 """Triangles up to which every outline is drawn; of more, only the one in focus: a part would look like a shape."""
@@ -210,3 +212,47 @@ def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverla
         axis=1,
     )
     return SpanOverlay("spans", spans)
+
+
+COVERED = ("interpolate", "shade")
+"""Stages behind the raster that do not know yet what is hidden: every sample has the last triangle that covers it."""
+SEEN = ("blend", "resolve")
+"""Stages behind the depth test."""
+
+
+def sample_dots(trace: Trace, stage: StageTrace, position: int, is_hidden: bool) -> SampleDots | None:
+    """Return the samples after a step; ``None``: a pixel has one.
+
+    Parameters
+    ----------
+    is_hidden : bool
+        Whether the result is to be predicted: then no sample tells it.
+    """
+    source = trace.source
+    count = resolve(source.settings).sampling.count
+    if count == 1:
+        return None
+    done = stage.steps.rows_done(position)
+    shown: Integers = np.full((count, *source.raster.shape), -1)
+    if stage.stage == "raster":
+        _mark_covered(shown, trace, stage, done)
+    elif stage.stage in COVERED:
+        raster = trace.stage("raster")
+        _mark_covered(shown, trace, raster, raster.steps.row_count)
+    elif stage.stage == "depth":
+        tracks = {track.name: track for track in stage.buffers}
+        for sample in range(count):
+            shown[sample] = tracks[f"primitive {sample}" if sample else "primitive"].at(done)
+    elif stage.stage in SEEN and not is_hidden:
+        samples = source.picture.samples
+        assert samples is not None
+        shown[:] = samples.primitive
+    return SampleDots(resolve(source.settings).sampling.position, shown)
+
+
+def _mark_covered(shown: Integers, trace: Trace, raster: StageTrace, done: int) -> None:
+    """Give samples (S, H, W) to the triangles that ``done`` rows have found to cover them, the last one of each."""
+    covered = np.flatnonzero(raster.marks["covered"][:done] & (raster.pixel[:done, 0] >= 0))
+    place = trace.source.raster.index(*raster.pixel[covered].T)
+    of_sample = shown.reshape(len(shown), -1)
+    of_sample[raster.columns["sample"][covered], place] = raster.triangle[covered]

@@ -20,8 +20,8 @@ from app.bench.machine import this_machine
 from app.bench.random_triangles import random_triangles
 from app.bench.report import foot_text, result_text
 from app.bench.results_file import results_text
+from app.bench.scenes import WORKLOADS, Workload
 from app.bench.timing import SHORT_CALLS, time_in_turn
-from app.bench.workloads import WORKLOADS, Workload
 
 SMALL = Workload("B", "a few triangles", lambda: random_triangles(1, 40, (40, 30), 40.0))
 """Has the name of a workload with goals."""

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from app.bench import cold_start, ours, ours_shared, pillow_peer
-from app.bench.checking import Difference, compare
 from app.bench.meshes import TO_LIGHT, textured_floor, viewed
 from app.bench.random_triangles import large_triangle, random_triangles
 from app.bench.records import ColdStart, Lighting, Lines, ViewedMesh, Work
-from app.bench.reference import make_reference
+from app.bench.reference import Difference, compare, make_reference
 from core.fast_path.workers import Sharing
 from core.geometry.matrices import projection, world_to_camera
 from core.scene import Camera

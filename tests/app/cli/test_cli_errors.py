@@ -111,7 +111,7 @@ def test_a_method_that_the_scene_cannot_serve(tmp_path):
 
 
 def test_a_picture_larger_than_the_memory_is_refused(monkeypatch):
-    import app.files.drawing_memory as memory
+    import app.cli.render as memory
 
     monkeypatch.setattr(memory, "BYTES_PER_BLENDED_PIXEL", 1 << 50)
     memory.check_memory((64, 48), Settings())
@@ -121,7 +121,7 @@ def test_a_picture_larger_than_the_memory_is_refused(monkeypatch):
 
 @pytest.mark.skipif(not hasattr(os, "sysconf"), reason="the memory of the machine is not known")
 def test_samples_count_as_memory(monkeypatch):
-    import app.files.drawing_memory as memory
+    import app.cli.render as memory
 
     present = {"SC_PHYS_PAGES": 1 << 18, "SC_PAGE_SIZE": 4096}
     monkeypatch.setattr(os, "sysconf", present.__getitem__)

@@ -11,10 +11,17 @@ from hypothesis.extra.numpy import arrays
 
 from app.session.document import open_document
 from app.views.hidden_backs import HiddenBacks
-from app.views.scene_figures import COLORS, VISIBILITIES, FrameFigures, drawing_text, figures_text
+from app.views.scene_figures import (
+    COLORS,
+    VISIBILITIES,
+    FrameFigures,
+    drawing_text,
+    figures_text,
+    fixed_size,
+    size_choices,
+)
 from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines, visible_part
 from app.views.scene_picture import SceneShot, draw_scene, sight_places, triangle_seen
-from app.views.scene_sizes import fixed_size, size_choices
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
 from core import STAGES, Settings, render

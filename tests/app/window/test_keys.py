@@ -6,8 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
 from pytestqt.qtbot import QtBot
 
-from app.window.key_focus import has_use_for
-from app.window.keys import ACTIONS, key_text
+from app.window.keys import ACTIONS, has_use_for, key_text
 from app.window.main_window import MainWindow
 from app.window.menus import MENUS
 from core import STAGES

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from widgets.basics.label_places import LabelPlaces
+from widgets.basics.drawn_text import LabelPlaces
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, contrast
 from widgets.charts.chart import Chart

@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from widgets.basics.elided_label import ElidedLabel
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.labels import ElidedLabel
 from widgets.basics.message_bar import Progress
 from widgets.charts.dial_control import DialChoice
 from widgets.charts.family_list import FamilyEntry, FamilyList

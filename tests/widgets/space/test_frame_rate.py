@@ -1,6 +1,6 @@
 import pytest
 
-from widgets.space.frame_rate import FrameRate
+from widgets.space.frame_corner import FrameRate
 
 
 def rate_of(*times: float) -> float | None:

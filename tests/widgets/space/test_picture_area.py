@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import QRectF
 
-from widgets.space.picture_area import picture_area
+from widgets.space.frame_corner import picture_area
 
 ROOM = QRectF(0, 0, 600, 400)
 

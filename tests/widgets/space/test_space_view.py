@@ -5,7 +5,7 @@ from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.basics.label_places import LabelPlaces
+from widgets.basics.drawn_text import LabelPlaces
 from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
 from widgets.space.paint import clip_polygon
 from widgets.space.view import SpaceView

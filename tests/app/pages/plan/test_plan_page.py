@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.compare.charts import title_of
+from app.pages.compare.jobs import chosen_points, plan_candidates
 from app.pages.compare.page import ComparePage
 from app.pages.plan.page import PlanPage
-from app.pages.plan.points import chosen_points, plan_candidates
 from app.pages.plan.words import details, headline, rows_of
 from app.window.main_window import MainWindow
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan

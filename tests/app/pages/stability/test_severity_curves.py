@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from app.export.atlas import atlas_sheet
 from app.pages.stability.page import StabilityPage
-from app.pages.stability.severity_curves import BELOW_ZERO, NOTHING_RUN, severity_chart
+from app.pages.stability.records import BELOW_ZERO, NOTHING_RUN, severity_chart
 from app.window.main_window import MainWindow
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 from widgets.atlas.records import CellPlace

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pages.step.area_overlays import area_overlays
+from app.pages.step.cut_overlays import area_overlays
 from core import ClipScene, Settings, trace
 
 CLIP = [[[-1, -1, 0, 1], [0.5, -1, 0, 1], [-1, 0.75, 0, 1]]]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pages.step.clip_overlays import clip_overlays, cross_segments
+from app.pages.step.cut_overlays import clip_overlays, cross_segments
 from app.views.clip_diagram import clip_state, is_in_ndc
 from core import ClipScene, Settings, trace
 from core.records.steps import Level

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pages.step.sample_records import sample_dots
+from app.pages.step.grid_records import sample_dots
 from core import Settings, render, trace
 from lessons.scenes import make_scene
 
