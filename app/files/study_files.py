@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from app.files.file_writing import whole_file
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_files import readable_json
 from app.files.state_models import Count, Record
@@ -89,18 +88,6 @@ class StudyRecord(Record):
     measures: Annotated[tuple[MeasureRecord, ...], Field(min_length=1)]
     points: tuple[PointRecord, ...]
     growth: tuple[GrowthRecord, ...]
-
-
-def save_study(path: str | Path, study: Study) -> None:
-    """Write a study file.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; what stood there stays. The message is one sentence.
-    """
-    with whole_file(path) as file:
-        file.write(study_json(study).encode())
 
 
 def study_json(study: Study) -> str:

@@ -8,7 +8,7 @@ from app.views.clip_diagram import clip_diagram, clip_state
 from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
 from app.views.scene3d_presenter import Scene3dPresenter
-from app.views.texture_footprint import no_texture_reason, texture_of, texture_pictures
+from app.views.texture_footprint import texture_pictures
 from core import STAGES
 from widgets.space.scene_view import SceneView
 from widgets.space.texture_levels import TextureLevels
@@ -72,16 +72,6 @@ class StageViews(QObject):
     def is_drawing(self) -> bool:
         """Whether a picture is still being drawn in the background."""
         return self._scene_presenter.is_drawing
-
-    def is_available(self, name: str) -> tuple[bool, str]:
-        """Return whether a view has something to show for the present document, and else why not."""
-        if name not in self._views:
-            raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
-        if name == "texture":
-            triangle = shown_triangle(self._session)
-            if texture_of(self._session.trace.source, triangle) is None:
-                return False, no_texture_reason(self._session, triangle)
-        return True, ""
 
     def show(self, name: str) -> None:
         """Bring a view up to date, as when it is about to be seen."""

@@ -213,10 +213,6 @@ class BufferStrip(QWidget):
         for tile in self._tiles.values():
             tile.grid.set_view(view)
 
-    def hidden_names(self) -> frozenset[str]:
-        """Return the names of the buffers that the user does not want to see, also of absent ones."""
-        return self._hidden
-
     def set_hidden_names(self, names: frozenset[str]) -> None:
         """Hide these buffers, as they were left; emits nothing."""
         self._hidden = frozenset(names)

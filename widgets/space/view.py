@@ -47,11 +47,6 @@ class SpaceView(OrbitArea):
             self._refit()
         self.update()
 
-    def show_home(self) -> None:
-        """Look from where the drawing is first seen, as if the user had never turned it; emits nothing."""
-        self._is_own_view = False
-        self._refit()
-
     def fit(self) -> None:
         """Show the whole drawing from the present direction, as the user's wish."""
         if self._diagram is not None:

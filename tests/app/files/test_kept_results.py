@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.file_writing import FileWriteError
 from app.files.kept_results import LARGEST, KeptResults, remove_oldest, results_folder, write_result
-from app.files.study_files import load_study, save_study
+from app.files.study_files import load_study, study_json
 from app.pages.compare.page import ComparePage
 from app.pages.stability.page import StabilityPage
 from app.session.document import open_document
@@ -90,7 +90,7 @@ def test_an_atlas_is_there_again_and_one_of_a_scene_says_that_it_has_none(
 def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWindow, qtbot: QtBot) -> None:
     results_folder().mkdir(parents=True)
     (results_folder() / "study-cull.json").write_text("{")
-    save_study(results_folder() / "study-line.json", hand_made())
+    (results_folder() / "study-line.json").write_text(study_json(hand_made()), encoding="utf-8")
     page = compare_page(keeping)
     page.results.show_named("line")
     qtbot.waitUntil(lambda: page.results.study is not None, timeout=20000)

@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from app.export.study import export_study, study_content, study_csv, study_sheet
-from app.files.study_files import StudyFileError, load_study, save_study
+from app.files.study_files import StudyFileError, load_study, study_json
 from app.pages.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
@@ -76,16 +76,16 @@ def point_dict(point: Point) -> dict:
 
 
 def test_a_saved_study_opens_again(study: Study, tmp_path: Path) -> None:
-    save_study(tmp_path / "a.json", study)
+    (tmp_path / "a.json").write_text(study_json(study), encoding="utf-8")
     again = load_study(tmp_path / "a.json")
     assert as_dict(again) == as_dict(study)
-    save_study(tmp_path / "b.json", again)
+    (tmp_path / "b.json").write_text(study_json(again), encoding="utf-8")
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
 def test_a_measured_study_opens_again(tmp_path: Path) -> None:
     measured = measure("cull", dials={"rings": 4}, rounds=1, grow=False, machine=machine("1"))
-    save_study(tmp_path / "a.json", measured)
+    (tmp_path / "a.json").write_text(study_json(measured), encoding="utf-8")
     assert as_dict(load_study(tmp_path / "a.json")) == as_dict(measured)
 
 
@@ -105,7 +105,7 @@ def test_a_file_that_is_not_right_is_told_in_one_sentence(
     study: Study, tmp_path: Path, change, message: str
 ) -> None:
     path = tmp_path / "a.json"
-    save_study(path, study)
+    path.write_text(study_json(study), encoding="utf-8")
     found = json.loads(path.read_text())
     change(found)
     path.write_text(json.dumps(found))

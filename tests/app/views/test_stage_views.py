@@ -9,8 +9,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.session.document import focus_on, open_document
 from app.session.session import Session
+from app.views.pointed_pixel import shown_triangle
 from app.views.scene_picture import fractions
 from app.views.stage_views import StageViews
+from app.views.texture_footprint import no_texture_reason
 from app.views.view_space import thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.fast_path.workers import BandWorkers
@@ -223,14 +225,11 @@ def test_views_follow_the_session(show):
 
 
 def test_what_does_not_apply_says_why(show):
-    _, views, widget = show("texture", "single-triangle")
-    assert views.is_available("scene") == (True, "")
-    is_available, reason = views.is_available("texture")
-    assert not is_available
+    session, views, widget = show("texture", "single-triangle")
     assert widget.pictures() == ()
-    assert widget.accessibleDescription() == reason
+    assert widget.accessibleDescription() == no_texture_reason(session, shown_triangle(session))
     with pytest.raises(ValueError, match="view must be one of"):
-        views.is_available("nothing")
+        views.show("nothing")
 
 
 def test_show_brings_a_hidden_view_up_to_date(show):

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.save_dialog import SaveDialog
-from app.files.study_files import load_study, save_study
+from app.files.study_files import load_study, study_json
 from app.pages.compare.charts import TIME
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
@@ -59,7 +59,7 @@ def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "old.json"
-    save_study(path, hand_made())
+    path.write_text(study_json(hand_made()), encoding="utf-8")
     drop(window, path)
     page = window.pages.current
     assert isinstance(page, ComparePage)
