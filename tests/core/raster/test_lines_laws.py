@@ -206,6 +206,10 @@ def test_integer_methods_differ_only_at_ties(ends):
             assert exact.denominator == 2
 
 
+@example(start=(1.25, 3.0), end=(7.5, 3.0), last_pixel=False)
+@example(start=(7.5, 3.0), end=(1.25, 3.0), last_pixel=True)
+@example(start=(3.0, 1.25), end=(3.0, 7.5), last_pixel=False)
+@example(start=(3.0, 7.5), end=(3.0, 1.25), last_pixel=True)
 @given(start=st.tuples(*[COORDINATE] * 2), end=st.tuples(*[COORDINATE] * 2), last_pixel=st.booleans())
 def test_diamond_exit_obeys_its_definition(start, end, last_pixel):
     # Snapped ends, so that both see the same line; the definition is tried on all pixels around.
