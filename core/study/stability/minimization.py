@@ -35,7 +35,7 @@ class Parts:
     """What it was taken from; the rest of it stays."""
 
     def changed(self, **numbers: Floats) -> "Parts":
-        """Return the same with other numbers."""
+        """Return the same with other numbers, any shape."""
         return replace(self, numbers=self.numbers | numbers)
 
 
@@ -56,7 +56,7 @@ class Field:
     """If there are more numbers, all of them stay."""
 
     def places(self, values: Floats) -> Iterator[tuple[Any, ...]]:
-        """Yield the indices of single numbers, or of those that change together."""
+        """Yield the indices of single values, any shape, or of those that change together: (N, 3, C) if tied."""
         if len(values.ravel()) > self.most:
             return
         if not self.is_tied:

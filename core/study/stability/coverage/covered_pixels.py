@@ -122,7 +122,10 @@ def coverage_experiment(
     wanted: Wanted = as_given,
     base: Settings = EVERY_PIXEL,
 ) -> CoverageExperiment:
-    """Return an experiment on triangles; of a mesh that covers everything once, parts are judged as parts."""
+    """Return an experiment on triangles; of a mesh that covers everything once, parts are judged as parts.
+
+    ``wanted`` gives how often each pixel is to be covered, (H, W).
+    """
     whole = partial(CoverCase, wanted=wanted)
     part = MeshPartCase if wanted is once_everywhere else whole
     return CoverageExperiment(info, make, part, "raster", base, whole=whole, wanted=wanted)
