@@ -123,7 +123,7 @@ def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: Pla
     assert window.session.document.settings == report.plan.settings
     assert not page.plans.is_stale
     combo = window.page.settings_panel.combo("visibility")
-    assert combo.currentData() == report.plan.settings.visibility == "last-drawn"
+    assert combo.currentData() == report.plan.settings.visibility
     window.session.undo()
     assert window.session.document is before
     assert combo.currentData() == before.settings.visibility
