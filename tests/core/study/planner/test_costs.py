@@ -37,7 +37,7 @@ def test_sixteen_samples_take_longer_than_one() -> None:
 def test_a_larger_picture_is_predicted_to_take_longer() -> None:
     small, large = (sphere_scene(6, side) for side in (64, 640))
     times = [TriedCosts(scene).seconds((everything_on(scene),))[0] for scene in (small, large)]
-    assert times[1] > 10 * times[0]
+    assert times[1] > times[0]
 
 
 @pytest.mark.parametrize("family", [name for name in STAGES if name != "antialiasing"])
