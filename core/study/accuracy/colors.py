@@ -21,7 +21,7 @@ from core.trace import trace
 
 TEXELS = 256
 """Texels on a side of the texture."""
-DENSITIES = Dial("density", "Texels for a pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 4)
+DENSITIES = Dial("density", "Texels per pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 4)
 SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
 
 

@@ -145,7 +145,7 @@ class _Pipeline(StudyFamily):
 
     def candidates(self, base: Settings) -> tuple[Candidate, ...]:
         """Return the settings as they are, then every change of one of them."""
-        found = [Candidate(f"fill={base.fill}", "As it is")]
+        found = [Candidate(f"fill={base.fill}", "Unchanged")]
         for family in families():
             for name in table.names(family):
                 if name != getattr(base, family) and not no_effect(base, family):
@@ -153,7 +153,7 @@ class _Pipeline(StudyFamily):
         return tuple(found)
 
 
-PICTURE = WorkKind("scene", "The scene as it is seen", "frame", (SCALES,))
+PICTURE = WorkKind("scene", "Current view", "frame", (SCALES,))
 PIPELINE = _Pipeline("pipeline", "Whole pipeline", (), (PICTURE,), MEASURES, make_pipeline, takes_scene=True)
 
 

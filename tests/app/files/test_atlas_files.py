@@ -39,7 +39,7 @@ def test_an_atlas_is_exported_and_opened_again(
     assert (tmp_path / "atlas.pdf").read_bytes().startswith(b"%PDF")
     rows = list(csv.DictReader((tmp_path / "atlas.csv").read_text().splitlines()))
     assert len(rows) == sum(each.outcome.size for each in atlas.maps)
-    assert atlas.experiment.claim.split(";")[0] in (tmp_path / "atlas.svg").read_text().replace("\n", " ")
+    assert atlas.experiment.claim.split(". ")[0] in (tmp_path / "atlas.svg").read_text().replace("\n", " ")
     assert {row["date"] for row in rows} == {atlas.machine["date"]}
     page.results.choice.result = None
     window.pages.show_page("step")

@@ -209,7 +209,7 @@ def test_pipeline_measures_the_scene_and_settings_that_are_given() -> None:
     assert study.scene == "two"
     assert study.settings == base
     points = by_method(study)
-    assert points["fill=spans"].title == "As it is"
+    assert points["fill=spans"].title == "Unchanged"
     assert points["fill=spans"].counts["triangles drawn"] < points["cull=none"].counts["triangles drawn"]
     assert points["shading=unlit"].errors["mean-color"] > points["fill=spans"].errors["mean-color"]
     assert "line=dda" not in points

@@ -68,14 +68,15 @@ SIGNS_OF_W = coverage_experiment(
     ExperimentInfo(
         "signs-of-w",
         "w through 0, mixed signs",
-        "Two corners of a triangle move through the eye's plane, each by itself: which methods draw what is in front?",
+        "Two corners of a triangle move through the eye's plane, independently. Which methods draw the part in "
+        "front?",
         (
             Axis("second", "w of the second corner", "", SIGNS),
             Axis("third", "w of the third corner", "", SIGNS),
         ),
         CLIPPINGS,
-        "Projecting first is right only while all w > 0: corners behind the eye are mirrored, and with w = "
-        "0 nothing is drawn; clipping in clip space and homogeneous edge functions are right for all signs.",
+        "Projecting first is right only while all w > 0: it mirrors corners behind the eye, and draws nothing "
+        "where w = 0. Clipping in clip space and homogeneous edge functions are right for all signs.",
     ),
     signs_of_w,
     base=NOT_SNAPPED,
@@ -84,14 +85,14 @@ AFTER_DIVIDE = coverage_experiment(
     ExperimentInfo(
         "clip-after-divide",
         "Clipping after the division by w",
-        "A corner comes near the eye's plane and goes behind it: may the division come before the clipping?",
+        "A corner approaches the eye's plane and passes behind it. Can the division come before the clipping?",
         (
             Axis("size", "Size of the corner's w", "", tuple(2.0**k for k in range(-60, 1, 4)), True),
             Axis("side", "Sign of w", "", (-1.0, 0.0, 1.0)),
         ),
         CLIPPINGS,
-        "Dividing first is right for every w > 0, however small, and wrong for every w <= 0; clipping "
-        "before the division and homogeneous edge functions do not care.",
+        "Dividing first is right for every w > 0, however small, and wrong for every w <= 0. Clipping before the "
+        "division and homogeneous edge functions are always right.",
     ),
     through_small_w,
     base=NOT_SNAPPED,
@@ -100,14 +101,14 @@ CLIP_ORDER = coverage_experiment(
     ExperimentInfo(
         "clip-order",
         "An edge clipped from A to B and from B to A",
-        "Two triangles share an edge that crosses the border, in opposite directions: do they still fit together?",
+        "Two triangles share an edge that crosses the border, in opposite directions. Do they still meet?",
         (
             Axis("slope", "Slope of the edge", "1/256", tuple(map(float, range(1, 64, 4)))),
             Axis("ratio", "w of the second end over the first", "", RATIOS, True),
         ),
         CLIPPINGS,
-        "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may be "
-        "snapped apart; clipped from the inside end to the outside end they are one corner.",
+        "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may snap to "
+        "different places. Clipped from the inside end to the outside end, they are one corner.",
     ),
     pair_over_the_border,
     once_everywhere,

@@ -33,7 +33,7 @@ INCREMENTAL = coverage_experiment(
     ExperimentInfo(
         "incremental-drift",
         "Edge functions by additions",
-        "A flat triangle is filled by adding a from pixel to pixel: how long until the sums have drifted?",
+        "A flat triangle is filled by adding a from pixel to pixel. When have the sums drifted?",
         (
             Axis("length", "Width of the triangle", "pixels", LENGTHS, True),
             Axis("rise", "Rise of its long side", "pixels", (0.7, 1.3, 1.9, 2.6, 3.3, 4.1, 5.3, 6.7)),
@@ -47,8 +47,8 @@ INCREMENTAL = coverage_experiment(
             "coverage=int64 fill=incremental",
             "coverage=float64",
         ),
-        "Sums in float16 drift from the start, and in float32 within a few thousand pixels, where "
-        "evaluating every pixel in float32 is still right; float64 and whole numbers do not drift.",
+        "Sums in float16 drift from the start, sums in float32 within a few thousand pixels, where evaluating "
+        "every pixel in float32 is still right. float64 and whole numbers do not drift.",
     ),
     long_triangle,
     on_its_lattice,
@@ -143,13 +143,13 @@ LINES = Experiment(
     ExperimentInfo(
         "line-drift",
         "Lines by an added slope",
-        "A line is drawn by adding its slope from column to column: how long may it be?",
+        "A line is drawn by adding its slope from column to column. How long may it be?",
         (
             Axis("length", "Length of the line", "columns", LENGTHS, True),
             Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
         ),
         ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
-        "Slopes added in float32 drift off the line within thousands of columns; sums in float64 and whole "
+        "Slopes added in float32 drift off the line within thousands of columns. Sums in float64 and whole "
         "numbers always take a nearest pixel.",
     ),
     line_at,

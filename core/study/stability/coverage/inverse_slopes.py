@@ -81,14 +81,14 @@ SLOPES = Experiment(
     ExperimentInfo(
         "inverse-slopes",
         "Spans by an added inverse slope",
-        "The sides of a triangle are walked by adding the inverse slope row by row: do the sums still round alike?",
+        "The sides of a triangle are followed by adding the inverse slope row by row. Do the sums still round to "
+        "the same pixel?",
         (
             Axis("height", "Height of the triangle", "rows", tuple(map(float, range(2, 62, 3)))),
             Axis("shift", "Place of the far corner", "columns", tuple(map(float, range(2, 32, 3)))),
         ),
         ("fill=scanline-lecture", "fill=scanline"),
-        "Inverse slopes added in float64 fall beside ties and round another way; spans in closed form do "
-        "not.",
+        "Inverse slopes added in float64 miss ties and round to another pixel. Spans in closed form do not.",
     ),
     level_triangle,
     SlopeCase,

@@ -145,28 +145,30 @@ PARALLEL = segment_experiment(
     ExperimentInfo(
         "parallel-segments",
         "Segments along a border",
-        "A segment lies along the upper border, its ends some ulp above or below: what is kept of it?",
+        "A segment lies along the upper border, its ends a few ulp above or below. Which part of it is kept?",
         (
             Axis("first", "First end above the border", "ulp", STEPS),
             Axis("second", "Second end above the border", "ulp", STEPS),
         ),
         CLIPPERS,
-        "Cyrus-Beck as printed keeps segments that are parallel to a border and outside of it; the others drop them.",
+        "Cyrus-Beck as printed keeps segments that are parallel to a border and outside it. The other methods "
+        "drop them.",
     ),
     along_the_border,
 )
 SHORT = segment_experiment(
     ExperimentInfo(
         "zero-length-segments",
-        "Segments of no length, or of a few ulp",
-        "A segment begins just right of the window; it has no length or reaches a few ulp: is it dropped outside?",
+        "Segments of zero length, or of a few ulp",
+        "A segment of zero length, or of a few ulp, begins just right of the window. Is it dropped where it lies "
+        "outside?",
         (
             Axis("across", "Reach to the right", "ulp", STEPS),
             Axis("up", "Reach upwards", "ulp", STEPS),
         ),
         CLIPPERS,
-        "Cyrus-Beck as printed keeps upright segments outside, however short; all drop a point outside, and keep "
-        "what reaches in.",
+        "Cyrus-Beck as printed keeps vertical segments outside, however short. All methods drop a point outside, "
+        "and keep segments that reach the inside.",
     ),
     beside_the_corner,
 )
@@ -174,13 +176,13 @@ CORNER = segment_experiment(
     ExperimentInfo(
         "segments-past-a-corner",
         "Segments past a corner",
-        "A segment passes the corner of the window within a few ulp: does it touch the window?",
+        "A segment passes the corner of the window within a few ulp. Does it touch the window?",
         (
             Axis("offset", "Above the corner", "ulp", STEPS),
             Axis("slope", "Fall of the segment", "", tuple((np.arange(4, 68, 5) / 32).tolist())),
         ),
         CLIPPERS,
-        "Every clipper that rounds its crossings errs within a few ulp of a corner; exact signs never do.",
+        "Every clipper that rounds its crossings errs within a few ulp of a corner. Exact signs never err.",
     ),
     past_the_corner,
 )

@@ -46,9 +46,9 @@ SHARED_EDGES = coverage_experiment(
     ExperimentInfo(
         "shared-edges",
         "Shared edges of a mesh",
-        "A mesh fills the window, its corners on a lattice: is every pixel drawn exactly once?",
+        "A mesh fills the window, with its corners on a grid. Is every pixel drawn exactly once?",
         (
-            Axis("steps", "Steps of the corners' lattice in a pixel", "", powers(0, 10), True),
+            Axis("steps", "Grid steps of the corners per pixel", "", powers(0, 10), True),
             Axis("cells", "Cells along a side", "", (4.0, 6.0, 8.0, 12.0, 16.0), True),
         ),
         (
@@ -63,8 +63,8 @@ SHARED_EDGES = coverage_experiment(
             "fill=spans",
             "coverage=exact",
         ),
-        "Exclusive edges leave cracks and inclusive ones are drawn twice wherever corners lie on pixel centres; "
-        "the shared-edge rule draws every pixel once, if an edge has the same value in both triangles.",
+        "Where corners lie on pixel centres, exclusive edges leave cracks and inclusive edges are drawn twice. "
+        "The shared-edge rule draws every pixel once if an edge has the same value in both triangles.",
     ),
     lambda place, seed: uneven_grid(int(place[1]), int(place[0]), seed),
     once_everywhere,
@@ -72,10 +72,11 @@ SHARED_EDGES = coverage_experiment(
 THROUGH_THE_EYE = coverage_experiment(
     ExperimentInfo(
         "mesh-through-the-eye",
-        "A mesh that goes on behind the eye",
-        "A plane fills the window and reaches behind the eye, where w is negative: is every pixel drawn exactly once?",
+        "A mesh that continues behind the eye",
+        "A plane fills the window and continues behind the eye, where w is negative. Is every pixel drawn exactly"
+        " once?",
         (
-            Axis("tilt", "What w loses for one unit of y", "", tuple((np.arange(9) / 10).tolist())),
+            Axis("tilt", "Decrease of w per unit of y", "", tuple((np.arange(9) / 10).tolist())),
             Axis("cells", "Cells along a side", "", (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0), True),
         ),
         (
@@ -87,8 +88,8 @@ THROUGH_THE_EYE = coverage_experiment(
             "coverage=float64",
             "coverage=exact",
         ),
-        "Projecting first mirrors corners with w < 0, and the wrong triangle is drawn; clipping in clip space, and "
-        "edge functions of homogeneous corners, draw every pixel once.",
+        "Projecting first mirrors corners with w < 0 and draws the wrong triangle. Clipping in clip space and "
+        "homogeneous edge functions draw every pixel once.",
     ),
     lambda place, seed: through_the_eye(place[0], int(place[1]), seed),
     once_everywhere,

@@ -106,15 +106,15 @@ SLIVERS = coverage_experiment(
     ExperimentInfo(
         "slivers",
         "Slivers by width and offset",
-        "A long thin triangle has its lower side just below ten pixel centres: how thin may it be, and how close?",
+        "The lower side of a long thin triangle lies just below ten pixel centres. How thin may it be, and how "
+        "close?",
         (
             Axis("width", "Height of the sliver", "pixels", powers(-24, 0, 3), True),
             Axis("offset", "Distance of the centres from its side", "pixels", powers(-50, -2, 3), True),
         ),
         FORMATS,
-        "Where corners are snapped, slivers thinner than a step of 1/256 pixel are lost; float32 errs from "
-        "2^-17 pixel on and float64 from 2^-47; whole numbers of any length are right at every width and "
-        "offset.",
+        "Snapped corners lose slivers thinner than 1/256 pixel. float32 errs from 2^-17 pixel on, float64 from "
+        "2^-47. Whole numbers of any length are right at every width and offset.",
     ),
     sliver,
 )
@@ -122,7 +122,7 @@ COORDINATES = coverage_experiment(
     ExperimentInfo(
         "coordinates",
         "Coordinates from 1 to 2^30 pixels",
-        "An edge passes through the window just below pixel centres; its ends move away: when is a pixel lost?",
+        "An edge passes just below pixel centres of the window while its ends move away. When is a pixel lost?",
         (
             Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
             Axis(
@@ -133,8 +133,8 @@ COORDINATES = coverage_experiment(
             ),
         ),
         FORMATS,
-        "32 bits wrap around from 128 pixels on and 64 bits beyond 4 million; float32 errs from 2^17 pixels "
-        "on; float64 and whole numbers of any length are right up to 2^30.",
+        "32 bits wrap around from 128 pixels on, 64 bits beyond 4 million. float32 errs from 2^17 pixels on. "
+        "float64 and whole numbers of any length are right up to 2^30.",
     ),
     far_corners,
 )
@@ -142,14 +142,14 @@ SINGULAR = coverage_experiment(
     ExperimentInfo(
         "singular-matrix",
         "Triangles seen almost edge-on",
-        "The 3x3 matrix of the corners is nearly singular: do its inverse, its adjugate and whole numbers agree?",
+        "The 3x3 matrix of the corners is nearly singular. Do its inverse, its adjugate and whole numbers agree?",
         (
             Axis("distance", "Distance from a singular matrix", "pixels", powers(-54, 0, 3), True),
             Axis("ratio", "w of the second corner over the first", "", W_RATIOS, True),
         ),
         ("coverage=float32", "coverage=inverse", "coverage=snapped", "coverage=float64", "coverage=exact"),
-        "Floats err where a triangle is flatter than their spacing, and snapped corners where it is flatter "
-        "than 1/256 pixel; whole numbers of any length are right at any distance.",
+        "Floats err where a triangle is flatter than their spacing, snapped corners where it is flatter than "
+        "1/256 pixel. Whole numbers of any length are right at any distance.",
     ),
     edge_on,
 )
@@ -157,7 +157,7 @@ SNAPPING = coverage_experiment(
     ExperimentInfo(
         "snapping",
         "Corners snapped or not",
-        "The grid lines of a mesh crowd around pixel centres, closer and closer: is every pixel drawn exactly once?",
+        "The grid lines of a mesh move closer and closer around pixel centres. Is every pixel drawn exactly once?",
         (
             Axis("cell", "Size of a cell", "pixels", powers(-20, -3, 1), True),
             Axis(
@@ -174,9 +174,8 @@ SNAPPING = coverage_experiment(
             "coverage=float64",
             "coverage=exact",
         ),
-        "Triangles of about a step of 1/256 pixel may turn over when they are snapped, and are drawn twice; "
-        "float32 errs below 2^-9 pixel, whatever the lattice; float64 and whole numbers draw every pixel "
-        "once.",
+        "Snapping can turn over triangles of about 1/256 pixel, and they are drawn twice. float32 errs below 2^-9"
+        " pixel, whatever the grid. float64 and whole numbers draw every pixel once.",
     ),
     crowded_mesh,
     once_everywhere,

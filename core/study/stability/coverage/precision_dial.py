@@ -193,11 +193,11 @@ DIAL = coverage_experiment(
     ExperimentInfo(
         "precision-dial",
         "The precision dial",
-        "A pixel centre comes nearer and nearer to an edge: which format decides how long?",
+        "A pixel centre moves closer and closer to an edge. Which format stays correct longest?",
         (Axis("offset", "Distance of the centre from the edge", "pixels", powers(-50, -1), True),),
         FORMATS,
-        "Each format decides as exact arithmetic until the distance falls below its own spacing: 1/256 pixel for "
-        "snapped corners, then float32, then float64; whole numbers of any length always do.",
+        "Every format agrees with exact arithmetic until the distance falls below its spacing: 1/256 pixel for "
+        "snapped corners, then float32, then float64. Whole numbers of any length are always right.",
     ),
     lambda place, seed: sliver((1.0, *place), seed),
 )

@@ -68,7 +68,7 @@ class StripCase(Case):
         error = np.abs(shown - wanted)
         largest = float(error.max())
         remark = (
-            f"u strays by {largest:.4g} of the edge; without perspective by (sqrt r - 1)/(sqrt r + 1) = "
+            f"u is off by {largest:.4g} of the edge; without perspective by (sqrt r - 1)/(sqrt r + 1) = "
             f"{self.bound:.4g} at most"
         )
         outcome = Outcome.RIGHT if largest <= HALF_TEXEL else Outcome.WRONG_PICTURE
@@ -94,8 +94,8 @@ AFFINE = Experiment(
     ExperimentInfo(
         "affine-w-ratio",
         "Affine interpolation by the ratio of w",
-        "A strip leads away from the eye: by how much do texture coordinates stray without perspective, or with it "
-        "every n pixels? Right is within half a texel of 256.",
+        "A strip recedes from the eye. How far off are texture coordinates without perspective correction, or "
+        "with it every n pixels? Right is within half a texel of 256.",
         (
             Axis(
                 "w-ratio",
@@ -114,8 +114,9 @@ AFFINE = Experiment(
             "interpolation=affine-n correction_interval=1",
             "interpolation=perspective",
         ),
-        "Affine strays by up to (sqrt r - 1)/(sqrt r + 1) of the edge at every length; corrected every n pixels by as "
-        "much with the ratio of w within n pixels only; perspective holds.",
+        "Affine interpolation is off by up to (sqrt r - 1)/(sqrt r + 1) of the edge at every length. Corrected "
+        "every n pixels, the same bound holds with the ratio of w within n pixels. Perspective-correct "
+        "interpolation is right.",
     ),
     lambda place, _: leaning_strip(place[0], int(place[1])),
     StripCase,

@@ -112,8 +112,8 @@ BLENDING = Experiment(
     ExperimentInfo(
         "blending-order",
         "Blending by the order of drawing",
-        "Layers of glass (for additive: of light) are drawn in every order; the first order of two and of three is "
-        "from back to front. Is the picture the same?",
+        "Layers of glass (for additive blending, of light) are drawn in every order. The first order of two and "
+        "of three is from back to front. Is the picture the same?",
         (
             Axis(
                 "order",
@@ -130,8 +130,9 @@ BLENDING = Experiment(
             "visibility=painters blend=over",
             "visibility=last-drawn blend=additive",
         ),
-        "Over is wrong in every order but from back to front, with a z-buffer too, unless alpha is 0 or 1; sorted "
-        "it is always right. Light that is added is the same in any order. Opaque is wrong for any alpha below 1.",
+        "Over is wrong in every order except from back to front, with a z-buffer too, unless alpha is 0 or 1. "
+        "Sorted, it is always right. Additive light is the same in any order. Opaque is wrong for any alpha below"
+        " 1.",
     ),
     glass_at,
     LayersCase,

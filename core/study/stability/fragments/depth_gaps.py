@@ -128,16 +128,16 @@ BY_DISTANCE = Experiment(
     ExperimentInfo(
         "z-fighting-distance",
         "Z-fighting by gap and distance",
-        "Two walls with a gap between them, farther and farther away (near plane 1, far plane 100,000): from where on "
-        "does the farther one show through?",
+        "Two walls with a gap between them move away (near plane 1, far plane 100,000). From which distance does "
+        "the farther wall show through?",
         (
             Axis("distance", "Distance, near plane = 1", "", decades(1, 4), True),
             Axis("gap", "Gap, near plane = 1", "", decades(-6, 0), True),
         ),
         FORMATS,
-        "Z needs a gap that grows with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
-        "and with float32, 2^-31 with 38 bits on planes. 1/w, the logarithm and reversed z need one that grows "
-        "with the distance only; ray casting needs none.",
+        "For z the gap must grow with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
+        "and with float32, 2^-31 with 38 bits on planes. For 1/w, the logarithm and reversed z it must grow with "
+        "the distance only. Ray casting needs no gap.",
     ),
     lambda place, seed: facing_walls(place[0], place[1], leaning(seed)),
     NearestCase,
@@ -149,15 +149,15 @@ BY_RANGE = Experiment(
     ExperimentInfo(
         "z-fighting-range",
         "Z-fighting by gap and depth range",
-        "Two walls from the near plane to the far plane, the gap a part of the distance: what range does a depth "
-        "format bear?",
+        "Two walls reach from the near plane to the far plane. The gap is a fraction of the distance. Which depth"
+        " range can a format resolve?",
         (
             Axis("far", "Far plane over near plane", "", decades(1, 6), True),
             Axis("gap", "Gap, as a part of the distance", "", decades(-7, -2), True),
         ),
         FORMATS,
-        "Z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap; 1/w, the logarithm and "
-        "reversed z hold for a gap of 10^-6 of the distance at any range up to 10^6, and 38 bits of z do so far.",
+        "z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap. 1/w, the logarithm, "
+        "reversed z and 38 bits of z are right for a gap of 10^-6 of the distance at any range up to 10^6.",
     ),
     lambda place, _: wall_scene(place[0], place[1], SIDE),
     NearestCase,
@@ -169,7 +169,8 @@ ORTHOGRAPHIC = Experiment(
     ExperimentInfo(
         "orthographic-depth",
         "Depth without perspective",
-        "Two walls before an orthographic camera: how small may the gap be, and does the format work at all?",
+        "Two walls stand before an orthographic camera. How small may the gap be, and does the format work at "
+        "all?",
         (
             Axis(
                 "distance",
@@ -181,8 +182,8 @@ ORTHOGRAPHIC = Experiment(
             Axis("gap", "Gap, as a part of the range", "", tuple(2.0**-k for k in range(30, 8, -2)), True),
         ),
         FORMATS,
-        "1/w and the logarithm refuse, as w is constant. 16 bits hold down to a gap of 2^-16 of the range; 24 "
-        "bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
+        "1/w and the logarithm refuse, because w is constant. 16 bits are right down to a gap of 2^-16 of the "
+        "range; 24 bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
     ),
     lambda place, seed: orthographic_walls(place[0], place[1], leaning(seed)),
     NearestCase,

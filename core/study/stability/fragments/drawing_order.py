@@ -78,8 +78,8 @@ CIRCLE = Experiment(
     ExperimentInfo(
         "painters-cycle",
         "Painter's algorithm on three bars in a circle",
-        "Each of three bars lies before the next one at one end: what if they overlap more, and what if one is lifted "
-        "off the next?",
+        "Each of three bars lies in front of the next one at one end. What happens if they overlap more, and if "
+        "one is lifted off the next?",
         (
             Axis(
                 "overlap",
@@ -90,8 +90,9 @@ CIRCLE = Experiment(
             Axis("lift", "Lift, in depths of a bar", "", (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.1, 1.5)),
         ),
         ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
-        "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails as drawing "
-        "without a depth test does. Lifted by a whole depth, sorting is right; a z-buffer always is.",
+        "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails, and so "
+        "does drawing without a depth test. Lifted by a whole depth, sorting is right. A z-buffer is always "
+        "right.",
     ),
     lambda place, _: flat_scene(circle_of_bars(place[0], place[1]), (SIDE, SIDE)),
     NearestCase,
@@ -101,14 +102,14 @@ LAYERS = Experiment(
     ExperimentInfo(
         "drawing-order",
         "Layers drawn in a wrong order",
-        "Triangles one behind the other are given from back to front, but for some swaps of neighbours: is the nearest "
-        "one seen?",
+        "Triangles one behind the other are drawn from back to front, except for some swaps of neighbours. Is the"
+        " nearest one visible?",
         (
             Axis("layers", "Layers", "", (2, 3, 4, 6, 8, 12, 16)),
             Axis("swaps", "Swaps of neighbours", "", (0, 1, 2, 3, 4, 6, 8, 12)),
         ),
         ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
-        "Without a depth test every swap of two layers that are seen is wrong; sorted layers and a z-buffer hold "
+        "Without a depth test every swap of two visible layers is wrong. Sorted layers and a z-buffer are right "
         "in any order.",
     ),
     layers_at,

@@ -117,16 +117,16 @@ HIGHLIGHT = Experiment(
     ExperimentInfo(
         "lost-highlight",
         "Gouraud's lost highlight",
-        "A shining sphere of more and more triangles, its highlight smaller and smaller: is the highlight as bright as "
-        "that of the sphere itself?",
+        "A shining sphere has more and more triangles and a smaller and smaller highlight. Is the highlight as "
+        "bright as that of the true sphere?",
         (
             Axis("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32, 48), True),
             Axis("shininess", "Shininess", "", (4, 8, 16, 32, 64, 128, 256, 512), True),
         ),
         ("shading=flat", "shading=gouraud", "shading=phong"),
-        "Gouraud loses a highlight between its vertices: of shininess 128 and more, most of it on a sphere of 8 "
-        "rings in some places; flat shading loses it on all but very fine ones. Phong keeps nine tenths at least "
-        "everywhere.",
+        "Gouraud loses highlights between vertices: for shininess 128 and more it loses most of one on a sphere "
+        "of 8 rings in some places. Flat shading loses it on all but very fine spheres. Phong keeps at least nine"
+        " tenths everywhere.",
     ),
     lambda place, seed: shining_sphere(int(place[0]), place[1], seed),
     highlight_case,

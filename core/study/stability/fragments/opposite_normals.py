@@ -118,16 +118,16 @@ NORMALS = Experiment(
     ExperimentInfo(
         "opposite-normals",
         "Normals that interpolate to zero",
-        "The normals at the two ends of a strip are turned against each other, up to opposite: what colour is between "
-        "them, and does it help to divide the strip?",
+        "The normals at the two ends of a strip point away from each other, up to opposite directions. Which "
+        "colour lies between them, and does dividing the strip help?",
         (
             Axis("angle", "Angle between the normals", "degrees", (0, 30, 60, 90, 120, 150, 170, 179, 180)),
             Axis("parts", "Parts of the strip", "", (1, 2, 3, 4, 6, 8, 16, 32), True),
         ),
         ("shading=flat", "shading=gouraud", "shading=phong"),
-        "Nothing becomes NaN: where opposite normals meet, what is interpolated has no direction, and the picture "
-        "is wrong for Phong and Gouraud. Divided into three parts or more, Phong is right at every angle; Gouraud "
-        "needs sixteen.",
+        "Nothing becomes NaN. Where opposite normals meet, the interpolated normal has no direction, and Phong "
+        "and Gouraud draw a wrong picture. Divided into three parts or more, Phong is right at every angle. "
+        "Gouraud needs sixteen.",
     ),
     lambda place, _: flattened_tube(place[0], int(place[1])),
     NormalsCase,

@@ -27,7 +27,7 @@ TURN = np.radians(17.0)
 """How far the texture is turned, so that its rows are not those of the picture."""
 TOLERANCE = 16.0
 """Mean colour error, in 1/255, that is taken as right."""
-DENSITIES = Axis("density", "Texels for a pixel", "", (1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32), True)
+DENSITIES = Axis("density", "Texels per pixel", "", (1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32), True)
 ROUNDING = 1e-6
 """By how much sums of areas, and places on the texture, may differ and be the same."""
 CORNER_PIXELS = np.array([0, 1, 0]), np.array([0, 0, 1])
@@ -126,7 +126,7 @@ MINIFICATION = Experiment(
     ExperimentInfo(
         "minification",
         "Minification by each texture filter",
-        "A pixel sees more and more texels, and from the side: how far is it from their mean?",
+        "A pixel covers more and more texels, seen at an angle. How far is its colour from their mean?",
         (DENSITIES, ANGLES),
         (
             "texture_filter=nearest",
@@ -134,8 +134,8 @@ MINIFICATION = Experiment(
             "texture_filter=mipmap-nearest",
             "texture_filter=trilinear",
         ),
-        "Nearest and bilinear are wrong from two texels for a pixel on, seen from anywhere; trilinear holds up to "
-        "45 degrees at any number of texels, and blurs where footprints are longer and narrower.",
+        "Nearest and bilinear are wrong from two texels per pixel on, at every angle. Trilinear is right up to 45"
+        " degrees at any number of texels, and blurs where footprints are longer and narrower.",
     ),
     lambda place, seed: textured_square(place[0], place[1], seed),
     TextureCase,
@@ -146,7 +146,7 @@ SHADING_ALIASING = Experiment(
     ExperimentInfo(
         "shading-aliasing",
         "Samples against detail inside a triangle",
-        "The detail lies in the texture, not at edges: do more samples for a pixel bring its mean?",
+        "The detail lies in the texture, not at edges. Do more samples per pixel give its mean?",
         (DENSITIES, ANGLES),
         (
             "antialiasing=none",
@@ -156,8 +156,9 @@ SHADING_ALIASING = Experiment(
             "antialiasing=ssaa-16",
             "antialiasing=none texture_filter=trilinear",
         ),
-        "Msaa-4 is as wrong as no antialiasing, as it shades once, and exact area is hardly better; 16 samples "
-        "hold up to 4 texels for a pixel and 60 degrees; a texture with mipmaps holds beyond, with one sample.",
+        "Msaa-4 is as wrong as no antialiasing, because it shades once per pixel, and exact area is hardly "
+        "better. 16 samples are right up to 4 texels per pixel and 60 degrees. A texture with mipmaps is right "
+        "beyond that, with one sample.",
     ),
     lambda place, seed: textured_square(place[0], place[1], seed),
     TextureCase,

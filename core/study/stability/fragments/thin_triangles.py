@@ -96,7 +96,8 @@ THIN = Experiment(
     ExperimentInfo(
         "thin-triangles",
         "Needles between the samples",
-        "A needle becomes thinner and moves across a pixel: is it seen in every row, and how well is its area met?",
+        "A needle becomes thinner and moves across a pixel. Is it visible in every row, and how close is its "
+        "area?",
         (
             Axis("width", "Width", "pixels", tuple(2.0**k for k in range(-6, 3)), True),
             Axis("offset", "Offset in the pixel", "pixels", tuple(k / 8 for k in range(8))),
@@ -108,9 +109,9 @@ THIN = Experiment(
             "antialiasing=ssaa-16",
             "antialiasing=area",
         ),
-        "Rows of a needle are lost where it is narrower than the columns of samples are apart: 1 pixel with one "
-        "sample, 1/2 with four on a grid (ssaa-4), 1/4 with four that are turned (msaa-4) and with sixteen; exact "
-        "area loses none.",
+        "Rows of a needle are lost where it is narrower than the distance between columns of samples: 1 pixel "
+        "with one sample, 1/2 with four on a grid (ssaa-4), 1/4 with four on a rotated grid (msaa-4) and with "
+        "sixteen. Exact area loses none.",
     ),
     lambda place, _: needle(place[0], place[1]),
     ThinCase,
