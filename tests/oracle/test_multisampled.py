@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core import Settings, draw_triangles
-from tests.core.covering import in_turn
+from tests.covering import in_turn
 from tests.oracle.record_multisampled import FOLDER
 
 FILES = sorted(path.stem for path in FOLDER.glob("*.npz"))

@@ -10,7 +10,7 @@ from app.opengl_check.command import describe
 from app.opengl_check.compare import PIXELS_ALLOWED, compare, draw_with_core
 from app.opengl_check.families import FAMILIES
 from core.methods import table
-from tests.core.covering import in_turn
+from tests.covering import in_turn
 from tests.oracle.record_cases import FOLDER, read_case
 
 FILES = sorted(path.stem for path in FOLDER.glob("*.npz"))

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from core import Frame, Settings, Texture, draw_triangles
-from tests.core.covering import in_turn
 from tests.core.drawing import TESTING_FILLS
+from tests.covering import in_turn
 
 CASES = sorted(
     path.stem

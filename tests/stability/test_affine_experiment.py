@@ -8,7 +8,7 @@ import pytest
 from core.fragments.corrected_affine import largest_affine_error
 from core.study.stability import Outcome, experiments
 from core.study.stability.fragments.affine import HALF_TEXEL, StripCase, leaning_strip
-from tests.core.covering import in_turn
+from tests.covering import in_turn
 
 AFFINE = experiments.get("affine-w-ratio")
 PLACES = [

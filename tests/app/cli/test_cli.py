@@ -25,7 +25,7 @@ from core.scene import ClipScene
 from lessons.scenes import make_scene, scene_names
 from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
-from tests.core.covering import in_turn
+from tests.covering import in_turn
 
 HALF_COVERED = ClipScene(
     [[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]], [[-1, -1, 0.5, 1], [1, -1, 0.5, 1], [1, 1, 0.5, 1]]],

@@ -15,7 +15,7 @@ from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
 from core.records.steps import Level
 from lessons.scenes import built_in_scene, scene_names
-from tests.core.covering import in_turn
+from tests.covering import in_turn
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, PRESENTER
 

@@ -10,10 +10,10 @@ from hypothesis import given
 from core import ClipScene, Settings, render
 from core.antialiasing.sampling import ROTATED_GRID
 from core.methods import table
-from tests.core.covering import in_turn
 from tests.core.exact_reference import edge_signs, facing
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
+from tests.covering import in_turn
 
 EXACT_FILLS = [name for name in table.names("fill") if not table.get("fill", name).breaks_where]
 

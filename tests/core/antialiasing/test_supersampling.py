@@ -10,8 +10,8 @@ from core.framebuffer.display import to_display
 from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
-from tests.core.covering import every_pair, in_turn
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
+from tests.covering import every_pair, in_turn
 
 SIDES = {"ssaa-4": 2, "ssaa-16": 4, "ssaa-n": 3}
 

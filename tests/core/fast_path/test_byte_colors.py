@@ -13,11 +13,11 @@ from core.fast_path.byte_colors import VertexBytes, chord_error, perspective_err
 from core.framebuffer.display import srgb
 from core.records.frame import StageCount
 from core.stages.vertices import process_geometry
-from tests.core.covering import every_pair
 from tests.core.fast_path.band_scenes import SPANS, ball
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
 from tests.core.raster.spans.adversarial import projected
 from tests.core.strategies import clip_of_window
+from tests.covering import every_pair
 
 SEEDS = st.integers(0, 2**32 - 1)
 ENCODINGS = st.sampled_from(["srgb", "linear"])

@@ -9,11 +9,11 @@ from core import Camera, ClipScene, DirectionalLight, Mesh, Picture, Scene, Sett
 from core.fast_path import Split
 from core.methods import table
 from lessons.shapes import cube, knot, sphere, torus
-from tests.core.covering import every_pair
 from tests.core.fast_path.numbered import assert_same, numbered, numbers
 from tests.core.fast_path.references import exact_bytes
 from tests.core.raster.spans.adversarial import slivers, tiny
 from tests.core.strategies import clip_of_window
+from tests.covering import every_pair
 
 SEEDS = st.integers(0, 2**32 - 1)
 SIZE = (64, 48)

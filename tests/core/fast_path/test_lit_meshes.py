@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
 from core.fast_path.lit.by_mesh import MOST
 from lessons.shapes import cube, sphere, torus
-from tests.core.covering import every_pair
 from tests.core.fast_path.references import exact_bytes
+from tests.covering import every_pair
 
 LIGHTS = (DirectionalLight(np.array([0.4, -0.8, -0.7])), DirectionalLight(np.array([-0.9, -0.1, -0.3])))
 CAMERA = Camera(np.array([1.0, 1.2, 3.4]), np.zeros(3))

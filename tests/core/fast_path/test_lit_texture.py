@@ -12,8 +12,8 @@ from core.fast_path.lit.corner_places import CornerPlaces
 from core.fast_path.lit.textured import position_error
 from core.methods import table
 from lessons.shapes import floor, knot, sphere, torus
-from tests.core.covering import every_pair
 from tests.core.fast_path.references import exact_bytes
+from tests.covering import every_pair
 
 LIGHTS = (
     DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),

@@ -14,9 +14,9 @@ from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
 from core.raster.number_formats.number_format import number_format
 from lessons.scenes import make_scene
-from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
+from tests.covering import in_turn
 
 SAMPLED = [choice for choice in (*CHOICES, *MIXES) if "antialiasing" not in choice]
 

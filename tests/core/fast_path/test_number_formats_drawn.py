@@ -8,8 +8,8 @@ from core.fast_path.draw import is_drawn_by_spans
 from core.framebuffer.display import to_display
 from core.methods import table
 from core.pixel_history import why
-from tests.core.covering import in_turn
 from tests.core.strategies import clip_of_window
+from tests.covering import in_turn
 
 SIZE = (300, 40)
 SPANS = ("snapped", "float64")

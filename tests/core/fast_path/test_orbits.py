@@ -5,8 +5,8 @@ import pytest
 
 from core import Camera, DirectionalLight, Frame, Mesh, Scene, Settings, draw_picture, render
 from lessons.shapes import cube, floor, knot, sphere, torus
-from tests.core.covering import in_turn
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
+from tests.covering import in_turn
 
 MESHES = {
     "cube": cube(1.5),

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from core import Settings
 from core.methods import table
 from core.raster.spans.bands import BIG_AREA
-from tests.core.covering import every_pair
 from tests.core.fast_path.numbered import assert_same
 from tests.core.raster.spans.adversarial import SIZES, mixed, projected
 from tests.core.strategies import clip_of_window
+from tests.covering import every_pair
 
 SEEDS = st.integers(0, 2**32 - 1)
 DEPTHS = st.sampled_from(table.names("depth"))

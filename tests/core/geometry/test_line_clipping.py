@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core import ClippedLines, clip_lines
 from core.geometry.line_clipping.records import LINE_CLIP_LIMIT
 from core.methods import table
-from tests.core.covering import in_turn, is_everything
+from tests.covering import in_turn, is_everything
 
 WINDOW = (0.0, 0.0, 16.0, 11.0)
 CLIPPERS = ["cohen-sutherland", "liang-barsky", "cyrus-beck", "exact"]

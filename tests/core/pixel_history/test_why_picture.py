@@ -15,9 +15,9 @@ from core.raster.lines.traits import has_intensities
 from core.settings import families
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
-from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import CASES, CHOICES, MIXES, SCENES, name_of, settings_of, small_scene
+from tests.covering import in_turn
 
 PIXEL_LIMIT = 6
 

@@ -6,8 +6,8 @@ import pytest
 from core import Settings, render
 from core.pixel_history import why
 from core.trace.source import TraceSource
-from tests.core.covering import in_turn
 from tests.core.trace.trace_cases import SCENES, name_of
+from tests.covering import in_turn
 
 CHOICES = [
     {"antialiasing": "msaa-4"},

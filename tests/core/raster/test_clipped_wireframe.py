@@ -5,8 +5,8 @@ import pytest
 
 from core import Settings, draw_triangles
 from core.methods import table
-from tests.core.covering import every_pair
 from tests.core.strategies import clip_of_window
+from tests.covering import every_pair
 
 SIZE = (16, 11)
 CLIPPERS = table.names("line_clipping")[1:]

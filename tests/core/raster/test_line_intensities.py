@@ -15,8 +15,8 @@ from core.raster.lines.traits import has_intensities
 from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
-from tests.core.covering import every_pair
 from tests.core.strategies import clip_of_window
+from tests.covering import every_pair
 
 SMOOTH = [line for line in table.names("line") if has_intensities(line)]
 SIZE = (16, 12)

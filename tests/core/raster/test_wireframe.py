@@ -11,9 +11,9 @@ from core.raster.lines import wireframe
 from core.raster.lines.drawing import draw_lines
 from core.raster.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from lessons.scenes import make_scene
-from tests.core.covering import in_turn
 from tests.core.drawing import text
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from tests.covering import in_turn
 
 LINES = list(table.names("line"))
 SIZE = (16, 11)

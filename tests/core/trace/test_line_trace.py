@@ -14,9 +14,9 @@ from core.raster.lines.traits import has_intensities, line_traits
 from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.records.steps import Level
 from core.trace import StageTrace
-from tests.core.covering import every_pair
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.trace_cases import SCENES, settings_of
+from tests.covering import every_pair
 
 LINES = list(table.names("line"))
 SEVERAL = ("rectangle", "wu", "gupta-sproull")

@@ -12,7 +12,6 @@ from core.records.frame import Frame
 from core.settings import families
 from core.trace import Trace
 from core.trace.source import TraceSource
-from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import (
     CASES,
@@ -25,6 +24,7 @@ from tests.core.trace.trace_cases import (
     small_region,
     small_scene,
 )
+from tests.covering import in_turn
 
 FOLDED = {"depth": ("depth", "depth"), "primitive": ("depth", "primitive"), "color": ("blend", "color")}
 """Buffer of the frame to stage and name of its track."""

@@ -18,7 +18,6 @@ from core.resolved import resolve
 from core.trace import StageTrace, Trace, TraceSource
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.tracers import tracer_of
-from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.depth_listings import check_blend, check_depth
 from tests.core.trace.executed_rows import equal, rows_of_kind
@@ -26,6 +25,7 @@ from tests.core.trace.fragment_listings import check_interpolate, check_shade
 from tests.core.trace.geometry_listings import check_clip, check_cull, check_edges, check_transform
 from tests.core.trace.raster_listings import check_bin, check_raster
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.covering import in_turn
 
 
 def check_resolve(traced: Trace) -> None:

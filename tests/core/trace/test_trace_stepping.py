@@ -13,8 +13,8 @@ from core.records.operation import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace import StageTrace
 from core.trace.stage_trace import MARKS
-from tests.core.covering import in_turn
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.covering import in_turn
 
 LEVELS = list(Level)
 WITHOUT_LISTING = {"clip.untouched.keep", "blend.opaque.write"}

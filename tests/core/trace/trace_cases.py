@@ -9,7 +9,7 @@ from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight
 from core.methods import table
 from core.settings import families
 from lessons.scenes import make_scene, scene_names
-from tests.core.covering import covering, in_turn, is_everything
+from tests.covering import covering, in_turn, is_everything
 
 Region = tuple[int, int, int, int]
 

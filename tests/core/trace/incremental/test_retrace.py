@@ -17,9 +17,9 @@ from core.scene import AnyScene
 from core.settings import families
 from core.trace import Trace, source
 from core.trace.incremental.retrace import Retrace
-from tests.core.covering import in_turn
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.covering import in_turn
 
 MIXED = [SCENES[name] for name in ("clip", "textured-clip", "lit", "orthographic", "shared-edge")]
 

@@ -12,8 +12,8 @@ from core import Camera, draw_picture
 from core.fast_path import Route
 from core.fast_path.workers import BandWorkers
 from core.fast_path.workers.sharing import have_colors_of_whole, joined_route
-from tests.core.covering import in_turn
 from tests.core.fast_path.band_scenes import SCENES, SPANS, ball, textured_ball
+from tests.covering import in_turn
 
 
 @pytest.fixture(scope="module")
