@@ -1,24 +1,16 @@
-"""The stages' own views of one session: 3D scene, clip space, (x, y, w), texture. Only what is seen is drawn."""
+"""The views beside the pixel grid: the 3D scene and those of `app.views.stage_view`. Only what is seen is drawn."""
 
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
-from app.views.clip_diagram import clip_diagram, clip_state
-from app.views.pointed_pixel import pointed_pixels, shown_triangle
-from app.views.pyramid_diagram import pyramid_diagram
 from app.views.scene3d_presenter import Scene3dPresenter
-from app.views.texture_footprint import texture_pictures
-from core import STAGES
+from app.views.stage_view import VIEWS
 from widgets.space.scene_view import SceneView
-from widgets.space.texture_levels import TextureLevels
-from widgets.space.view import SpaceView
-
-TITLES = {"scene": "3D scene", "clip": "Clip space", "pyramid": "(x, y, w)", "texture": "Texture"}
 
 
 class StageViews(QObject):
-    """Makes the four views and keeps the visible one up to date."""
+    """Makes the 3D view and all others, and keeps the visible ones up to date."""
 
     triangle_picked = Signal(int)
     """A triangle of the scene was clicked in the 3D view."""
@@ -29,24 +21,13 @@ class StageViews(QObject):
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._session = session
-        self._scene, self._clip, self._pyramid, self._texture = (
-            SceneView(),
-            SpaceView(),
-            SpaceView(),
-            TextureLevels(),
-        )
-        self._clip.setAccessibleName("Clip space")
-        self._pyramid.setAccessibleName("Homogeneous rasterization: triangle in (x, y, w)")
+        self._scene = SceneView()
+        self._others = {view.name: view for view in (make(session) for make in VIEWS)}
         self._views: dict[str, QWidget] = {
             "scene": self._scene,
-            "clip": self._clip,
-            "pyramid": self._pyramid,
-            "texture": self._texture,
+            **{name: view.widget for name, view in self._others.items()},
         }
         self._stale = set(self._views)
-        self._shown: dict[str, object] = {}
-        """What each drawing was made from; the same again is not drawn again."""
         self._scene_presenter = Scene3dPresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
@@ -61,7 +42,8 @@ class StageViews(QObject):
     @property
     def widgets(self) -> list[tuple[str, str, QWidget]]:
         """Name, title and widget of every view, in order."""
-        return [(name, TITLES[name], widget) for name, widget in self._views.items()]
+        others = [(name, view.title, view.widget) for name, view in self._others.items()]
+        return [("scene", "3D scene", self._scene), *others]
 
     @property
     def scene_presenter(self) -> Scene3dPresenter:
@@ -108,31 +90,7 @@ class StageViews(QObject):
 
     def _refresh(self, name: str) -> None:
         self._stale.discard(name)
-        session = self._session
-        if name == "scene":
-            self._scene_presenter.refresh()
-            return
-        triangle, pixels = shown_triangle(session), pointed_pixels(session)
-        shown: object = (session.trace, triangle, pixels)
-        if name == "clip":
-            shown = (session.trace, triangle, self._clip_position())
-        elif name == "pyramid":
-            shown = (session.trace, triangle, pixels[:1])
-        if self._shown.get(name) == shown:
-            return
-        self._shown[name] = shown
-        if name == "clip":
-            state = clip_state(session.trace, triangle, self._clip_position())
-            self._clip.show_diagram(clip_diagram(state))
-        elif name == "pyramid":
-            pixel = pixels[0] if pixels else None
-            self._pyramid.show_diagram(pyramid_diagram(session.trace.source, triangle, pixel))
+        if name in self._others:
+            self._others[name].refresh()
         else:
-            self._texture.show_pictures(*texture_pictures(session))
-
-    def _clip_position(self) -> int | None:
-        """Return how much of the clipping is done at the cursor; None: all of it."""
-        cursor = self._session.cursor
-        if cursor.stage == "clip":
-            return cursor.position
-        return 0 if STAGES.index(cursor.stage) < STAGES.index("clip") else None
+            self._scene_presenter.refresh()

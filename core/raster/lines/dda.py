@@ -10,6 +10,7 @@ References
 F. Pellacini, *Interactive Graphics*, lecture "Rasterization": midpoint line rasterization, DDA.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, floor
 
@@ -88,13 +89,46 @@ def _columns(segments: Segments, last_pixel: bool) -> _Columns:
     return _Columns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
 
 
-def _run(columns: _Columns, owner: Integers, k: Integers, v: Floats, v_before: Floats) -> LineRun:
+def _run(
+    columns: _Columns,
+    owner: Integers,
+    k: Integers,
+    v: Floats,
+    v_before: Floats,
+    round_minor: Callable[[Floats], Integers] = round_half_up,
+) -> LineRun:
     """Round the minor coordinates (P,) of steps k and k - 1 to pixels."""
-    minor, minor_before = round_half_up(v), round_half_up(v_before)
+    minor, minor_before = round_minor(v), round_minor(v_before)
     major = columns.start[owner] + columns.step[owner] * k
     is_steep = columns.is_steep[owner]
     column, row = np.where(is_steep, minor, major), np.where(is_steep, major, minor)
     return LineRun(owner, k, column, row, v, (minor != minor_before) & (k > 0), v - np.floor(v) == 0.5)
+
+
+def draw_nearest(segments: Segments, last_pixel: bool, round_minor: Callable[[Floats], Integers]) -> LineRun:
+    """Evaluate m x + b in every column, and round it with ``round_minor``, (P,) float64 to (P,) int64."""
+    columns = _columns(segments, last_pixel)
+    v = line_equation(columns.start, columns.slope, columns.intercept)
+    first, last = visible_range(
+        segments,
+        columns.is_steep,
+        columns.start,
+        columns.step,
+        v,
+        columns.step * columns.slope,
+        columns.count,
+    )
+    owner, k = enumerate_steps(first, last)
+    u, step = columns.start[owner] + columns.step[owner] * k, columns.step[owner]
+    slope, intercept = columns.slope[owner], columns.intercept[owner]
+    return _run(
+        columns,
+        owner,
+        k,
+        line_equation(u, slope, intercept),
+        line_equation(u - step, slope, intercept),
+        round_minor,
+    )
 
 
 def line_equation(u: Integers, slope: Floats, intercept: Floats) -> Floats:
@@ -133,23 +167,7 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
 )
 def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
     """Evaluate m x + b in every column and round it; ``decision`` is this coordinate (centres whole)."""
-    columns = _columns(segments, last_pixel)
-    v = line_equation(columns.start, columns.slope, columns.intercept)
-    first, last = visible_range(
-        segments,
-        columns.is_steep,
-        columns.start,
-        columns.step,
-        v,
-        columns.step * columns.slope,
-        columns.count,
-    )
-    owner, k = enumerate_steps(first, last)
-    u, step = columns.start[owner] + columns.step[owner] * k, columns.step[owner]
-    slope, intercept = columns.slope[owner], columns.intercept[owner]
-    return _run(
-        columns, owner, k, line_equation(u, slope, intercept), line_equation(u - step, slope, intercept)
-    )
+    return draw_nearest(segments, last_pixel, round_half_up)
 
 
 def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:

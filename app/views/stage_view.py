@@ -1,0 +1,117 @@
+"""What each view beside the pixel grid shows of a session: clip space, (x, y, w), texture."""
+
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QWidget
+
+from app.session.session import Session
+from app.views.clip_diagram import clip_diagram, clip_state
+from app.views.pointed_pixel import pointed_pixels, shown_triangle
+from app.views.pyramid_diagram import pyramid_diagram
+from app.views.texture_footprint import texture_pictures
+from core import STAGES
+from widgets.space.texture_levels import TextureLevels
+from widgets.space.view import SpaceView
+
+
+class StageView:
+    """One view: its widget, and what brings it up to date."""
+
+    name = ""
+    """The spelling of command line and state files."""
+    title = ""
+    """What its tab says."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.widget = self.make_widget()
+        self._drawn: object = None
+
+    def make_widget(self) -> QWidget:
+        """Return the widget that it draws on."""
+        raise NotImplementedError
+
+    def made_from(self) -> object:
+        """Return what the drawing is made from: the same again is not drawn again."""
+        return (self.session.trace, shown_triangle(self.session), pointed_pixels(self.session))
+
+    def draw(self) -> None:
+        """Draw the session."""
+        raise NotImplementedError
+
+    def refresh(self) -> None:
+        """Draw the session where it is not what is drawn already."""
+        now = self.made_from()
+        if self._drawn is None or self._drawn != now:
+            self._drawn = now
+            self.draw()
+
+
+class ClipView(StageView):
+    """Triangles and planes in clip space, up to the step of the clipping that the cursor is at."""
+
+    name, title = "clip", "Clip space"
+
+    def make_widget(self) -> QWidget:
+        """Return the drawing in space."""
+        self._space = SpaceView()
+        self._space.setAccessibleName("Clip space")
+        return self._space
+
+    def made_from(self) -> object:
+        """Return trace, triangle and how much is clipped."""
+        return (self.session.trace, shown_triangle(self.session), self._position())
+
+    def draw(self) -> None:
+        """Draw the triangle and what clipping leaves of it."""
+        state = clip_state(self.session.trace, shown_triangle(self.session), self._position())
+        self._space.show_diagram(clip_diagram(state))
+
+    def _position(self) -> int | None:
+        """Return how much of the clipping is done at the cursor; None: all of it."""
+        cursor = self.session.cursor
+        if cursor.stage == "clip":
+            return cursor.position
+        return 0 if STAGES.index(cursor.stage) < STAGES.index("clip") else None
+
+
+class PyramidView(StageView):
+    """The homogeneous triangle in (x, y, w)."""
+
+    name, title = "pyramid", "(x, y, w)"
+
+    def make_widget(self) -> QWidget:
+        """Return the drawing in space."""
+        self._space = SpaceView()
+        self._space.setAccessibleName("Homogeneous rasterization: triangle in (x, y, w)")
+        return self._space
+
+    def made_from(self) -> object:
+        """Return trace, triangle and the first pixel that is pointed at."""
+        return (self.session.trace, shown_triangle(self.session), pointed_pixels(self.session)[:1])
+
+    def draw(self) -> None:
+        """Draw the triangle, and the ray of the pixel."""
+        pixels = pointed_pixels(self.session)
+        pixel = pixels[0] if pixels else None
+        triangle = shown_triangle(self.session)
+        self._space.show_diagram(pyramid_diagram(self.session.trace.source, triangle, pixel))
+
+
+class TextureView(StageView):
+    """The texture, and what pixels see of it."""
+
+    name, title = "texture", "Texture"
+
+    def make_widget(self) -> QWidget:
+        """Return the pictures of the levels."""
+        self._levels = TextureLevels()
+        return self._levels
+
+    def draw(self) -> None:
+        """Draw the texture with the footprints of pixels."""
+        self._levels.show_pictures(*texture_pictures(self.session))
+
+
+VIEWS: tuple[Callable[[Session], StageView], ...] = (ClipView, PyramidView, TextureView)
+"""The views behind the 3D scene, in the order of their tabs."""
