@@ -34,6 +34,8 @@ class Family(SettingField):
 
     stage: str
     """The stage that runs the method."""
+    asks: tuple[str, ...] = ()
+    """Fields of `core.methods.Method` that every method of the family fills in, ``listing`` and ``operations``."""
     files: tuple[str, ...]
     """The modules of its first methods, in the order of the menus; others are found in the first one's folder."""
 

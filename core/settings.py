@@ -70,6 +70,7 @@ class Settings:
         "core.raster.lines.smooth",
         taken_by="polygon_mode",
         otherwise="Lines are drawn where polygons are wireframes.",
+        asks=("listing", "operations"),
     )
     line_clipping: str = choice(
         "none",
@@ -90,6 +91,7 @@ class Settings:
         "interpolate",
         "core.fragments.interpolation",
         "core.fragments.corrected_affine",
+        asks=("listing", "operations", "traits"),
     )
     provoking: str = choice(
         "last",
@@ -106,6 +108,7 @@ class Settings:
         "core.fragments.textures",
         "core.fragments.level_of_detail",
         reason=has_no_texture,
+        asks=("listing", "operations"),
     )
     wrap: str = choice("repeat", "Texture wrap", "shade", "core.fragments.textures", reason=has_no_texture)
     shading: str = choice("phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light)
@@ -120,7 +123,9 @@ class Settings:
         "core.framebuffer.depth_formats",
         "core.framebuffer.fixed_depth",
     )
-    blend: str = choice("opaque", "Blending", "blend", "core.framebuffer.blending")
+    blend: str = choice(
+        "opaque", "Blending", "blend", "core.framebuffer.blending", asks=("operations", "traits")
+    )
     antialiasing: str = choice("none", "Antialiasing", "resolve", "core.antialiasing.sampling")
     resolve_filter: str = choice(
         "box",

@@ -1,0 +1,99 @@
+"""Every method and every stage has all that the program asks of it; what one lacks is named here, and only here."""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from core import ClipScene, Settings, Texture, trace
+from core.explain.stage_texts import ACCOUNTS
+from core.explain.steps import row_of
+from core.methods import Method, table
+from core.records.listing import listing
+from core.settings import FAMILIES, FIELDS
+from core.stages.declared import DECLARED, STAGES, Stage
+from tests.core.trace.trace_cases import SCENES
+
+NEEDS = {
+    "positive-w",
+    "projected",
+    "perspective",
+    "float64-edges",
+    "mipmaps",
+    "blending",
+    "rectangle",
+}
+TRIANGLE = np.array([[[-0.8, -0.7, 0.1, 1.0], [1.6, -0.9, 0.4, 2.0], [-0.2, 1.2, 0.2, 1.5]]])
+PLAIN = ClipScene(TRIANGLE, np.ones((1, 3, 4)), (9, 7))
+TEXTURED = ClipScene(
+    TRIANGLE, TRIANGLE[..., :2] * 3, (9, 7), texture=Texture(np.eye(4, dtype=np.float32)[..., None])
+)
+SHOWN_BY = {"texture_filter": TEXTURED, "wrap": TEXTURED, "shading": SCENES["lit"]}
+"""Families to a scene in which their methods differ; `PLAIN` for the others."""
+OUTLINED = {"line", "line_clipping"}
+"""Families that show in wireframes."""
+
+
+def lacking(method: Method) -> list[str]:
+    """Return what a method lacks."""
+    family = FAMILIES[method.family]
+    found = [
+        f"no {name.replace('_', ' ')}"
+        for name in ("title", "source", "exact_for")
+        if not getattr(method, name)
+    ]
+    found += [] if method.function.__doc__ else ["no docstring of its rule"]
+    found += [f"no {name}" for name in family.asks if not getattr(method, name)]
+    found += [f"an unknown need, {need}" for need in method.needs if need not in NEEDS]
+    found += [f"takes {name}, which is no setting" for name in method.takes if name not in FIELDS]
+    titles = [other.title for other in table if other.family == method.family]
+    found += [] if titles.count(method.title) == 1 else ["a title that another method has"]
+    if method.listing is not None and family.asks and "mipmaps" not in method.needs:
+        # Slopes and level of detail have listings of their own.
+        labels = listing(method.listing).lines
+        done = [operation for row in method.operations.values() for operation in row]
+        found += [f"no line #: {each.label} in its listing" for each in done if each.label not in labels]
+    return found
+
+
+def unexplained(method: Method) -> list[str]:
+    """Return the steps of a method that have no sentence: of the kinds of rows that a small scene has with it."""
+    choices = {method.family: method.name}
+    if method.family in OUTLINED:
+        choices["polygon_mode"] = "wireframe"
+    scene = SHOWN_BY.get(method.family, PLAIN)
+    traced = trace(scene, Settings(**choices), region=(0, 0, 9, 7))
+    keys = {
+        f"{stage}.{kind}.{operation.name}"
+        for stage in STAGES
+        for steps in [traced.stage(stage).steps]
+        for kind in {steps.kinds[number] for number in steps.kind.tolist()}
+        for operation in steps.operations[kind]
+    }
+    return [f"no row in core.explain for {key}" for key in sorted(keys) if row_of(key) is None]
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_methods_are_complete(family: str) -> None:
+    methods = [table.get(family, name) for name in table.names(family)]
+    found = {f"{family}={method.name}": [*lacking(method), *unexplained(method)] for method in methods}
+    assert {name: problems for name, problems in found.items() if problems} == {}
+
+
+def stage_lacking(stage: Stage) -> list[str]:
+    """Return what a stage lacks."""
+    texts = ("short_title", "title", "purpose", "takes", "gives", "source", "heading", "initial", "group")
+    found = [f"no {name.replace('_', ' ')}" for name in texts if not getattr(stage, name)]
+    module, _, name = stage.tracer.rpartition(".")
+    tracer = getattr(import_module(module), name, None)
+    found += [] if tracer is not None and tracer.__doc__ else [f"no tracer {stage.tracer}"]
+    found += [] if stage.name in ACCOUNTS else ["no account of its rows"]
+    found += [] if stage.title.startswith(stage.short_title) else ["a title that is not its name on the rail"]
+    return found
+
+
+def test_stages_are_complete() -> None:
+    found = {stage.name: stage_lacking(stage) for stage in DECLARED}
+    assert {name: problems for name, problems in found.items() if problems} == {}
+    assert {family.stage for family in FAMILIES.values()} <= set(STAGES)
+    assert len({stage.short_title for stage in DECLARED}) == len(STAGES)
