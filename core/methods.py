@@ -136,8 +136,9 @@ class MethodTable:
         """Return one method, or raise ValueError with the names that there are; a replaced one is not registered."""
         if isinstance(name, ReplacedName) and name.method.family == family:
             return name.method
-        methods = self._family(family)
-        if name not in methods:
+        methods = self._registered.get(family)
+        if methods is None or name not in methods:
+            methods = self._family(family)
             self._import_until(family, name)
         if name not in methods:
             raise ValueError(f"{family} must be one of {', '.join(self.names(family))}, got {name}")

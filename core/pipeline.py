@@ -38,11 +38,10 @@ from core.framebuffer.resolve import filter_weights, reach_of
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, cover
 from core.raster.edges.edge_functions import EdgeFunctions
-from core.raster.fills.traits import fill_traits
 from core.raster.lines.intensities import weigh_alpha, writes_depth
 from core.raster.lines.wireframe import draw_outlines
 from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
-from core.records.arrays import Integers, Singles, read_only
+from core.records.arrays import Integers, Singles
 from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
@@ -170,11 +169,11 @@ def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: C
         attributes[pixel] = values
         counts["resolve"].incoming = counts["resolve"].outgoing = len(depth)
     return Frame(
-        color=read_only(color.reshape(*raster.shape, 4)),
-        depth=read_only(depth.reshape(raster.shape)),
-        primitive=read_only(identity.reshape(raster.shape)),
-        attributes=read_only(attributes.reshape(*raster.shape, values.shape[1])),
-        cover_count=read_only(visible.cover_count.reshape(raster.shape)),
+        color=color.reshape(*raster.shape, 4),
+        depth=depth.reshape(raster.shape),
+        primitive=identity.reshape(raster.shape),
+        attributes=attributes.reshape(*raster.shape, values.shape[1]),
+        cover_count=visible.cover_count.reshape(raster.shape),
         statistics=counts,
     )
 
@@ -193,23 +192,24 @@ def covered(
     geometry: Geometry, raster: Raster, counts: Counts, chosen: Integers | None = None
 ) -> Iterator[Fragments]:
     """Bin and raster: yield the fragments of the ``chosen`` (C,) primitives, or all, in batches."""
-    settings, fill_name = geometry.settings, resolve(geometry.settings).fill_name
-    counts["raster"].note = "" if fill_name == settings.fill else settings.fill
+    settings, resolved = geometry.settings, resolve(geometry.settings)
+    counts["raster"].note = "" if resolved.fill_name == settings.fill else settings.fill
     with counts["bin"] as count:
         edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
         count.incoming += len(edges.a)
         boxes = bound(edges, raster)
         area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
-        if fill_traits(fill_name).looks_everywhere:
+        if resolved.looks_everywhere:
             area[:] = raster.shape[0] * raster.shape[1]
         ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
     for first, end in zip([0, *ends.tolist()][:-1], ends.tolist(), strict=True):
-        part = slice(first, end)
         with count:
-            edges_of_part = edges if len(ends) == 1 else edges.take(part)
-            runs = schedule(edges_of_part, settings, raster, Boxes(*(of[part] for of in boxes)))[1]
+            part, its_boxes = edges, boxes
+            if len(ends) > 1:
+                part, its_boxes = edges.take(slice(first, end)), Boxes(*(of[first:end] for of in boxes))
+            _, runs = schedule(part, settings, raster, its_boxes)
             count.outgoing += int(runs.lengths.sum())
-        batches = cover(edges_of_part, runs, raster)
+        batches = cover(part, runs, raster)
         while True:
             with counts["raster"] as count_raster:
                 fragments, tested = next(batches, (None, 0))
@@ -392,4 +392,4 @@ def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Inte
     counts["blend"].incoming = counts["blend"].outgoing = counts["depth"].outgoing
     for stage, count in frame.statistics.items():
         counts[stage].seconds += count.seconds
-    return replace(frame, color=read_only(color), statistics=counts)
+    return replace(frame, color=color, statistics=counts)

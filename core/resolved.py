@@ -55,6 +55,11 @@ class ResolvedSettings:
         return clipping
 
     @cached_property
+    def clips(self) -> bool:
+        """Whether triangles are clipped, even where no method needs it."""
+        return self.clipping.is_any
+
+    @cached_property
     def numbers(self) -> "NumberFormat":
         """The numbers that edge functions are computed in."""
         numbers: NumberFormat = self.method("coverage").function()
@@ -84,6 +89,13 @@ class ResolvedSettings:
         return table.get("fill", self.fill_name).function
 
     @cached_property
+    def looks_everywhere(self) -> bool:
+        """Whether the fill looks at every pixel of the raster for every triangle."""
+        from core.raster.fills.traits import fill_traits
+
+        return fill_traits(self.fill_name).looks_everywhere
+
+    @cached_property
     def is_outlined(self) -> bool:
         """Whether the edges of triangles are drawn, and not their areas."""
         is_outlined: bool = self.method("polygon_mode").function()
@@ -99,6 +111,11 @@ class ResolvedSettings:
         """What an `Interpolator` takes: the rule of the weights, the provoking corner, columns between corrections."""
         provoking: int = self.method("provoking").function()
         return self.method("interpolation").function, provoking, self.settings.correction_interval
+
+    @cached_property
+    def is_flat(self) -> bool:
+        """Whether all corners have the provoking corner's values already: a replaced function decides by itself."""
+        return is_registered(self.settings.interpolation, "flat")
 
     @cached_property
     def depth_format(self) -> "DepthFormat":

@@ -156,11 +156,11 @@ def resolve_frame(
         buffers = (samples.color, samples.depth, samples.primitive, samples.cover_count)
         cropped = Samples(samples.position, *(read_only(values[:, *inner]) for values in buffers))
     return Frame(
-        color=read_only(color),
+        color=color,
         depth=cropped.depth[0],
         primitive=cropped.primitive[0],
-        attributes=read_only(attributes[inner]),
-        cover_count=read_only(cropped.cover_count.sum(axis=0, dtype=np.int32)),
+        attributes=attributes[inner],
+        cover_count=cropped.cover_count.sum(axis=0, dtype=np.int32),
         statistics=counts,
         samples=cropped,
     )

@@ -19,7 +19,7 @@ from core.framebuffer.stacks import stacks_of
 from core.numeric.sorting import radix_order
 from core.pipeline import covered
 from core.raster.coverage import Fragments
-from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
+from core.raster.spans.fill import pixels_of_rows, rows_in_order
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.resolved import resolve
 from core.stages.fragment_depth import fragment_depth

@@ -61,7 +61,7 @@ def set_up_planes(homogeneous: Floats) -> Planes:
     A triangle seen edge-on (a determinant within its own rounding error) has no inverse, but snapping may still
     give it pixels: there it takes the mean of its corners, or of those that lie in front of the eye.
     """
-    x, y, w = (homogeneous[..., k] for k in range(3))
+    x, y, w = homogeneous.transpose(2, 0, 1)
     following, last = [1, 2, 0], [2, 0, 1]
     a = y[:, following] * w[:, last] - w[:, following] * y[:, last]
     b = w[:, following] * x[:, last] - x[:, following] * w[:, last]
@@ -95,7 +95,7 @@ def value_plane(planes: Planes, values: Floats) -> tuple[Floats, Floats, Floats]
     With values 1, 1, 1 this is 1/w; with the homogeneous depth (z + w)/2 it is the window depth, since
     depth is divided by w just once.
     """
-    v0, v1, v2 = values[:, 0], values[:, 1], values[:, 2]
+    v0, v1, v2 = values.T
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return (
             (planes.a[:, 0] * v0 + planes.a[:, 1] * v1 + planes.a[:, 2] * v2) / planes.determinant,
@@ -340,7 +340,7 @@ class Interpolator:
 
     def _tables_of(self, primitives: Integers) -> tuple[Planes, Floats]:
         """Return the planes and values of primitives (U,), copied together."""
-        a, b, c, w = (rows.take(primitives, axis=1).T for rows in self._plane_rows)
+        a, b, c, w = [rows.take(primitives, axis=1).T for rows in self._plane_rows]
         planes = Planes(a, b, c, self._determinant.take(primitives), w)
         return planes, self._mixer.tables(primitives)
 

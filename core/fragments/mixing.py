@@ -114,15 +114,16 @@ def _distinct_values(rows: Floats) -> tuple[list[_Value], Integers]:
     distinct: list[_Value] = []
     columns: list[int] = []
     for place in range(rows.shape[1]):
-        equal = (value for value in distinct if _is_same(bits[:, value.places[0]], bits[:, place]))
-        known = next(equal, None)
-        if known is not None:
-            known.places.append(place)
-        elif len(bits) and _is_same(bits[:, place], bits[0, place]):
-            distinct.append(_Value(float(rows[0, place]), [place]))
+        for value in distinct:
+            if _is_same(bits[:, value.places[0]], bits[:, place]):
+                value.places.append(place)
+                break
         else:
-            distinct.append(_Value(len(columns), [place]))
-            columns.append(place)
+            if len(bits) and _is_same(bits[:, place], bits[0, place]):
+                distinct.append(_Value(float(rows[0, place]), [place]))
+            else:
+                distinct.append(_Value(len(columns), [place]))
+                columns.append(place)
     return distinct, np.array(columns, np.int64)
 
 

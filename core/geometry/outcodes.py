@@ -30,7 +30,7 @@ def outcodes(clip: Floats) -> Outcodes:
     -----
     ``w + z < 0`` is the same as ``z < -w`` in floating point: a sum is rounded to 0 only where it is 0.
     """
-    x, y, z, w = (clip[:, k] for k in range(4))
+    x, y, z, w = clip.T
     farthest = np.maximum(np.maximum(np.abs(x), np.abs(y)), np.abs(z))
     if ((farthest <= w) & (w > 0)).all():
         return np.zeros(len(clip), np.uint8)

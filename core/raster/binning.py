@@ -47,7 +47,7 @@ def bound(edges: EdgeFunctions, raster: Raster) -> Boxes:
     bounds = raster.bounds
     box = np.empty((4, len(edges)), np.int64)
     for axis in range(2):
-        first, second, third = (positions[:, corner, axis] for corner in range(3))
+        first, second, third = positions[..., axis].T
         least, greatest = np.fmin(np.fmin(first, second), third), np.fmax(np.fmax(first, second), third)
         if edges.numbers.bounds_outward:
             least, greatest = np.floor(least), np.ceil(greatest)

@@ -105,13 +105,13 @@ def cover(edges: EdgeFunctions, runs: Runs, raster: Raster) -> Iterator[tuple[Fr
     -----
     The same decision as ``examine_pixels``: what depends on the row alone is computed once a run.
     """
-    length = runs.lengths
-    end = np.cumsum(length)
-    first = 0
-    while first < len(runs):
+    end = np.cumsum(runs.lengths)
+    first, count = 0, len(end)
+    while first < count:
         done = int(end[first - 1]) if first else 0
         last = max(int(np.searchsorted(end, done + BATCH, "right")), first + 1)
-        yield _cover_batch(edges, runs.part(first, last), raster)
+        whole = first == 0 and last == count
+        yield _cover_batch(edges, runs if whole else runs.part(first, last), raster)
         first = last
 
 

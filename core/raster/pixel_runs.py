@@ -4,7 +4,7 @@ A fill is a schedule; whether a pixel is covered is the same rule for all of the
 evaluates the runs in batches, the trace lists them one pixel at a time.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,28 +25,29 @@ class Raster:
     region: tuple[int, int, int, int] | None = None
     """(first column, first row, columns, rows); ``None``: the whole image."""
 
-    @property
-    def bounds(self) -> tuple[int, int, int, int]:
-        """First column, first row, end column, end row (ends excluded), within the image."""
-        if self.region is None:
-            return 0, 0, self.width, self.height
-        column, row, columns, rows = self.region
-        return (
-            min(max(column, 0), self.width),
-            min(max(row, 0), self.height),
-            min(max(column + columns, 0), self.width),
-            min(max(row + rows, 0), self.height),
-        )
+    bounds: tuple[int, int, int, int] = field(init=False, repr=False, compare=False)
+    """First column, first row, end column, end row (ends excluded), within the image."""
+    shape: tuple[int, int] = field(init=False, repr=False, compare=False)
+    """Rows and columns of the buffers."""
+    place_of_origin: int = field(init=False, repr=False, compare=False)
+    """Where column 0, row 0 of the image would stand in flattened buffers: 0, or before a region."""
 
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Rows and columns of the buffers."""
-        first_column, first_row, end_column, end_row = self.bounds
-        return end_row - first_row, end_column - first_column
+    def __post_init__(self) -> None:
+        first_column, first_row, columns, rows = self.region or (0, 0, self.width, self.height)
+        end_column = min(max(first_column + columns, 0), self.width)
+        end_row = min(max(first_row + rows, 0), self.height)
+        first_column, first_row = min(max(first_column, 0), self.width), min(max(first_row, 0), self.height)
+        columns, rows = end_column - first_column, end_row - first_row
+        known = {
+            "bounds": (first_column, first_row, end_column, end_row),
+            "shape": (rows, columns),
+            "place_of_origin": -(first_row * columns + first_column),
+        }
+        vars(self).update(known)
 
     def centers(self, column: Integers, row: Integers) -> tuple[Floats, Floats]:
         """Return x and y (F,) of the centres of pixels."""
-        return self.along(column), self.along(row)
+        return column + np.float64(self.center), row + np.float64(self.center)
 
     def along(self, index: Integers) -> Floats:
         """Return x of columns, or y of rows (F,): where their pixels' centres lie along that axis."""
@@ -55,12 +56,6 @@ class Raster:
     def index(self, column: Integers, row: Integers) -> Integers:
         """Return the place of pixels (F,) in flattened buffers."""
         return row * self.shape[1] + (column + self.place_of_origin)
-
-    @property
-    def place_of_origin(self) -> int:
-        """Where column 0, row 0 of the image would stand in flattened buffers: 0, or before a region."""
-        first_column, first_row, _, _ = self.bounds
-        return -(first_row * self.shape[1] + first_column)
 
     def position(self, index: Integers) -> tuple[Integers, Integers]:
         """Return column and row (F,) of places in flattened buffers."""

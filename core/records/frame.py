@@ -80,3 +80,7 @@ class Frame:
     """Counts per stage: triangles up to ``edges``, pixels (or samples) from ``bin`` on."""
     samples: Samples | None = None
     """The buffers of every sample, where a pixel has several."""
+
+    def __post_init__(self) -> None:
+        for buffer in (self.color, self.depth, self.primitive, self.attributes, self.cover_count):
+            buffer.flags.writeable = False

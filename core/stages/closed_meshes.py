@@ -17,7 +17,7 @@ import numpy as np
 from core.fragments.interpolation import plane_value
 from core.geometry.vertex_stage import transform_vertices
 from core.raster.pixel_runs import Raster, make_raster
-from core.raster.spans.lane_rows import pixels_of_rows, rows_in_order
+from core.raster.spans.fill import pixels_of_rows, rows_in_order
 from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers

@@ -17,8 +17,8 @@ from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.vertex_stage import VertexStage
-from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
-from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners
+from core.raster.edges.edge_functions import EdgeFunctions, edge_functions
+from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners_in
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount
@@ -113,14 +113,16 @@ class Geometry:
     def corners(self) -> CornerPositions:
         """The corners of the primitives in the homogeneous window and on the lattice."""
         with self.count:
-            placed = place_corners(self.primitives.clip, self.vertices.size, self.settings.coverage)
+            placed = place_corners_in(
+                self.primitives.clip, self.vertices.size, resolve(self.settings).numbers
+            )
             return placed.moved(*self.shift) if any(self.shift) else placed
 
     @cached_property
     def edges(self) -> EdgeFunctions:
         """The edge functions of the primitives."""
         with self.count:
-            return set_up_edges(self.corners, self.settings.fill_rule)
+            return edge_functions(self.corners, resolve(self.settings).owns_tie)
 
     @cached_property
     def planes(self) -> Planes:
@@ -171,6 +173,8 @@ class Geometry:
     @cached_property
     def outlines(self) -> "Outlines | None":
         """The edges that a wireframe draws; ``None``: triangles are filled."""
+        if not resolve(self.settings).is_outlined:
+            return None
         return self.whole_outlines if self.outline_clip is None else self.outline_clip.outlines
 
     @cached_property

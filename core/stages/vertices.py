@@ -13,7 +13,6 @@ from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, 
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
-from core.methods import is_registered
 from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
@@ -77,7 +76,7 @@ def process_geometry(
     if chosen is not None or (raster is not None and raster.region is not None):
         return _process(scene, settings, counts, chosen, raster)
     for of_scene, of_settings, known, known_counts in _last:
-        if of_scene is scene and of_settings == settings:
+        if of_scene is scene and (of_settings is settings or of_settings == settings):
             for stage in GEOMETRY_STAGES:
                 counts[stage] = replace(known_counts[stage], seconds=0.0)
             return known.counted_in(counts["edges"])
@@ -97,7 +96,8 @@ def _process(
     with counts["transform"]:
         vertices = transform_vertices(scene)
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
-        counts["transform"].incoming = counts["transform"].outgoing = len(assembled)
+        triangle_count = len(assembled)
+        counts["transform"].incoming = counts["transform"].outgoing = triangle_count
 
     with counts["cull"]:
         window, outcode = place(assembled, scene.size, settings)
@@ -111,17 +111,17 @@ def _process(
             index = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
             kept, doubled_area = assembled.take(index), facing.take(index)
         # Triangles beside the raster are counted as if they went on, or the bands' counts would not be the picture's.
-        beside_count = int(np.count_nonzero(culled.kept)) - len(kept) if raster is not None else 0
-        counts["cull"].incoming, counts["cull"].outgoing = len(assembled), len(kept) + beside_count
+        kept_count = int(np.count_nonzero(culled.kept))
+        counts["cull"].incoming, counts["cull"].outgoing = triangle_count, kept_count
 
     with counts["clip"]:
-        counts["clip"].incoming = len(kept) + beside_count
         primitives, clipped, inserted = clip(kept, outcode, settings)
-        counts["clip"].outgoing = len(primitives) + beside_count
+        piece_count = kept_count if primitives is kept else kept_count + len(primitives) - len(kept)
+        counts["clip"].incoming, counts["clip"].outgoing = kept_count, piece_count
         counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
 
     with counts["edges"]:
-        counts["edges"].incoming = counts["edges"].outgoing = len(primitives) + beside_count
+        counts["edges"].incoming = counts["edges"].outgoing = piece_count
         if primitives is not kept:
             window, outcode = place(primitives, scene.size, settings)
             doubled_area = face(primitives, window, scene.size, settings)
@@ -179,7 +179,7 @@ def corner_values(
         find_values = partial(light_vertices, scene, vertices, settings)
     with count:
         values = find_values(triangle)
-        if not is_registered(settings.interpolation, "flat"):
+        if not resolve(settings).is_flat:
             return values
         _, provoking, _ = resolve(settings).interpolation
         return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
@@ -269,6 +269,8 @@ def clip(
     inserted : str
         See ``Geometry.clipping_inserted``.
     """
+    if not resolve(settings).clips and not (outcode & BEHIND_BIT).any():
+        return kept, None, ""
     joined = joined_bits(outcode, kept.corner)
     crosses_eye = has_bits(joined, BEHIND_BIT)
     clipping, inserted = choose_clipping(settings, bool(crosses_eye.any()))

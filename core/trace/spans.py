@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.raster.edges.edge_functions import edge_value
-from core.raster.spans.lane_rows import is_in_lane
+from core.raster.spans.fill import is_in_lane
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row

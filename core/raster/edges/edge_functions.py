@@ -27,14 +27,14 @@ on the triangle's plane at one place: it is 1).
 J. Pineda, *A parallel algorithm for polygon rasterization*, 1988.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.methods import table
-from core.raster.edges.cross_product import FIRST, LAST, NEXT, cross
 from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import FormatValue, NumberFormat, number_format
+from core.raster.number_formats.number_format import FIRST, LAST, NEXT, FormatValue, NumberFormat, cross
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 
@@ -138,9 +138,13 @@ def doubled_areas(x: Floats, y: Floats, corner: Integers) -> Floats:
 
 def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
     """Return the edge functions of P triangles, turned so that inside is positive, in the corners' number format."""
-    numbers, a, b, c, doubled_area = number_format(corners.coverage).set_up(corners)
-    owns_tie = table.get("fill_rule", fill_rule).function(a, b)
-    return EdgeFunctions(a, b, c, owns_tie, corners, doubled_area, numbers)
+    return edge_functions(corners, table.get("fill_rule", fill_rule).function)
+
+
+def edge_functions(corners: CornerPositions, owns_tie: Callable[..., Flags]) -> EdgeFunctions:
+    """Return those of P triangles; ``owns_tie`` takes a and b (P, 3), as functions of the family ``fill_rule`` do."""
+    numbers, a, b, c, doubled_area = corners.numbers.set_up(corners)
+    return EdgeFunctions(a, b, c, owns_tie(a, b), corners, doubled_area, numbers)
 
 
 def set_up_per_edge(corners: CornerPositions) -> tuple[Floats, Floats, Floats, Floats]:

@@ -8,12 +8,15 @@ in which numbers the edges are computed, is up to the number format (``number_fo
 """
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.methods import table
 from core.records.arrays import Flags, Floats, Integers
+
+if TYPE_CHECKING:
+    from core.raster.number_formats.number_format import NumberFormat
 
 SUBPIXELS = 256
 """Steps of the snapping lattice in one pixel."""
@@ -37,8 +40,8 @@ class CornerPositions:
     """(P, 3, 4) float64, what all of these were made from: exact coverage is decided on it."""
     size: tuple[int, int]
     """Width and height of the image in pixels."""
-    coverage: str
-    """The method of the family ``coverage``: in which numbers edges are set up."""
+    numbers: "NumberFormat"
+    """The numbers that edges are set up in."""
     shift: tuple[float, float] = (0.0, 0.0)
     """By how many pixels all but ``clip`` is moved, multiples of 1/256."""
 
@@ -79,13 +82,6 @@ class WindowVertices:
     """(M,) bool, where ``x`` and ``y`` hold."""
 
 
-class Lattice(Protocol):
-    """What is asked of a number format here (``core.raster.number_formats``)."""
-
-    def place(self, window: Floats) -> tuple[Floats, Flags]:
-        """Return positions (P, 3, 2) on the lattice, and where (P, 3) bool there are any."""
-
-
 def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
     """Put corners on the lattice of a coverage method.
 
@@ -96,17 +92,22 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
     coverage : str
         A method of the family ``coverage``.
     """
+    return place_corners_in(clip, size, table.get("coverage", coverage).function())
+
+
+def place_corners_in(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> CornerPositions:
+    """Put corners (P, 3, 4) on the lattice of a number format; see `place_corners`."""
     x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
     homogeneous = _component_rows(w.shape, 3)
     homogeneous[..., 0] = (x + w) * (size[0] / 2)
     homogeneous[..., 1] = (y + w) * (size[1] / 2)
     homogeneous[..., 2] = w
     window = window_position(clip, size)
-    decided, is_projected = table.get("coverage", coverage).function().place(window)
-    return CornerPositions(homogeneous, window, decided, is_projected, clip, size, coverage)
+    decided, is_projected = numbers.place(window)
+    return CornerPositions(homogeneous, window, decided, is_projected, clip, size, numbers)
 
 
-def place_vertices(clip: Floats, size: tuple[int, int], numbers: Lattice) -> WindowVertices:
+def place_vertices(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> WindowVertices:
     """Put vertices (M, 4) on the lattice of a number format, as ``place_corners`` does with corners."""
     decided, is_projected = numbers.place(window_position(clip, size))
     return WindowVertices(decided[:, 0], decided[:, 1], is_projected)

@@ -20,12 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.methods import table
-from core.raster.edges.cross_product import LAST, NEXT, cross
 from core.raster.edges.snapping import CornerPositions, keep
 from core.records.arrays import Flags, Floats
 
 FormatValue = NDArray[Any]
 """Numbers of a format, kept in an array of its own type."""
+FIRST = np.array([0, 1, 2])
+NEXT = np.array([1, 2, 0])
+LAST = np.array([2, 0, 1])
+"""Corner k itself, and the two that follow it counter-clockwise: the ends of edge k."""
 
 
 class Coefficients(NamedTuple):
@@ -119,6 +122,14 @@ class NumberFormat:
     def scaled(self, slope: int, value: int, area: int) -> "NumberFormat":
         """Return the same format with other units."""
         return replace(self, slope_exponent=slope, value_exponent=value, area_exponent=area)
+
+
+def cross(x1: Any, y1: Any, w1: Any, x2: Any, y2: Any, w2: Any) -> tuple[Any, Any, Any]:
+    """Return the cross products (3, P) of (x1, y1, w1) and (x2, y2, w2): lines through two homogeneous points.
+
+    Every product and sum is one of the numbers' own type.
+    """
+    return y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
 
 
 def number_format(coverage: str) -> NumberFormat:

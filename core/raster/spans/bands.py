@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.raster.pixel_runs import Raster
-from core.raster.spans.lane_rows import rows_in_order
+from core.raster.spans.fill import rows_in_order
 from core.raster.spans.lanes import TieOwners, set_up_lanes
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers

@@ -85,7 +85,7 @@ class TriangleSetup:
 
 def row_range(y: Floats, raster: Raster, owners: TieOwners, scratch: ScratchBuffers) -> tuple[Floats, Floats]:
     """Return the first row and the number of rows (P,) float64 of triangles with corners at y (3, P), in the raster."""
-    first, end = scratch("first", y.shape[1]), scratch("rows", y.shape[1])
+    first, end = scratch("row_range", 2, y.shape[1])
     np.minimum(y[0], y[1], out=first)
     np.minimum(first, y[2], out=first)
     np.maximum(y[0], y[1], out=end)
@@ -149,7 +149,7 @@ def _from_lowest_corner(
     turn = turn.take(order)
 
     place = scratch("place", count, dtype=np.int64)
-    turned_x, turned_y = scratch("turned_x", 3, count), scratch("turned_y", 3, count)
+    turned_x, turned_y = scratch("turned", 2, 3, count)
     flat_x, flat_y = x.reshape(-1), y.reshape(-1)
     for corner, first_place in enumerate(_TURNED * total):
         first_place.take(turn, out=place, mode="clip")
@@ -171,8 +171,8 @@ def _edges(
     on the right where it goes up, on the left where it goes down. A level edge bounds no row.
     """
     count = len(first_row)
-    numerator, step, reciprocal = (scratch(name, 4, count) for name in ("numerator", "step", "reciprocal"))
-    dy, above_start, part = (scratch(name, count) for name in ("dy", "above_start", "part"))
+    numerator, step, reciprocal = scratch("edges", 3, 4, count)
+    dy, above_start, part = scratch("edge", 3, count)
     for side, start, end in ((RIGHT, 0, 1), (LEFT, 0, 2), (MIDDLE_RIGHT, 1, 2)):
         if side != LEFT:
             np.subtract(first_row, y[start], out=above_start)

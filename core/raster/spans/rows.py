@@ -93,7 +93,7 @@ def bounds_of_rows(
     group gets empty rows. The numerators of ``lanes`` are used up.
     """
     groups = _groups(lanes.taller)
-    total = sum(count * levels for count, levels in groups)
+    total = sum([count * levels for count, levels in groups])
     left, right = scratch("left", total), scratch("right", total)
     values = [scratch(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
     done = row = 0
@@ -132,7 +132,9 @@ def _cross(
 ) -> None:
     """Write the bounds (levels, count) of the next rows, and move the numerators of the ``further`` lanes on."""
     numerator, step, reciprocal = (
-        values[:, :count] for values in (lanes.numerator, lanes.step, lanes.reciprocal)
+        lanes.numerator[:, :count],
+        lanes.step[:, :count],
+        lanes.reciprocal[:, :count],
     )
     if levels == 1:
         at = scratch("crossing", 4, count)
@@ -183,7 +185,7 @@ def _bound_columns(
         first_column, _, end_column, _ = raster.bounds
         np.maximum(left, float(first_column), out=left)
         np.minimum(right, float(end_column), out=right)
-    start, length = (scratch(name, len(left), dtype=np.int32) for name in ("row_start", "row_length"))
+    start, length = scratch("row_columns", 2, len(left), dtype=np.int32)
     np.copyto(start, left, casting="unsafe")
     np.copyto(length, right, casting="unsafe")
     length -= start

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
 from core.methods import table
-from core.raster.spans.lane_rows import lanes_of_edges
+from core.raster.spans.fill import lanes_of_edges
 from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, tie_owners
 from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.trace import StageTrace

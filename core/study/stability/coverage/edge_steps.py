@@ -9,9 +9,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.raster.edges.cross_product import LAST, NEXT
 from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import NumberFormat
+from core.raster.number_formats.number_format import LAST, NEXT, NumberFormat
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.raster.pixel_runs import make_raster
-from core.raster.spans.lane_rows import LaneRows, pixels_of_rows
+from core.raster.spans.fill import LaneRows, pixels_of_rows
 
 
 @given(

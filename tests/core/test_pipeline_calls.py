@@ -1,0 +1,49 @@
+"""One triangle goes through the pipeline in few steps, so that a reader with a debugger can follow them."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+
+import core
+from core import ClipScene, render
+
+ROOT = str(Path(core.__file__).parent)
+CLIP = [[[-0.8, -0.7, 0, 1], [0.9, -0.5, 0, 1], [-0.1, 0.8, 0, 1]]]
+COLORS = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+
+
+@contextmanager
+def counted_calls() -> Iterator[list[str]]:
+    """Collect the file of every function of the core that is called in the block."""
+    files: list[str] = []
+
+    def watch(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code.co_filename.startswith(ROOT):
+            files.append(frame.f_code.co_filename)
+
+    before = sys.getprofile()
+    sys.setprofile(watch)
+    try:
+        yield files
+    finally:
+        sys.setprofile(before)
+
+
+def test_a_triangle_is_drawn_again_in_under_150_calls_of_25_files() -> None:
+    scene = ClipScene(CLIP, COLORS, size=(64, 64))
+    render(scene)
+    with counted_calls() as files:
+        render(scene)
+    assert len(files) < 150
+    assert len(set(files)) <= 25
+
+
+def test_a_new_triangle_is_drawn_in_under_240_calls_of_35_files() -> None:
+    render(ClipScene(CLIP, COLORS, size=(64, 64)))
+    scene = ClipScene(CLIP, COLORS, size=(64, 64))
+    with counted_calls() as files:
+        render(scene)
+    assert len(files) < 240
+    assert len(set(files)) <= 35
