@@ -18,7 +18,7 @@ from core.fast_path.workers import BandWorkers
 from core.fast_path.workers.worker import memory_prefix
 from tests.core.fast_path.band_scenes import SPANS, ball
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 SHARED_FOLDER = Path("/dev/shm")
 
 
