@@ -76,7 +76,7 @@ def test_contenders_are_checked_and_timed(result: Result) -> None:
     assert entries["black"].difference.covered == result.counts.pixels
     for entry in entries.values():
         times = entry.times
-        assert times.count == 2 * SHORT_CALLS
+        assert 2 <= times.count <= 2 * SHORT_CALLS  # fewer where one takes long
         assert 0 < times.least <= times.lower_quartile <= times.median <= times.upper_quartile
 
 

@@ -105,20 +105,20 @@ def without(mesh: Mesh, kept: slice) -> Mesh:
 
 
 MESHES = {
-    "cube": (cube(1.6), True),
-    "sphere": (sphere(1.0, 40, 20), True),
-    "torus": (torus(), False),
-    "knot": (knot(columns=120, rows=8), False),
-    "open sphere": (without(sphere(1.0, 40, 20), slice(0, 900)), True),
-    "open torus": (without(torus(), slice(0, 1500)), False),
+    "cube": (lambda: cube(1.6), True),
+    "sphere": (lambda: sphere(1.0, 40, 20), True),
+    "torus": (torus, False),
+    "knot": (lambda: knot(columns=120, rows=8), False),
+    "open sphere": (lambda: without(sphere(1.0, 40, 20), slice(0, 900)), True),
+    "open torus": (lambda: without(torus(), slice(0, 1500)), False),
 }
-"""Name to a mesh, and whether it is convex."""
+"""Name to what makes a mesh, and whether it is convex. Of a mesh that was drawn it is known whether it overlaps."""
 
 
 @every_pair(mesh=list(MESHES), cull=["back", "front", "none"], turn=[0.1, 0.9, 2.0, 3.3])
 def test_meshes(mesh: str, cull: str, turn: float) -> None:
-    solid_mesh, is_convex = MESHES[mesh]
-    scene = solid(solid_mesh, turn)
+    make, is_convex = MESHES[mesh]
+    scene = solid(make(), turn)
     chosen = Settings(cull=cull, shading="flat", interpolation="flat")
     picture = draw_picture(scene, Settings(**{**vars(chosen), "fill": "spans"}))
     assert np.array_equal(picture.pixels, exact_bytes(scene, chosen, "srgb"))
