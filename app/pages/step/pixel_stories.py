@@ -3,8 +3,13 @@
 import numpy as np
 
 from app.window.message_words import sentence_case
-from core.explain.history.pieces import piece_reason, pieces_verdict
-from core.explain.history.samples import of_sample, samples_name, samples_verdict
+from core.explain.history.parts import (
+    of_sample,
+    piece_reason,
+    pieces_verdict,
+    samples_name,
+    samples_verdict,
+)
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
 from core.explain.number_text import counted
 from core.framebuffer.display import encode_linear, encode_srgb
@@ -17,7 +22,7 @@ from widgets.basics.marks import Mark
 from widgets.inspector.history_view import HistoryEntry, PixelStory, PixelValue
 
 MOST_GROUPS = 4
-"""Groups of samples whose histories are told; those of more triangles in a pixel are only counted."""
+"""Groups of samples with a history of their own; further ones are only counted."""
 Lines = list[tuple[HistoryEntry, int | None]]
 """The lines of a history, each with its triangle."""
 
@@ -92,8 +97,8 @@ def _story_of_samples(
     for _, samples in groups[:MOST_GROUPS]:
         history = why(source, column, row, triangle, sample=samples[0])
         name = samples_name(samples)
-        told = of_sample(verdict_sentence(history))
-        verdicts.append(f"{name}: {told}" if len(groups) > 1 else told)
+        verdict = of_sample(verdict_sentence(history))
+        verdicts.append(f"{name}: {verdict}" if len(groups) > 1 else verdict)
         lines += [
             (_of_samples(entry, name if len(groups) > 1 else ""), of_triangle)
             for entry, of_triangle in _lines(history)
@@ -101,8 +106,8 @@ def _story_of_samples(
         ]
     rest = groups[MOST_GROUPS:]
     if rest:
-        told = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more triangles"
-        lines.append((HistoryEntry(told), None))
+        counts = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more triangles"
+        lines.append((HistoryEntry(counts), None))
     verdict = samples_verdict(groups, resolve(source.settings).sampling.count)
     if triangle is not None or len(groups) == 1:
         verdict = f"{verdict} {' '.join(verdicts)}"

@@ -98,7 +98,7 @@ def _corners(numbers: tuple[int, ...]) -> str:
 
 
 DIVISIONS = {
-    "mirrored": "the division by w has mirrored what is behind the eye",
+    "mirrored": "the division by w has mirrored the part behind the eye",
     "undefined": "a vertex cannot be divided by its w",
 }
 """What dividing before clipping did to a triangle."""
@@ -116,7 +116,7 @@ def _outside(values: Values) -> str:
         planes_of.setdefault(corners, []).append(PLANES[plane])
     parts = []
     for corners, planes in planes_of.items():
-        more = f" and outside of {_plural(len(planes) - 1, 'more plane')}" if len(planes) > 1 else ""
+        more = f" and outside {_plural(len(planes) - 1, 'more plane')}" if len(planes) > 1 else ""
         parts.append(f"{_corners(corners)} {planes[0]}{more}")
     return ", ".join(parts)
 
@@ -125,7 +125,7 @@ def _missed(values: Values) -> str:
     """Return by how much which edge was missed."""
     if not isfinite(values["distance"]):
         return f"the pixel centre is outside edge {values['edge']}"
-    text = f"the pixel centre missed edge {values['edge']} by {_pixels(values['distance'])}"
+    text = f"the pixel centre is {_pixels(values['distance'])} beyond edge {values['edge']}"
     if not values["is_exact"] and abs(values["ulps"]) < 1000:
         text += f", {number_text(abs(values['ulps']))} units in the last place"
     return text
@@ -138,7 +138,7 @@ def _tie(values: Values) -> str:
 
 
 def _not_here(values: Values) -> str:
-    """Return the nearest edge and its distance, or that the pixel was inside of all edges."""
+    """Return the nearest edge and its distance, or that the pixel was inside all edges."""
     if values["doubled_area"] == 0:
         return "it has no area"
     if values["inside"].all():
@@ -147,16 +147,16 @@ def _not_here(values: Values) -> str:
 
 
 def _would(values: Values) -> str:
-    return "; it would have had a fragment here" if values.get("would_cover") else ""
+    return "; otherwise it would have a fragment here" if values.get("would_cover") else ""
 
 
 def _block(values: Values) -> str:
     column, row = values["block"]
-    return f"block ({column}, {row}) of {values['block_size']}x{values['block_size']} pixels"
+    return f"block ({column}, {row}) of {values['block_size']} × {values['block_size']} pixels"
 
 
 def _outside_block(values: Values) -> str:
-    return f"outside {_block(values)}, rejected by edge {values['rejected_by']}; {_not_here(values)}"
+    return f"{_block(values)} is rejected by edge {values['rejected_by']}; {_not_here(values)}"
 
 
 def _outside_box(values: Values) -> str:
@@ -164,7 +164,7 @@ def _outside_box(values: Values) -> str:
     if column_end <= column or row_end <= row:
         return f"its bounding box contains no pixel centre of the image; {_not_here(values)}"
     return (
-        f"not in its bounding box, columns {column} to {column_end - 1}, rows {row} to {row_end - 1};"
+        f"outside its bounding box, columns {column} to {column_end - 1}, rows {row} to {row_end - 1};"
         f" {_not_here(values)}"
     )
 
@@ -182,7 +182,7 @@ def _accepted(values: Values) -> str:
     if "start" in values:
         outside = "" if values["inside"].all() else f", although {_not_here(values)}"
         return f"covered: in the span of this row, {_span(values)}{outside}"
-    return f"covered: {_block(values)} is inside as a whole"
+    return f"covered: {_block(values)} lies wholly inside"
 
 
 def _edge_margin(values: Values) -> str:
@@ -216,16 +216,30 @@ def _reason(values: Values) -> str:
 def _all_rejected(values: Values) -> str:
     count = values["fragment_count"]
     if not count:
-        return f"nothing was drawn here: triangle {values['triangle']} was left out; {_reason(values)}"
+        return f"nothing is drawn here: triangle {values['triangle']} was dropped; {_reason(values)}"
     if count == 1:
         return f"the only fragment here, of triangle {values['triangle']}, was rejected; {_reason(values)}"
-    return f"all {count} fragments here were rejected; the last one: {_reason(values)}"
+    return f"all {count} fragments here were rejected, the last one: {_reason(values)}"
+
+
+def _nothing_near(values: Values) -> str:
+    count = values["triangle_count"]
+    boxes = (
+        "the bounding box of the only triangle"
+        if count == 1
+        else f"the bounding boxes of all {count} triangles"
+    )
+    return f"no triangle covers this pixel: it lies outside {boxes}"
+
+
+def _all_missed(values: Values) -> str:
+    return f"no triangle covers this pixel. The nearest is triangle {values['triangle']}: {_reason(values)}"
 
 
 def _seen(values: Values) -> str:
     rejected = values["fragment_count"] - values["passed_count"]
     behind = f"; {_plural(rejected, 'fragment')} rejected" if rejected else ""
-    return f"triangle {values['triangle']} is seen here{behind}"
+    return f"triangle {values['triangle']} is visible here{behind}"
 
 
 def _seen_over(values: Values) -> str:
@@ -242,13 +256,8 @@ PLANES = {
 }
 
 SENTENCES: dict[tuple[str, str], Sentence] = {
-    ("verdict", "nothing-near"): lambda v: (
-        "nothing was drawn here: the pixel is in the box of none of "
-        + _plural(v["triangle_count"], "triangle")
-    ),
-    ("verdict", "all-missed"): lambda v: (
-        f"nothing was drawn here: triangle {v['triangle']} comes nearest; {_reason(v)}"
-    ),
+    ("verdict", "nothing-near"): _nothing_near,
+    ("verdict", "all-missed"): _all_missed,
     ("verdict", "all-rejected"): _all_rejected,
     ("verdict", "seen"): _seen,
     ("verdict", "seen-over"): _seen_over,
@@ -256,7 +265,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"{v['passed_count'] - v['overwritten_count']} fragments are blended here,"
         f" triangle {v['triangle']} last"
     ),
-    ("verdict", "triangle-seen"): lambda v: f"triangle {v['triangle']} is seen here",
+    ("verdict", "triangle-seen"): lambda v: f"triangle {v['triangle']} is visible here",
     ("verdict", "triangle-blended"): lambda v: (
         f"triangle {v['triangle']} is blended here, under triangle {v['seen']}"
     ),
@@ -265,25 +274,25 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ),
     ("verdict", "triangle-rejected"): lambda v: f"triangle {v['triangle']} was rejected here: {_reason(v)}",
     ("verdict", "triangle-absent"): lambda v: f"triangle {v['triangle']} has no fragment here: {_reason(v)}",
-    ("blend", "initial"): "nobody has written here yet",
+    ("blend", "initial"): "nothing is written here yet",
     ("blend", "clear"): "the background colour and the farthest depth",
     ("transform", "in-front"): "all three vertices are in front of the eye",
     ("transform", "crosses-eye"): lambda v: f"{_corners(v['behind'])} behind the eye (w ≤ 0)",
     ("transform", "behind-eye"): "all three vertices are behind the eye (w ≤ 0)",
-    ("cull", "kept"): lambda v: f"not culled: the {'front' if v['facing'] > 0 else 'back'} is seen",
-    ("cull", "back-facing"): lambda v: f"culled: its back is turned to the eye{_would(v)}",
-    ("cull", "front-facing"): lambda v: f"culled: its front is turned to the eye{_would(v)}",
+    ("cull", "kept"): lambda v: f"not culled: its {'front' if v['facing'] > 0 else 'back'} faces the eye",
+    ("cull", "back-facing"): lambda v: f"culled: its back faces the eye{_would(v)}",
+    ("cull", "front-facing"): lambda v: f"culled: its front faces the eye{_would(v)}",
     ("cull", "degenerate"): "culled: it has no area",
     ("cull", "behind-eye"): "culled: all three vertices are behind the eye (w ≤ 0)",
     ("cull", "outside-plane"): lambda v: f"culled: all vertices are {PLANES[v['plane']]}{_would(v)}",
     ("clip", "no-clipping"): "not clipped",
-    ("clip", "inside"): "not clipped: inside of all planes",
+    ("clip", "inside"): "not clipped: inside all planes",
     ("clip", "clipped"): _clipped,
-    ("clip", "clipped-away"): lambda v: f"{_outside(v)}; clipped away as a whole",
-    ("bin", "no-area"): "it has no area on the lattice of 1/256 pixel",
+    ("clip", "clipped-away"): lambda v: f"{_outside(v)}; wholly clipped away",
+    ("bin", "no-area"): "it has no area on the 1/256-pixel grid",
     ("bin", "in-box"): "in its bounding box",
     ("bin", "whole-image"): "no bounding box: not all of its corners can be projected",
-    ("bin", "inside-block"): lambda v: f"{_block(v)} is inside as a whole",
+    ("bin", "inside-block"): lambda v: f"{_block(v)} lies wholly inside",
     ("bin", "outside-block"): _outside_block,
     ("bin", "outside-box"): _outside_box,
     ("raster", "covered"): _edge_margin,
@@ -293,12 +302,12 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "tie-not-owned"): _tie,
     ("raster", "undefined"): "an edge function is not a number here",
     ("raster", "outside-span"): lambda v: f"outside the span of this row, {_span(v)}; {_not_here(v)}",
-    ("raster", "row-not-drawn"): lambda v: f"the printed fill draws no span in this row; {_not_here(v)}",
+    ("raster", "row-not-drawn"): lambda v: f"the fill as printed draws no span in this row; {_not_here(v)}",
     ("raster", "on-outline"): lambda v: (
         f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
     ),
     ("raster", "off-outline"): lambda v: (
-        f"not on its outline; edge {v['edge']} is nearest, {_pixels(v['distance'])} away"
+        f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"
     ),
     ("raster", "no-outline"): "none of its edges is drawn near the window",
     ("interpolate", "weights"): lambda v: "weights " + ", ".join(number_text(w) for w in v["weights"]),
@@ -308,7 +317,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"failed the depth test: {number_text(v['stored'])} is not nearer than {_against(v)}"
     ),
     ("depth", "tied"): lambda v: (
-        f"failed the depth test: as far as {_against(v)}, and a tie keeps what is there"
+        f"failed the depth test: equal to {_against(v)}, and a tie keeps the stored depth"
     ),
     ("depth", "ray-nearer"): lambda v: f"the ray meets it before {_holder(v)}, compared exactly",
     ("depth", "ray-farther"): lambda v: f"the ray meets {_holder(v)} first, compared exactly",
@@ -316,10 +325,12 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"the ray meets it exactly where it meets {_holder(v)}, which came first"
     ),
     ("depth", "not-tested"): lambda v: f"depth {number_text(v['stored'])} stored without a test",
-    ("depth", "before-near"): lambda v: f"before the near plane: depth {number_text(v['depth'])} is below 0",
+    ("depth", "before-near"): lambda v: (
+        f"in front of the near plane: depth {number_text(v['depth'])} is below 0"
+    ),
     ("depth", "behind-far"): lambda v: f"beyond the far plane: depth {number_text(v['depth'])} is above 1",
     ("depth", "undefined"): "its depth is not a number",
-    ("blend", "written"): "written, and seen",
+    ("blend", "written"): "written and visible",
     ("blend", "overwritten"): lambda v: f"written, later overwritten by triangle {v['by']}",
     ("blend", "blended"): lambda v: f"blended with alpha {number_text(v['alpha'])}",
 }
@@ -332,7 +343,7 @@ COUNTED = {
     "behind-eye": "culled, behind the eye",
     "outside-plane": "culled, outside the view",
     "clipped-away": "clipped away",
-    "outside-box": "the pixel is not in their box",
-    "missed": "the pixel is in their box, but farther from them than from those listed",
+    "outside-box": "the pixel is outside their bounding box",
+    "missed": "the pixel is in their bounding box, but farther from them than from those listed",
 }
 """Reason of triangles that are not listed, to words."""

@@ -186,7 +186,7 @@ def test_the_history_of_a_pixel_that_is_opened_from_another_page_is_told(
     with qtbot.waitSignal(window.opening.opened, timeout=20000):
         window.opening.open_request(StepRequest(opening, "One triangle"))
     assert window.page.history.place.text() == "Pixel column 20, row 20"
-    assert "Triangle 0 is seen here" in window.page.history.verdict.text()
+    assert "Triangle 0 is visible here" in window.page.history.verdict.text()
 
 
 def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(

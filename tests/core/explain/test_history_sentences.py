@@ -47,12 +47,12 @@ def all_texts(history: PixelHistory) -> list[str]:
 @pytest.mark.parametrize(
     ("pixel", "triangle", "choice", "wanted"),
     [
-        ((3, 3), None, {}, "Triangle 0 is seen here."),
+        ((3, 3), None, {}, "Triangle 0 is visible here."),
         (
             (7, 6),
             None,
             {"fill": "bounding-box"},
-            "Nothing was drawn here: triangle 0 comes nearest; the pixel centre missed edge 0 by 1.414 px.",
+            "No triangle covers this pixel. The nearest is triangle 0: the pixel centre is 1.414 px beyond edge 0.",
         ),
         (
             (5, 6),
@@ -65,23 +65,28 @@ def all_texts(history: PixelHistory) -> list[str]:
             (9, 9),
             0,
             {"fill": "blocks", "block_size": 4},
-            "Triangle 0 has no fragment here: outside block (2, 2) of 4x4 pixels, rejected by edge 0;"
-            " the pixel centre missed edge 0 by 4.95 px.",
+            "Triangle 0 has no fragment here: block (2, 2) of 4 × 4 pixels is rejected by edge 0;"
+            " the pixel centre is 4.95 px beyond edge 0.",
         ),
         (
             (14, 10),
             0,
             {},
-            "Triangle 0 has no fragment here: not in its bounding box, columns 2 to 9, rows 2 to 9;"
-            " the pixel centre missed edge 0 by 9.192 px.",
+            "Triangle 0 has no fragment here: outside its bounding box, columns 2 to 9, rows 2 to 9;"
+            " the pixel centre is 9.192 px beyond edge 0.",
         ),
-        ((14, 10), None, {}, "Nothing was drawn here: the pixel is in the box of none of 1 triangle."),
+        (
+            (14, 10),
+            None,
+            {},
+            "No triangle covers this pixel: it lies outside the bounding box of the only triangle.",
+        ),
         (
             (3, 3),
             None,
             {"cull": "front"},
-            "Nothing was drawn here: triangle 0 was left out; culled: its front is turned to the eye;"
-            " it would have had a fragment here.",
+            "Nothing is drawn here: triangle 0 was dropped; culled: its front faces the eye;"
+            " otherwise it would have a fragment here.",
         ),
     ],
 )
@@ -94,7 +99,7 @@ def test_a_near_miss_is_told_in_256ths_too():
         "reason"
     ]
     text = link_sentence(reason)
-    found = re.fullmatch(r"The pixel centre missed edge 0 by (0\.0\d+) px \(([\d.]+)/256\)\.", text)
+    found = re.fullmatch(r"The pixel centre is (0\.0\d+) px \(([\d.]+)/256\) beyond edge 0\.", text)
     assert found, text
     assert float(found[2]) == pytest.approx(256 * float(found[1]), rel=1e-3)
 
@@ -104,18 +109,19 @@ def test_depth_tests_name_whom_they_met():
     scene = window_scene(LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, z=z)
     history = ask(scene, 3, 3)
     assert [(event_title(event), event_reason(event)) for event in history.events] == [
-        ("Initial value", "Nobody has written here yet."),
+        ("Initial value", "Nothing is written here yet."),
         ("Clear", "The background colour and the farthest depth."),
         ("Triangle 0", "Written, later overwritten by triangle 3."),
         ("Triangle 1", "Failed the depth test: 0.75 is not nearer than triangle 0 (0.5)."),
-        ("Triangle 2", "Failed the depth test: as far as triangle 0 (0.5), and a tie keeps what is there."),
-        ("Triangle 3", "Written, and seen."),
+        ("Triangle 2", "Failed the depth test: equal to triangle 0 (0.5), and a tie keeps the stored depth."),
+        ("Triangle 3", "Written and visible."),
     ]
     assert dict(chain_sentences(history.fragments[0]))["depth"] == (
         "Passed the depth test: 0.5 against the cleared depth (1)."
     )
     assert (
-        verdict_sentence(history) == "Triangle 3 is seen here; 2 fragments rejected, 1 fragment overwritten."
+        verdict_sentence(history)
+        == "Triangle 3 is visible here; 2 fragments rejected, 1 fragment overwritten."
     )
     assert verdict_sentence(ask(scene, 3, 3, 0)) == (
         "Triangle 0 was drawn here and then overwritten by triangle 3."
@@ -126,7 +132,7 @@ def test_clipping_comes_first_in_the_reason():
     clip = [[[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]]
     history = ask(ClipScene(clip, size=SIZE), 8, 8, 0, clipping="sutherland-hodgman", fill="bounding-box")
     text = event_reason(history.events[2])
-    assert text.startswith("Vertex 2 is behind the near plane; clipped to a quad; not in its bounding box, ")
+    assert text.startswith("Vertex 2 is behind the near plane; clipped to a quad; outside its bounding box, ")
     assert re.fullmatch("Triangle 0, piece [12] of 2", event_title(history.events[2]))
 
 
@@ -134,7 +140,7 @@ def test_counts():
     scene = window_scene(LOWER_LEFT, LOWER_LEFT[::-1], LOWER_LEFT)
     assert count_sentences(ask(scene, 15, 11, cull="back")) == (
         "1 more triangle: culled, back-facing.",
-        "2 more triangles: the pixel is not in their box.",
+        "2 more triangles: the pixel is outside their bounding box.",
     )
 
 

@@ -5,8 +5,13 @@ import pytest
 
 from app.pages.step.pixel_stories import story_of
 from core import Settings, render
-from core.explain.history.pieces import piece_reason, pieces_verdict
-from core.explain.history.samples import of_sample, samples_name, samples_verdict
+from core.explain.history.parts import (
+    of_sample,
+    piece_reason,
+    pieces_verdict,
+    samples_name,
+    samples_verdict,
+)
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 
@@ -32,15 +37,15 @@ def test_the_samples_of_a_pixel_have_histories_of_their_own() -> None:
     reasons = [entry.reason for entry in story.entries if entry.title.startswith("Triangle 0, ")]
     assert not story.entries[1].is_rejected
     assert story.entries[3].is_rejected
-    assert "the sample missed edge" in reasons[1].lower()
+    assert " beyond edge " in reasons[1].lower()
     assert not any("pixel centre" in reason for reason in reasons)
 
 
 def test_one_triangle_is_asked_about_in_every_group() -> None:
     source, column, row = edge_pixel(Settings(antialiasing="msaa-4"))
     story, _ = story_of(source, column, row, 0)
-    assert "Triangle 0 is seen here." in story.verdict
-    assert "Triangle 0 has no fragment here: the sample missed edge" in story.verdict
+    assert "Triangle 0 is visible here." in story.verdict
+    assert "Triangle 0 has no fragment here: the sample is " in story.verdict
 
 
 def test_a_pixel_inside_tells_one_history() -> None:
@@ -51,7 +56,7 @@ def test_a_pixel_inside_tells_one_history() -> None:
     row, column = np.argwhere((samples.primitive >= 0).all(axis=0))[0]
     source = TraceSource(scene, settings)
     story, triangles = story_of(source, int(column), int(row))
-    assert story.verdict.startswith("All 9 samples show triangle 0. Triangle 0 is seen here")
+    assert story.verdict.startswith("All 9 samples show triangle 0. Triangle 0 is visible here")
     assert triangles == [None, 0]
 
 
@@ -63,7 +68,9 @@ def test_exact_areas_tell_who_covers_how_much() -> None:
     source = TraceSource(scene, settings)
     story, triangles = story_of(source, int(column), int(row))
     area = float(alpha[row, column])
-    assert story.verdict == f"Triangle 0 is seen in {area:.4g} of the pixel, none in {1 - area:.4g}."
+    assert (
+        story.verdict == f"Triangle 0 is visible in {area:.4g} of the pixel, no triangle in {1 - area:.4g}."
+    )
     assert [entry.title for entry in story.entries] == ["Clear", "Triangle 0"]
     assert story.entries[1].reason == f"Covers {area:.4g} of the pixel."
     assert triangles == [None, 0]
@@ -74,7 +81,7 @@ def test_exact_areas_tell_who_covers_how_much() -> None:
 def test_a_pixel_that_no_triangle_touches_says_so_and_why() -> None:
     source = TraceSource(make_scene("single-triangle"), Settings(antialiasing="area"))
     story, triangles = story_of(source, 0, 0)
-    assert story.verdict == "No triangle is seen in any part of the pixel."
+    assert story.verdict == "No triangle is visible in any part of the pixel."
     assert [entry.title for entry in story.entries] == ["Clear", "1 triangle does not touch the pixel"]
     assert triangles == [None, None]
     told, _ = story_of(source, 0, 0, 0)
@@ -91,13 +98,13 @@ def test_outlines_of_exact_areas_are_told_at_the_centre() -> None:
     ("area", "passed", "seen", "text"),
     [
         (1.0, 1.0, 1.0, "covers all of the pixel"),
-        (0.5, 0.5, 0.25, "covers 0.5 of the pixel; 0.25 is seen in the end"),
+        (0.5, 0.5, 0.25, "covers 0.5 of the pixel; 0.25 is visible in the end"),
         (0.5, 0.25, 0.25, "covers 0.5 of the pixel, 0.25 of it passes the depth test"),
         (
             0.5,
             0.25,
             0.0,
-            "covers 0.5 of the pixel, 0.25 of it passes the depth test; nothing of it is seen in the end",
+            "covers 0.5 of the pixel, 0.25 of it passes the depth test; none of it is visible in the end",
         ),
         (0.5, 0.0, 0.0, "covers 0.5 of the pixel, none of it passes the depth test"),
         (1 - 1e-6, 1 - 1e-6, 1 - 1e-6, "covers almost all of the pixel"),
@@ -111,8 +118,8 @@ def test_of_many_triangles_the_largest_pieces_are_named() -> None:
     shown = [(number, 0.1 + 0.01 * number) for number in range(6)]
     verdict = pieces_verdict(shown, 1 - sum(area for _, area in shown), False)
     assert verdict == (
-        "Triangle 5 is seen in 0.15 of the pixel, triangle 4 in 0.14, triangle 3 in 0.13, triangle 2 in 0.12, "
-        "2 more in 0.21, none in 0.25."
+        "Triangle 5 is visible in 0.15 of the pixel, triangle 4 in 0.14, triangle 3 in 0.13, triangle 2 in 0.12, "
+        "2 more in 0.21, no triangle in 0.25."
     )
     assert pieces_verdict([(3, 1.0)], 0.0, True) == "Triangle 3 lies on top in all of the pixel."
 

@@ -1,12 +1,56 @@
-"""The words of a pixel's history where pixels are cut into pieces: who covers how much of it."""
+"""The words of a pixel's history where a pixel has parts: several samples, or pieces of exact area."""
 
 from collections.abc import Sequence
 from math import isclose
 
-from core.explain.number_text import spoken
+from core.explain.number_text import joined, spoken
 
 MOST_NAMED = 4
-"""Triangles that are named in the first line; of more the ones with the largest pieces are."""
+"""Samples, or triangles with the largest pieces, that are named one by one."""
+
+_OF_SAMPLE = {
+    "no pixel centre": "no sample of this place",
+    "the pixel centre": "the sample",
+    "The pixel centre": "The sample",
+    "the pixel is in": "the sample is in",
+    "the pixel is outside": "the sample is outside",
+    "this pixel": "this sample",
+}
+"""Words about a pixel's centre, and the same about a sample."""
+
+
+def of_sample(text: str) -> str:
+    """Return a sentence about a pixel's centre as one about a sample."""
+    for of_center, of_one in _OF_SAMPLE.items():
+        text = text.replace(of_center, of_one)
+    return text
+
+
+def samples_name(samples: Sequence[int]) -> str:
+    """Return what samples are called: ``Sample 2``, ``Samples 0 and 3``, ``Samples 0, 1, 2 and 6 more``."""
+    if len(samples) == 1:
+        return f"Sample {samples[0]}"
+    named = [str(sample) for sample in samples]
+    if len(samples) > MOST_NAMED + 1:
+        named = [*named[: MOST_NAMED - 1], f"{len(samples) - MOST_NAMED + 1} more"]
+    return f"Samples {joined(named)}"
+
+
+def samples_verdict(groups: Sequence[tuple[int, Sequence[int]]], count: int) -> str:
+    """Return the first line of a pixel of ``count`` samples: which of them show what.
+
+    Parameters
+    ----------
+    groups : sequence of (int, sequence of int)
+        A triangle, -1 for none, and the samples that show it.
+    """
+    parts: list[str] = []
+    for triangle, samples in groups:
+        what = f"triangle {triangle}" if triangle >= 0 else "none"
+        number = f"all {count}" if len(samples) == count else f"{len(samples)} of {count}"
+        parts.append(f"{number} samples show {what}" if not parts else f"{len(samples)} show {what}")
+    text = ", ".join(parts)
+    return f"{text[0].upper()}{text[1:]}."
 
 
 def share_name(area: float) -> str:
@@ -35,8 +79,8 @@ def pieces_verdict(shown: Sequence[tuple[int, float]], background: float, is_ble
         Whether triangles are transparent: the last one lies on others.
     """
     if not shown:
-        return "No triangle is seen in any part of the pixel."
-    verb = "lies on top in" if is_blended else "is seen in"
+        return "No triangle is visible in any part of the pixel."
+    verb = "lies on top in" if is_blended else "is visible in"
     largest = sorted(shown, key=lambda each: -each[1])
     parts = [f"Triangle {largest[0][0]} {verb} {share_name(largest[0][1])}"]
     parts += [f"triangle {triangle} in {spoken(area)}" for triangle, area in largest[1:MOST_NAMED]]
@@ -44,7 +88,7 @@ def pieces_verdict(shown: Sequence[tuple[int, float]], background: float, is_ble
     if rest:
         parts.append(f"{len(rest)} more in {spoken(sum(area for _, area in rest))}")
     if not is_same(background, 0.0):
-        parts.append(f"none in {spoken(background)}")
+        parts.append(f"no triangle in {spoken(background)}")
     return f"{', '.join(parts)}."
 
 
@@ -66,5 +110,5 @@ def piece_reason(area: float, passed: float, seen: float) -> str:
     through = "" if is_same(passed, area) else f", {spoken(passed)} of it passes the depth test"
     if is_same(seen, passed):
         return f"{covers}{through}"
-    later = "nothing of it is seen" if is_same(seen, 0.0) else f"{spoken(seen)} is seen"
+    later = "none of it is visible" if is_same(seen, 0.0) else f"{spoken(seen)} is visible"
     return f"{covers}{through}; {later} in the end"
