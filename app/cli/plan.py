@@ -165,7 +165,7 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
         rows.append([name, f"{len(values):,}", *parts])
     return [
         f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 "
-        f"and {tolerance.pixels:,} pixels as they were; {fallen_back:,} had to put something back.",
+        f"and {tolerance.pixels:,} pixels unchanged; {fallen_back:,} fell back to a more exact method.",
         f"{wrong:,} predictions were wrong.",
         "Time saved against everything on, quantiles over the scenes (below 0: it took longer):",
         *aligned(rows),

@@ -20,8 +20,8 @@ EXAMPLES = """examples:
   rasterscope screenshot teapot.obj -o plan.png --page plan
   rasterscope screenshot study-line-any-ends.json -o study.png
 
-A page other than step measures or runs what it shows, in fewer rounds than the window. A saved study or atlas is shown
-as it is.
+A page other than step measures or runs its content, in fewer rounds than the window. A saved study or atlas is shown
+unchanged.
 """
 PAGES = ("step", "compare", "stability", "plan")
 ONLY_OF = {

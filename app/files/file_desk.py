@@ -101,7 +101,7 @@ class FileActions(QObject):
         if isinstance(error, OpeningCancelledError):
             self._tell_cancelled()
         elif isinstance(error, ValueError | OSError | MemoryError):
-            self._tell(sentences(error, "The open scene stays as it was"), MessageKind.ERROR)
+            self._tell(sentences(error, "The open scene is unchanged"), MessageKind.ERROR)
         else:
             raise error
 

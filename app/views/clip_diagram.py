@@ -64,7 +64,7 @@ def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
         return still(before, "Clipping is off: homogeneous rasterization needs none.")
     found = np.flatnonzero(clipped.clipped == kept[0])
     if not len(found):
-        return still(before, "No plane crosses the triangle: it goes through as it is.")
+        return still(before, "No plane crosses the triangle: it passes unchanged.")
     if clipped.is_divided:
         # From here on the triangle is what the division made of it.
         if not clipped.counts[0][found[0]]:

@@ -272,7 +272,7 @@ class MainWindow(QMainWindow):
         """Tell a mistake of the program in the window too; what is open is still there."""
         text = "".join(traceback.format_exception(kind, error, trace))
         print(text, file=sys.stderr)
-        said = f"Something went wrong in the program ({kind.__name__}: {error}). What is open is as it was."
+        said = f"Something went wrong in the program ({kind.__name__}: {error}). The open scene is unchanged."
         self.messages.show_message(Message(MessageKind.ERROR, said, text))
 
     # Coming and going.

@@ -39,7 +39,7 @@ EXPLANATIONS = (
     "What the format says of this triangle and the pixel",
     "The edge that decides",
     "Edge function at the pixel's centre in this format",
-    "The same in exact arithmetic, corners as they are given",
+    "The same in exact arithmetic, corners unrounded",
     "The first operation after which the decision stays wrong, even if all others were exact",
     "Bit pattern of the value",
 )

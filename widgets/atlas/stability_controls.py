@@ -16,9 +16,9 @@ class StabilityControls(RunPanel):
         super().__init__(
             "Experiment and running it",
             "Run",
-            "Run every method at every place of the grid (F5). It goes on while other experiments and pages are looked "
-            "at; the last maps of every experiment are there again at the next start.",
-            "Stop running; the maps of before stay (Escape)",
+            "Run every method at every place of the grid (F5). It continues while you view other "
+            "experiments and pages; the last maps of every experiment return at the next start.",
+            "Stop running and keep the previous maps (Escape)",
             parent,
         )
         self.question, self.claim = self._sentence("Question"), self._sentence("Claim")

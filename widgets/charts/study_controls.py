@@ -44,9 +44,9 @@ class StudyControls(RunPanel):
         super().__init__(
             "Work and measuring",
             "Measure",
-            "Measure all methods on this work (F5). It goes on while other families and pages are looked at; the last "
-            "result of every family is there again at the next start.",
-            "Stop measuring; what was measured before stays (Escape)",
+            "Measure all methods on this work (F5). It continues while you view other families and pages; the last "
+            "result of every family returns at the next start.",
+            "Stop measuring and keep the previous results (Escape)",
             parent,
         )
         self.work_box = self.box("Work", "What all methods are put to")

@@ -1,4 +1,4 @@
-"""What a stage gets, gives and is for, and which lecture it is from."""
+"""The purpose, input and output of a stage, and the lecture it is from."""
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
@@ -24,7 +24,7 @@ class StageCardView(QWidget):
         self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
         self.fold_button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.fold_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.fold_button.setToolTip("Show or hide what this stage gets, gives and is for")
+        self.fold_button.setToolTip("Show or hide the purpose, input and output of this stage")
         font = self.fold_button.font()
         font.setBold(True)
         self.fold_button.setFont(font)
@@ -37,7 +37,7 @@ class StageCardView(QWidget):
         grid.setColumnStretch(1, 1)
         self._labels: list[QLabel] = []
         self._texts: list[QLabel] = []
-        for row, name in enumerate(("For", "Gets", "Gives", "Source")):
+        for row, name in enumerate(("Purpose", "Input", "Output", "Source")):
             label = QLabel(name, self._body)
             label.setProperty("role", "muted")
             text = QLabel(self._body)
@@ -61,7 +61,7 @@ class StageCardView(QWidget):
     def show_card(self, card: StageCard | None) -> None:
         """Show the card of a stage, or the hint for an empty pane."""
         self.fold_button.setText(card.title if card else "Stage card")
-        hint = "Choose a stage in the rail above: this card says what it gets, gives and is for."
+        hint = "Choose a stage in the rail above to see its purpose, input and output."
         texts = (card.purpose, card.gets, card.gives, card.source) if card else (hint, "", "", "")
         set_role(self._texts[0], "" if card else "muted")
         for label, view, text in zip(self._labels, self._texts, texts, strict=True):

@@ -60,7 +60,7 @@ def check_positions(path: Path, positions: Floats, first: int = 0) -> None:
         where = int(np.argmin(is_placed))
         raise MeshFileError(
             f"{path.name}: vertex {where + first} is at {positions[where].tolist()}, "
-            f"which is no number or beyond {LARGEST:.3g}"
+            f"which is not a number or beyond {LARGEST:.3g}"
         )
 
 

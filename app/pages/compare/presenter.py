@@ -84,7 +84,7 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
 
     @property
     def study(self) -> Study | None:
-        """The study that is shown: a finished one, or as much as has been measured by now."""
+        """The study that is shown: a finished one, or as much as has been measured so far."""
         if self.is_partial:
             return self._partial
         return None if self.result is None else self.result.study
@@ -156,7 +156,7 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         study = self._partial
         if study is None:
             return ""
-        return f"{_work_text(study)} {counted(len(study.points), 'method')} measured by now."
+        return f"{_work_text(study)} {counted(len(study.points), 'method')} measured so far."
 
     def _result_texts(self) -> list[str]:
         assert self.result is not None

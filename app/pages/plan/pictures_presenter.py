@@ -50,7 +50,7 @@ class PlanPicturesPresenter(QObject):
     def _draw(self, setting: str) -> None:
         shown = self._plans.shown
         if shown is None or shown.report is None:
-            self.message_sent.emit("There is no difference to be looked at yet: look first (F5).")
+            self.message_sent.emit("There is no difference to show yet: look first (F5).")
             return
         self._drawn = None
         self._view.show()

@@ -24,7 +24,7 @@ class PlanShown:
     report: PlanReport | None = None
 
 
-WORDS = WorkWords("The look was cancelled", "It could not be planned", "what was found before is as it was")
+WORDS = WorkWords("The look was cancelled", "It could not be planned", "the previous plan is unchanged")
 
 
 class PlanPresenter(BackgroundTask):
@@ -100,7 +100,7 @@ class PlanPresenter(BackgroundTask):
         assert self._asked is not None
         self._show(PlanShown(self._asked, report.plan, report))
         self._session.set_plan(report)
-        self.message_sent.emit(f"Looked at {self._asked.title}.")
+        self.message_sent.emit(f"Planned {self._asked.title}.")
 
     def _put_back(self) -> None:
         """Show what was found before."""
@@ -136,7 +136,7 @@ class PlanPresenter(BackgroundTask):
             stale = (
                 f"This is of an earlier scene, {order.title}: look again (F5)."
                 if order.scene is not self._session.document.scene
-                else "The settings ask for something else to be seen by now: look again (F5)."
+                else "The settings have changed since: look again (F5)."
             )
         facts = plan.findings.facts
         return SummaryRecord(
@@ -170,6 +170,6 @@ class PlanPresenter(BackgroundTask):
         try:
             self._session.edit(replace(document, settings=shown.plan.settings))
         except (ValueError, MemoryError) as error:
-            self.refused.emit(f"The choice cannot be stepped: {error} The settings stay as they were.")
+            self.refused.emit(f"The choice cannot be stepped: {error} The settings are unchanged.")
         else:
             self.message_sent.emit("Applied what the scene needs; Ctrl+Z takes it back.")

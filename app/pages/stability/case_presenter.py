@@ -195,7 +195,7 @@ class StabilityCasePresenter(QObject):
     def _tell_no_dial(self, error: Exception) -> None:
         if not isinstance(error, ValueError):
             raise error
-        self.refused.emit(f"The pixel could not be looked at in every number format: {error}")
+        self.refused.emit(f"The pixel could not be shown in every number format: {error}")
 
     # To the stepper.
 

@@ -27,7 +27,7 @@ FILE_WORDS = FileWords(
     view="maps",
     nothing="run the experiment first (F5)",
     kinds="Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
-    f"Atlas, to be opened again (*{EXTENSION});;Page as it is seen (*.pdf)",
+    f"Atlas, to be opened again (*{EXTENSION});;Page as shown (*.pdf)",
     export_tip="Write the maps, all cells or the whole atlas to a file (Ctrl+E)",
     copy_tip="Put the maps on the clipboard",
 )

@@ -43,8 +43,8 @@ from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartEmpty, ChartPicture
 
 NOTHING = (
-    "One map for each method, one cell for each place: what came of a real run there. Press Run (F5); "
-    "cells appear as they are run."
+    "One map for each method, one cell for each place: the result of a real run. Press Run (F5); "
+    "each cell appears when its run ends."
 )
 WORK_WORDS = ResultWords(
     cancelled="Running was cancelled",

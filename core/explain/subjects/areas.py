@@ -110,7 +110,7 @@ def cover(step: StepValues) -> Said:
         f"{step.pixel_name}: triangles cover {spoken(value)} of it so far, and the rest shows the background."
     )
     if value >= FULL:
-        text = f"{step.pixel_name}: triangles cover all of it by now."
+        text = f"{step.pixel_name}: triangles cover all of it."
     covered = min(value, 1.0)
     background = (r"A_{\mathrm{background}}", 1 - covered)
     return text, equation((r"A_{\mathrm{covered}}", covered), "+", background, "=", "1")

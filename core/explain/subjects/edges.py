@@ -83,7 +83,7 @@ def homogeneous(step: StepValues) -> Said:
     )
     if form in WHOLE_NUMBERS:
         return (
-            f"{_corner(step)} cannot be represented in {form}, as it is behind the eye or too far away, "
+            f"{_corner(step)} cannot be represented in {form}: behind the eye or too far away, "
             f"so the triangle is not drawn: (x, y, w) = {place}."
         )
     if not w > 0:

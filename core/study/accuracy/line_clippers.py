@@ -31,9 +31,7 @@ COUNTS = Dial("count", "Segments", "", (3, 10, 30, 100, 300, 1000, 3000), 300, i
 WORKS = (
     WorkKind("around", "Random segments in and around the window", "line", (COUNTS,)),
     WorkKind("corners", "Segments past the corners of the window", "line", (COUNTS,)),
-    WorkKind(
-        "ties", "Segments on a lattice: along borders, through corners, of no length", "line", (COUNTS,)
-    ),
+    WorkKind("ties", "Segments on a grid: along borders, through corners, of no length", "line", (COUNTS,)),
 )
 
 
@@ -77,7 +75,7 @@ class LineClippingTask(Task):
         """Return segments that are left, and how often an edge of the window was looked at."""
         steps = 0 if made.rows is None else len(made.rows.segment)
         kept = int(np.count_nonzero(made.is_kept))
-        return {"segments kept": kept, "edges looked at": steps, "bytes": made.segments.nbytes}
+        return {"segments kept": kept, "edges tested": steps, "bytes": made.segments.nbytes}
 
     def errors(self, settings: Settings, made: ClippedLines) -> Errors:
         """Compare with the exact ends and decisions."""

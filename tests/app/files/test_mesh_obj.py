@@ -182,7 +182,10 @@ def test_corners_without_what_others_have_are_a_warning(tmp_path):
         ("vn 1 2\n", "line 5"),
         ("v nan 0 0\nf 1 2 5\n", "vertex 5 is at [nan, 0.0, 0.0]"),
         ("v 1e999 0 0\nf 1 2 3\n", "vertex 5 is at [inf, 0.0, 0.0]"),
-        ("v 1e300 0 0\nf 1 2 5\n", "vertex 5 is at [1e+300, 0.0, 0.0], which is no number or beyond 3.4e+38"),
+        (
+            "v 1e300 0 0\nf 1 2 5\n",
+            "vertex 5 is at [1e+300, 0.0, 0.0], which is not a number or beyond 3.4e+38",
+        ),
         ("", "has no faces"),
         ("f 1 1 2\nf 3 3 3\n", "only degenerate faces"),
         ("f 1 2 99999999999999999999\n", "cannot be used"),

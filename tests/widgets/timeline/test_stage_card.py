@@ -49,4 +49,4 @@ def test_the_title_folds_it_away(qtbot, view) -> None:
 
 def test_an_empty_card_says_what_it_is_for(view) -> None:
     view.show_card(None)
-    assert "gets, gives and is for" in view._texts[0].text()
+    assert "purpose, input and output" in view._texts[0].text()
