@@ -30,7 +30,7 @@ EXAMPLES = """examples:
   rasterscope plan --corpus 200
 
 At most N pixels (--pixels) may differ by more than C (--tolerance, in 1/255 of the display's sRGB). A choice that is
-measured to be too far off is put back. --corpus tries scenes made from a seed, and tells what time plans save.
+measured to be too far off is put back. --corpus plans scenes made from a seed and shows what time plans save.
 """
 CORPUS = 200
 MOST_SCENES = 100000
@@ -164,8 +164,8 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
         parts = [f"{100 * value:.0f} %" for value in np.quantile(values, QUANTILES)]
         rows.append([name, f"{len(values):,}", *parts])
     return [
-        f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 "
-        f"and {tolerance.pixels:,} pixels unchanged; {fallen_back:,} fell back to a more exact method.",
+        f"{len(every) - fallen_back:,} of {len(every):,} plans stayed within the tolerance of {tolerance.color:g}/255 "
+        f"and {tolerance.pixels:,} pixels; {fallen_back:,} had to put a choice back.",
         f"{wrong:,} predictions were wrong.",
         "Time saved against everything on, quantiles over the scenes (below 0: it took longer):",
         *aligned(rows),

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from core.study.exact.segments import clipped_ends
+from core.study.exact.lines import clipped_ends
 from core.study.stability import Outcome, experiments, stress
 from core.study.stability.coverage.line_clippers import PROMISED, judge_clip, stretch_text
 from core.trace import trace

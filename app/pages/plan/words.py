@@ -137,5 +137,5 @@ def findings_html(findings: Findings) -> str:
 def advice_html(tessellations: tuple[Tessellation, ...]) -> str:
     """Return the advice on how fine meshes are, as rich text."""
     if not tessellations:
-        return "Triangles that were given one by one speak of no smooth surface."
+        return "Triangles given one by one have no smooth surface."
     return "".join(f"<p style='margin:2px 0'>{escape(each.text)}</p>" for each in tessellations)

@@ -16,7 +16,7 @@ from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
 from core.study.accuracy.frame_task import per_million, scalar_pictures
 from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
 from core.study.accuracy.workloads import outline_scene
-from core.study.exact.segments import clipped_ends
+from core.study.exact.lines import clipped_ends
 
 SIZE = (64, 48)
 WINDOW = (0.0, 0.0, 64.0, 48.0)

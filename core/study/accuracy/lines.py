@@ -15,7 +15,7 @@ from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
 from core.study.accuracy.frame_task import per_million, scalar_pictures
 from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
 from core.study.accuracy.workloads import outline_scene, random_lines
-from core.study.exact.areas import distance_from_line, line_areas
+from core.study.exact.lines import distance_from_line, line_areas
 
 COUNT = 100
 COUNTED_LINES = 8

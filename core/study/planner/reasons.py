@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 ALL_SLOWER = "All choices together take longer here than everything on, so none is made."
 EVEN = 1e-9
 """Ratios of w no farther from 1 are 1, but for rounding."""
+CROSS = "cross a plane of the view volume or lie"
 FLAT = 1e-5
 """Degrees by which normals that are the same may differ, for rounding."""
 
@@ -42,26 +43,28 @@ def reason(choice: "Choice", tolerance: Tolerance, seen: Seen, is_compared: bool
 
 def change_text(trial: Trial) -> str:
     """Return how far a choice changes the picture: ``pixels change by 2/255 at most, but for 3 pixels``."""
+    where = " in the rows that were tried" if trial.error > trial.largest else ""
     if not trial.largest:
-        return "no pixel changes"
+        return f"no pixel changes{where}"
     but = f", but for {counted(trial.pixels, 'pixel')}" if trial.pixels else ""
-    return f"pixels change by {in_bytes(trial.error)} at most{but}"
+    return f"pixels change by {in_bytes(min(trial.error, trial.largest))} at most{but}{where}"
 
 
 def _fact(choice: "Choice", seen: Seen, is_compared: bool) -> str:
     """Return what of the scene bears on a family."""
     match choice.family:
         case "cull" if choice.dearest != "none":
-            return "Leaving out front faces was asked for."
+            return "The settings leave out front faces."
         case "cull" if not seen.backs:
             return "No triangle in view faces away."
         case "cull":
-            return f"Of {counted(seen.in_view, 'triangle')} in view {seen.backs:,} face away."
+            face = "faces" if seen.backs == 1 else "face"
+            return f"{seen.backs:,} of {counted(seen.in_view, 'triangle')} in view {face} away."
         case "clipping" if not seen.cut:
             return "No triangle crosses a plane of the view volume: there is nothing to clip."
         case "clipping":
-            total = counted(seen.triangles, "triangle")
-            return f"Of {total} {seen.cut:,} cross a plane of the view volume or lie beyond it."
+            cross = "crosses a plane of the view volume or lies" if seen.cut == 1 else CROSS
+            return f"{seen.cut:,} of {counted(seen.triangles, 'triangle')} {cross} beyond one."
         case "interpolation" if seen.w_ratio - 1 < EVEN:
             return "Within every triangle w is the same."
         case "interpolation":
@@ -71,11 +74,11 @@ def _fact(choice: "Choice", seen: Seen, is_compared: bool) -> str:
         case "shading":
             return _light_fact(seen)
         case "visibility":
-            return f"At most {counted(seen.layers, 'fragment')} lie in a pixel."
+            return f"A pixel has at most {counted(seen.layers, 'fragment')}."
         case "depth" if not is_compared:
             return "Depth is not compared, so its format does not matter."
         case "blend" if choice.dearest == "additive":
-            return "Light that adds up was asked for."
+            return "The settings ask for additive light."
         case "blend" if seen.is_translucent:
             return "Some alpha is below 1: what is behind shines through."
         case "blend":
@@ -86,8 +89,8 @@ def _fact(choice: "Choice", seen: Seen, is_compared: bool) -> str:
 def _texture_fact(seen: Seen) -> str:
     if seen.texels is None:
         return "There is no texture in view, so any filter does."
-    size = "somewhere made smaller" if seen.texels > 1 else "nowhere made smaller"
-    return f"A step of one pixel is {figure(seen.texels)} texels long at most, so the texture is {size}."
+    size = "minified" if seen.texels > 1 else "nowhere minified"
+    return f"A step of one pixel is at most {figure(seen.texels)} texels long, so the texture is {size}."
 
 
 def _light_fact(seen: Seen) -> str:

@@ -94,7 +94,7 @@ class Decision:
 
 @dataclass(frozen=True, eq=False)
 class Tessellation:
-    """How far a mesh's facets lie from the smooth surface that its normals speak of: advice, not applied."""
+    """How far a mesh's facets lie from the smooth surface that its normals describe: advice, not applied."""
 
     mesh: str
     """Name of the mesh."""

@@ -1,4 +1,4 @@
-"""How fine a tessellation is enough: how far facets lie from the smooth surface that the normals speak of.
+"""How fine a tessellation is enough: how far facets lie from the smooth surface that the normals describe.
 
 An edge of length l whose ends' normals are an angle t apart is the chord of an arc of radius l / (2 sin(t/2)); the arc
 rises (l/2) tan(t/4) above it, its sagitta. A sphere of radius r with n edges around has the sagitta r (1 - cos(pi/n)).
@@ -53,9 +53,9 @@ def sagitta(length: Floats, turned: Floats) -> Floats:
 def _advice(name: str, count: int, deviation: float) -> Tessellation:
     wanted = max(ceil(count * deviation / WANTED), 1)
     if deviation == 0:
-        text = f"{name}: the normals speak of flat faces, {count:,} triangles are what it takes."
+        text = f"{name}: the normals are those of flat faces, so {count:,} triangles are right."
         return Tessellation(name, count, 0.0, count, text)
-    way = "fewer would do" if wanted < count else "more would look rounder"
+    way = "fewer are enough" if wanted < count else "more look rounder"
     text = (
         f"{name}: facets lie up to {deviation:.3g} pixels from the smooth surface; {way}, about {wanted:,} triangles "
         f"for {WANTED:g} pixels instead of {count:,}."

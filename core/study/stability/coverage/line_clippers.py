@@ -11,7 +11,7 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.record import Opening
 from core.study.accuracy.workloads import on_lattice
-from core.study.exact.segments import Ends, clipped_ends
+from core.study.exact.lines import Ends, clipped_ends
 from core.study.stability.experiment import Case, Experiment, Judgement
 from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
 from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict

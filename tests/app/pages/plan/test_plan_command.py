@@ -10,7 +10,7 @@ from app.files.open_any import open_any
 from core.study import Tolerance, plan
 from core.study.planner.trials import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
-from tests.covering import in_turn
+from tests.core.covering import in_turn
 
 
 def test_a_scene_is_planned_and_measured() -> None:
@@ -31,7 +31,7 @@ def test_a_scene_is_planned_and_measured() -> None:
 def test_the_corpus_tells_the_time_saved() -> None:
     run = run_program("plan", "--corpus", "2", "--rounds", "1")
     assert run.returncode == 0, run.stderr
-    assert run.stdout.startswith("2 of 2 plans were within the tolerance of 2/255 and 0 pixels unchanged")
+    assert run.stdout.startswith("2 of 2 plans stayed within the tolerance of 2/255 and 0 pixels; 0 had")
     assert "all" in run.stdout
     assert "50 %" in run.stdout
 

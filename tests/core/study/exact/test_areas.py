@@ -7,7 +7,8 @@ import pytest
 
 from core.raster.lines.drawing import draw_lines
 from core.study.accuracy.workloads import random_lines
-from core.study.exact.areas import area_in_pixels, distance_from_line, line_areas, line_rectangles
+from core.study.exact.areas import area_in_pixels
+from core.study.exact.lines import distance_from_line, line_areas, line_rectangles
 
 
 def clipped_area(polygon, column: int, row: int) -> float:

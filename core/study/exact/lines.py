@@ -1,0 +1,131 @@
+"""Segments and ideal lines: the part of a segment in a rectangle, the area of a line, distances from it."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from core.records.arrays import Floats, Integers
+from core.study.exact.areas import area_in_pixels
+
+Ends = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]
+HALF_WIDTH = 0.5
+"""Half the width of the ideal line, in pixels."""
+
+
+def clipped_ends(segment: Floats, window: tuple[float, float, float, float]) -> Ends | None:
+    """Return both ends of the part of a segment (2, 2) inside (left, bottom, right, top); ``None``: nothing is.
+
+    Notes
+    -----
+    The border is inside; a segment of no length is a point. Every coordinate alone bounds t from both sides.
+
+    Examples
+    --------
+    >>> [[float(value) for value in end] for end in clipped_ends([[-2, 1], [6, 5]], (0, 0, 4, 3))]
+    [[0.0, 2.0], [2.0, 3.0]]
+    """
+    first, second = ([Fraction(float(value)) for value in end] for end in segment)
+    left, bottom, right, top = (Fraction(value) for value in window)
+    low, high = Fraction(0), Fraction(1)
+    for start, end, least, largest in (
+        (first[0], second[0], left, right),
+        (first[1], second[1], bottom, top),
+    ):
+        if start == end:
+            if not least <= start <= largest:
+                return None
+            continue
+        crossings = sorted([(least - start) / (end - start), (largest - start) / (end - start)])
+        low, high = max(low, crossings[0]), min(high, crossings[1])
+    if low > high:
+        return None
+
+    def at(t: Fraction) -> tuple[Fraction, Fraction]:
+        return first[0] + t * (second[0] - first[0]), first[1] + t * (second[1] - first[1])
+
+    return at(low), at(high)
+
+
+def line_rectangles(ends: Floats) -> Floats:
+    """Return the rectangles (L, 4, 2), counter-clockwise, one pixel wide around segments (L, 2, 2), ends cut square."""
+    along = ends[:, 1] - ends[:, 0]
+    length = np.hypot(along[:, 0], along[:, 1])
+    along = along / np.where(length == 0, 1.0, length)[:, None]
+    across = HALF_WIDTH * np.stack([-along[:, 1], along[:, 0]], axis=1)
+    return np.stack(
+        [ends[:, 0] - across, ends[:, 1] - across, ends[:, 1] + across, ends[:, 0] + across], axis=1
+    )
+
+
+def line_areas(ends: Floats, size: tuple[int, int]) -> tuple[Integers, Integers, Integers, Floats]:
+    """Return owner, column, row (F,) and area (F,) of all pixels that the lines (L, 2, 2) one pixel wide touch.
+
+    Parameters
+    ----------
+    ends : (L, 2, 2) float64
+        Window x and y in pixels, pixel centres at halves.
+    size : (width, height)
+        Pixels outside are left out.
+    """
+    rectangles = line_rectangles(ends)
+    parts = []
+    for owner, rectangle in enumerate(rectangles):
+        column, row = _pixels_near(ends[owner], rectangle, size)
+        area = area_in_pixels(rectangle, column, row)
+        touched = area > 0
+        parts.append(
+            (np.full(np.count_nonzero(touched), owner), column[touched], row[touched], area[touched])
+        )
+    if not parts:
+        none = np.empty(0, np.int64)
+        return none, none, none, np.empty(0)
+    owners, columns, rows, areas = (np.concatenate(values) for values in zip(*parts, strict=True))
+    return owners, columns, rows, areas
+
+
+def _pixels_near(ends: Floats, rectangle: Floats, size: tuple[int, int]) -> tuple[Integers, Integers]:
+    """Return column and row (F,) of the pixels in the box of one line that are not far from it."""
+    low = np.maximum(np.floor(rectangle.min(axis=0)), 0).astype(np.int64)
+    high = np.minimum(np.ceil(rectangle.max(axis=0)), size).astype(np.int64)
+    row, column = np.mgrid[low[1] : max(high[1], low[1]), low[0] : max(high[0], low[0])]
+    column, row = column.ravel(), row.ravel()
+    along = ends[1] - ends[0]
+    length = max(float(np.hypot(*along)), np.finfo(np.float64).tiny)
+    offset = (column + 0.5 - ends[0, 0]) * along[1] - (row + 0.5 - ends[0, 1]) * along[0]
+    near = np.abs(offset) <= length * (HALF_WIDTH + 1.0)
+    return column[near], row[near]
+
+
+def distance_from_line(
+    ends: Floats, owner: Integers, column: Integers, row: Integers, intensity: Floats
+) -> tuple[Floats, Integers]:
+    """Compare the pixels of lines with the ideal line, step by step along the longer axis.
+
+    Parameters
+    ----------
+    ends : (L, 2, 2) float64
+        Window x and y in pixels, pixel centres at halves.
+    owner, column, row : (P,) int64
+    intensity : (P,) float64
+        Several pixels of one step are one place: their mean, weighted with it.
+
+    Returns
+    -------
+    distance : (S,) float64, pixels along the shorter axis between the drawn place and the ideal line
+    step : (S,) int64, index of a pixel of each step
+    """
+    along = ends[:, 1] - ends[:, 0]
+    is_steep = np.abs(along[:, 1]) > np.abs(along[:, 0])
+    steep = is_steep[owner]
+    major, minor = np.where(steep, row, column), np.where(steep, column, row)
+    start = np.where(is_steep[:, None], ends[:, 0, ::-1], ends[:, 0])[owner] - 0.5
+    run, rise = np.where(is_steep[:, None], along[:, ::-1], along)[owner].T
+
+    # (minor - v0) - (major - u0) rise / run with one division: products of multiples of 1/1024 pixel are exact.
+    offset = ((minor - start[:, 1]) * run - (major - start[:, 0]) * rise) / np.where(run == 0, 1.0, run)
+    key = np.stack([owner, major], axis=1)
+    _, step, of_pixel = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    of_pixel = of_pixel.ravel()
+    weight = np.bincount(of_pixel, intensity, len(step))
+    total = np.bincount(of_pixel, intensity * offset, len(step))
+    return np.abs(total / np.where(weight == 0, 1.0, weight)), step.astype(np.int64)
