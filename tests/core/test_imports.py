@@ -90,7 +90,7 @@ def test_every_method_in_a_file_is_found() -> None:
 
 
 def test_a_new_file_in_the_folder_of_a_family_is_found_after_the_first_ones() -> None:
-    code = "import core.raster.lines.ideal as new; from core.methods import method, table\n"
+    code = "import core.raster.lines.wireframe as new; from core.methods import method, table\n"
     code += "def drawn(): ...\ndrawn.__module__ = new.__name__\n"
     code += "method('line', 'new', 'New', source='here', exact_for='nothing')(drawn)\n"
     assert run_fresh(code + "print(*table.names('line'))") == [" ".join((*table.names("line"), "new"))]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
-from core.raster.edges.exact_coverage import exact_coverage
+from core.study.stability.coverage.covered_pixels import as_given
 from core.study.stability.coverage.number_formats import FORMATS, far_corners, sliver
 from core.study.stability.coverage.precision_dial import (
     AREA,
@@ -34,7 +34,7 @@ def random_scene(seed: int) -> ClipScene:
 @pytest.mark.parametrize("seed", range(8))
 def test_every_reading_is_what_the_picture_shows(seed: int) -> None:
     scene = random_scene(seed)
-    covered = exact_coverage(scene.clip, scene.size)[0]
+    covered = as_given(scene, Settings())
     pictures = {
         method: render(scene, Settings(fill="bounding-box", coverage=method.partition("=")[2])).cover_count
         for method in FORMATS

@@ -36,18 +36,11 @@ SMALLEST = 2.0**-960
 class ExactFormat(NumberFormat):
     """Whole numbers of any length; positions are counted in half pixels."""
 
-    uses_lattice: bool = False
-    """Whether corners that have a snapped place are taken from there: (snapped w, w)."""
-
     def set_up(self, corners: CornerPositions) -> Coefficients:
         """Return the edge functions of P triangles, (P, 3) whole numbers each, in units that suit all corners."""
-        shift = unit_shift(corners.clip) + (LATTICE_BITS if self._is_fine(corners) else 0)
+        shift = unit_shift(corners.clip) + (LATTICE_BITS if any(corners.shift) else 0)
         fitted = self.scaled(-2 * shift - 1, -2 * shift - 2, -3 * shift - 2)
         return NumberFormat.set_up(fitted, corners)
-
-    def _is_fine(self, corners: CornerPositions) -> bool:
-        """Tell whether corners are counted in 1/256 of half a pixel: some have places there."""
-        return self.uses_lattice or any(corners.shift)
 
     def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
         """Return x, y, w (3, P) of the homogeneous window in half pixels: (x + w) width, (y + w) height, w."""
@@ -58,17 +51,12 @@ class ExactFormat(NumberFormat):
         )
         width, height = corners.size
         x, y = (x + w) * width, (y + w) * height
-        if not self._is_fine(corners):
+        if not any(corners.shift):
             return x, y, w
         # Twice the position in 1/256 pixel, times w, is a whole number of the unit divided by 2^7.
         moved_x, moved_y = (int(SUBPIXELS * way) for way in corners.shift)
         x, y, unit = (x << LATTICE_BITS) + moved_x * w, (y << LATTICE_BITS) + moved_y * w, w << LATTICE_BITS
-        if not self.uses_lattice:
-            return x, y, unit
-        is_snapped = corners.is_projected.T
-        place = np.where(corners.is_projected[..., None], corners.decided * SUBPIXELS, 0).transpose(2, 1, 0)
-        snapped_x, snapped_y = place.astype(np.int64).astype(object) * w
-        return np.where(is_snapped, snapped_x, x), np.where(is_snapped, snapped_y, y), unit
+        return x, y, unit
 
     def of_pixels(self, position: Floats) -> FormatValue:
         """Return x or y of pixel centres, any shape, in half pixels."""
@@ -150,8 +138,6 @@ def decide_filtered(
 
 
 EXACT = ExactFormat("exact", object, "homogeneous", "exact", "", bounds_outward=True, is_whole=True)
-EXACT_SNAPPED = ExactFormat("exact", object, "snapped", "exact", "", is_whole=True, uses_lattice=True)
-"""The referee of formats that snap: exact on snapped corners, whatever the signs of w."""
 
 
 @method(

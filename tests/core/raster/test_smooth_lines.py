@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.raster.lines.drawing import draw_lines
-from core.raster.lines.ideal import cover_ideal_lines, line_distance
 from core.raster.lines.records import COORDINATE_LIMIT
 from core.raster.lines.smooth import FILTER_TABLE, cone_intensity
+from core.study.exact.lines import line_areas
 from tests.core.raster.test_lines_pictures import centers
 
 SMOOTH = ["wu", "gupta-sproull"]
@@ -78,6 +78,15 @@ def test_backwards_it_is_the_same_line(line, ends):
     np.testing.assert_allclose(forward, backward, atol=tolerance)
 
 
+def line_distance(pixels: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Return how far centres on whole numbers (P, 2) are from the unlimited line through ends (2, 2), or a point."""
+    way, offset = ends[1] - ends[0], pixels - ends[0]
+    length = np.hypot(*way)
+    if length == 0:
+        return np.hypot(*offset.T)
+    return np.abs(way[0] * offset[:, 1] - way[1] * offset[:, 0]) / length
+
+
 @given(SEGMENT)
 def test_intensities_of_wu_add_up_to_what_the_segment_spans(ends):
     segment = np.array(ends).reshape(2, 2)
@@ -114,7 +123,7 @@ def test_lines_that_continue_each_other_add_up_to_the_undivided_one(line, start,
 def test_gupta_and_sproull_look_up_the_distance_from_the_line(ends):
     segment = np.array(ends).reshape(1, 2, 2)
     drawn = draw_lines(segment + SHIFT, SIZE, SIZE, line="gupta-sproull", pixel_center="integer")
-    distance = line_distance(drawn.pixels, drawn.owner, segment + SHIFT, "integer")
+    distance = line_distance(drawn.pixels, segment[0] + SHIFT)
     inner = drawn.steps.share == 1
     np.testing.assert_allclose(drawn.steps.line_distance[inner], distance[inner], atol=1e-9)
     wanted = cone_intensity(distance[inner])
@@ -160,9 +169,9 @@ def test_the_ideal_line_is_near(line, ends):
     # Nothing is drawn where the ideal line is far, and all the length is there. (Both methods cut ends along an axis.)
     segment = np.array(ends).reshape(1, 2, 2) + SHIFT
     pixels, shown, _ = draw_lines(segment, SIZE, SIZE, line=line, pixel_center="integer")
-    away = line_distance(pixels, np.zeros(len(pixels), np.int64), segment, "integer")
+    away = line_distance(pixels, segment[0])
     assert (away < 1.6).all()
-    _, area, _ = cover_ideal_lines(segment, SIZE, SIZE, "integer")
+    *_, area = line_areas(segment + 0.5, (SIZE, SIZE))
     most = np.abs(segment[0, 1] - segment[0, 0]).max()
     wanted = most if line == "wu" else area.sum()
     assert abs(shown.sum() - wanted) <= (1e-9 if line == "wu" else 0.1 * wanted)

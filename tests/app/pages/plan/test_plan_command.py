@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.core.covering import in_turn
 
 from app.files.open_any import open_any
 from core.study import Tolerance, plan
 from core.study.planner.trials import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
-from tests.core.covering import in_turn
 
 
 def test_a_scene_is_planned_and_measured() -> None:
