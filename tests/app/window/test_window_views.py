@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -58,11 +57,11 @@ def look_at_everything(window: MainWindow, views: Iterable[str], stages: tuple[s
         session.set_pin(None)
 
 
-@pytest.mark.parametrize("name", scene_names())
-def test_every_view_at_every_stage_of_every_scene(window: MainWindow, name: str) -> None:
-    scene = built_in_scene(name)
-    window.session.open(open_document(scene.make(), scene.title))
-    look_at_everything(window, window.page.view_names())
+def test_every_view_at_every_stage_of_every_scene(window: MainWindow) -> None:
+    for name in scene_names():
+        scene = built_in_scene(name)
+        window.session.open(open_document(scene.make(), scene.title))
+        look_at_everything(window, window.page.view_names())
 
 
 def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
@@ -72,23 +71,23 @@ def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
         look_at_everything(window, ("scene", "clip", "pyramid"), ("clip", "raster"))
 
 
-@pytest.mark.parametrize("mode", ["fill", "wireframe"])
-def test_all_levels_both_ways(window: MainWindow, mode: str) -> None:
-    session = window.session
-    session.set_setting("polygon_mode", mode)
-    for stage in STAGES:
-        session.set_stage(stage, 0)
-        for level in Level:
-            session.set_level(level)
-            session.go_to(0)
-            session.step(1)
-            forward = session.cursor
-            session.step(1)
-            if session.cursor != forward:
+def test_all_levels_both_ways(window: MainWindow) -> None:
+    for mode in ["fill", "wireframe"]:
+        session = window.session
+        session.set_setting("polygon_mode", mode)
+        for stage in STAGES:
+            session.set_stage(stage, 0)
+            for level in Level:
+                session.set_level(level)
+                session.go_to(0)
+                session.step(1)
+                forward = session.cursor
+                session.step(1)
+                if session.cursor != forward:
+                    session.step(-1)
+                assert session.cursor == forward
                 session.step(-1)
-            assert session.cursor == forward
-            session.step(-1)
-            assert session.cursor.position == 0
+                assert session.cursor.position == 0
 
 
 def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None:

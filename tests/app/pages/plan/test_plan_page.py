@@ -239,7 +239,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert isinstance(compare, ComparePage)
     compare.results.show_named("pipeline")
     compare.results.choice.rounds = 1
-    compare.results.choice.dials["scene", "scale"] = 1
+    compare.results.choice.dials["scene", "scale"] = 0.5
     QTest.keyClick(window, Qt.Key.Key_M, CTRL)
     assert window.pages.current is compare
     qtbot.waitUntil(lambda: not compare.results.is_running, timeout=120000)

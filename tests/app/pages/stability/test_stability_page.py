@@ -213,10 +213,12 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
     ("name", "method", "stage"),
     [
         ("painters-cycle", "visibility=painters", "depth"),
-        ("opposite-normals", "shading=flat", "shade"),
-        ("minification", "texture_filter=nearest", "shade"),
+        pytest.param("opposite-normals", "shading=flat", "shade", marks=pytest.mark.slow),
+        pytest.param("minification", "texture_filter=nearest", "shade", marks=pytest.mark.slow),
         ("line-drift", "line=dda-float32", "raster"),
-        ("parallel-segments", "line_clipping=cyrus-beck-lecture", "raster"),
+        pytest.param(
+            "parallel-segments", "line_clipping=cyrus-beck-lecture", "raster", marks=pytest.mark.slow
+        ),
     ],
 )
 def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
