@@ -1,7 +1,5 @@
 """What each view beside the pixel grid shows of a session: clip space, (x, y, w), texture."""
 
-from collections.abc import Callable
-
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
@@ -111,7 +109,3 @@ class TextureView(StageView):
     def draw(self) -> None:
         """Draw the texture with the footprints of pixels."""
         self._levels.show_pictures(*texture_pictures(self.session))
-
-
-VIEWS: tuple[Callable[[Session], StageView], ...] = (ClipView, PyramidView, TextureView)
-"""The views behind the 3D scene, in the order of their tabs."""

@@ -1,12 +1,19 @@
-"""The views beside the pixel grid: the 3D scene and those of `app.views.stage_view`. Only what is seen is drawn."""
+"""The views beside the pixel grid: the 3D scene and `VIEWS`. Only what is seen is drawn."""
 
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
 from app.views.scene3d_presenter import Scene3dPresenter
-from app.views.stage_view import VIEWS
+from app.views.stage_view import ClipView, PyramidView, StageView, TextureView
 from widgets.space.scene_view import SceneView
+
+VIEWS: tuple[type[StageView], ...] = (
+    ClipView,
+    PyramidView,
+    TextureView,
+)
+"""The views behind the 3D scene, in the order of their tabs."""
 
 
 class StageViews(QObject):

@@ -7,7 +7,7 @@ import numpy as np
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
 from core.methods import table
-from core.settings import families
+from core.settings import FAMILIES, families
 from lessons.scenes import make_scene, scene_names
 from tests.covering import covering, in_turn, is_everything
 
@@ -180,7 +180,11 @@ CASES = [*FILLED, *OUTLINED, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everyth
 def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:
     """Return the settings of a choice; what is made of w is left out where the camera is orthographic."""
     if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-        choice = {family: name for family, name in choice.items() if name not in ("inverse-w", "logarithmic")}
+        choice = {
+            family: name
+            for family, name in choice.items()
+            if family not in FAMILIES or "perspective" not in table.get(family, str(name)).needs
+        }
     return Settings(**choice)  # type: ignore[arg-type]
 
 
