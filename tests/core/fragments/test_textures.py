@@ -36,7 +36,7 @@ def grey(u, v, texture_filter, wrap):
 
 def test_families_in_order():
     assert table.names("texture_filter")[:2] == ("bilinear", "nearest")
-    assert table.names("wrap") == ("repeat", "clamp", "mirror")
+    assert table.names("wrap")[:3] == ("repeat", "clamp", "mirror")
 
 
 @pytest.mark.parametrize(
