@@ -408,7 +408,7 @@ def checks(root: Path, arguments: Sequence[str]) -> list[tuple[str, list[str]]]:
         ("format", [python, "-m", "ruff", "format", "--check", "."]),
         ("lint", [python, "-m", "ruff", "check", "."]),
         ("import contracts", [python, "-c", contracts, "--no-logo"]),
-        ("tests", [python, "-m", "pytest", "-q", "-n", workers, *arguments]),
+        ("tests", [python, "-m", "pytest", "-q", "-n", workers, "--dist", "worksteal", *arguments]),
         ("types", [python, "-m", "mypy", "--strict", "bootstrap.py", "core", "widgets", "lessons", "app"]),
     ]
 
