@@ -21,7 +21,7 @@ class WorkWords:
     failed: str
     """As ``It could not be measured``."""
     kept: str
-    """As ``what was measured before is as it was``."""
+    """As ``the previous results are unchanged``."""
 
 
 class ShowsProgress(Protocol):
@@ -98,7 +98,7 @@ class BackgroundTask(QObject):
         raise NotImplementedError
 
     def _take_result(self, result: Any) -> None:
-        """Show the result; the end has been told before, and has put back what was shown earlier."""
+        """Show the result; ``ended`` has come before, and has restored what was shown earlier."""
         raise NotImplementedError
 
     def _put_back(self) -> None:

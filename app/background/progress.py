@@ -44,7 +44,7 @@ class WorkProgress(QObject):
 
     @Slot()
     def cancel(self) -> None:
-        """Stop waiting; what is open stays as it was."""
+        """Stop waiting; the open scene is unchanged."""
         if self._tracing.is_busy:
             self._tracing.cancel()
             self.edit_cancelled.emit()

@@ -70,7 +70,7 @@ def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Se
 
 
 def open_file(options: argparse.Namespace) -> Opened:
-    """Open FILE; what of it could not be had is told on stderr, progress too where somebody watches."""
+    """Open FILE; warnings go to stderr, and progress too if it is a terminal."""
     shows_progress = sys.stderr.isatty()
     opened = open_any(options.file, show_progress if shows_progress else None)
     if shows_progress:
@@ -92,7 +92,7 @@ def overflow_told() -> Iterator[None]:
         yield
     if problems:
         print(
-            f"{PROGRAM}: warning: some numbers are too large or too small to reckon with "
+            f"{PROGRAM}: warning: some numbers are too large or too small to compute with "
             f"({', '.join(sorted(problems))}); what depends on them is undefined",
             file=sys.stderr,
         )

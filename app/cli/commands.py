@@ -1,4 +1,4 @@
-"""The command line: which commands there are, how one is chosen, and how what goes wrong is told.
+"""The command line: which commands there are, how one is chosen, and how errors are reported.
 
 A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
 called, so that no command waits for what another one needs.
@@ -38,7 +38,7 @@ COMMANDS = (
     Command("opengl-check", "compare the core with the OpenGL of this machine", "app.cli.opengl_check"),
     Command("study", "measure the methods of a family: speed against accuracy", "app.cli.study"),
     Command("stress", "map where methods fail, and make failing cases small", "app.cli.stress"),
-    Command("plan", "choose no more than a scene needs, within a tolerance", "app.cli.plan"),
+    Command("plan", "choose the cheapest methods that a scene needs, within a tolerance", "app.cli.plan"),
     Command("bench", "measure the core against other libraries", "app.cli.bench"),
 )
 
@@ -135,7 +135,7 @@ def _run_window(arguments: Sequence[str]) -> int:
     )
     if len(arguments) > 1 and not {"-h", "--help", "--version"} & set(arguments):
         names = ", ".join(command.name for command in COMMANDS)
-        parser.error(f"one FILE or a command ({names}) is wanted, got {' '.join(arguments)}")
+        parser.error(f"expected one FILE or a command ({names}), got {' '.join(arguments)}")
     parser.add_argument("file", metavar="FILE", nargs="?", help="what to open in the window")
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     options = _parse(parser, arguments)

@@ -30,7 +30,7 @@ EXAMPLES = """examples:
   rasterscope plan --corpus 200
 
 At most N pixels (--pixels) may differ by more than C (--tolerance, in 1/255 of the display's sRGB). A choice that is
-measured to be too far off is put back. --corpus plans scenes made from a seed and shows what time plans save.
+measured to be too inaccurate is withdrawn. --corpus plans random scenes and reports the time that plans save.
 """
 CORPUS = 200
 MOST_SCENES = 100000
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="C",
         type=float,
         default=2.0,
-        help="difference of a colour that may be, in 1/255 (2); 0 with no --pixels is exact",
+        help="largest allowed colour difference, in 1/255 (2); 0 without --pixels is exact",
     )
     parser.add_argument(
         "--pixels", metavar="N", type=int, default=0, help="pixels that may differ by more (0)"
@@ -82,7 +82,7 @@ def count_from_text(text: str) -> int:
 def run(options: argparse.Namespace) -> int:
     """Plan, measure and print."""
     if (options.file is None) == (options.corpus is None):
-        raise UsageError("FILE or --corpus is wanted, one of them")
+        raise UsageError("either FILE or --corpus is required")
     try:
         tolerance = Tolerance(options.tolerance, options.pixels)
     except ValueError as problem:
@@ -128,12 +128,12 @@ def report_text(report: PlanReport) -> list[str]:
     ]
     if report.fallen_back:
         lines.append(
-            f"Put back since the first plan was beyond the tolerance: {', '.join(report.fallen_back)}."
+            f"Restored because the first plan was beyond the tolerance: {', '.join(report.fallen_back)}."
         )
     times = [1000 * float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)]
     lines.append(
         f"Everything on {times[0]:,.4g} ms, chosen {times[1]:,.4g} ms, "
-        f"the look {1000 * chosen.findings.seconds:,.4g} ms."
+        f"analysis {1000 * chosen.findings.seconds:,.4g} ms."
     )
     if chosen.predicted_everything is not None and chosen.predicted_seconds is not None:
         predicted = [1000 * each for each in (chosen.predicted_everything, chosen.predicted_seconds)]
@@ -164,8 +164,8 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
         parts = [f"{100 * value:.0f} %" for value in np.quantile(values, QUANTILES)]
         rows.append([name, f"{len(values):,}", *parts])
     return [
-        f"{len(every) - fallen_back:,} of {len(every):,} plans stayed within the tolerance of {tolerance.color:g}/255 "
-        f"and {tolerance.pixels:,} pixels; {fallen_back:,} had to put a choice back.",
+        f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 "
+        f"and {tolerance.pixels:,} pixels at once; {fallen_back:,} had to withdraw a choice.",
         f"{wrong:,} predictions were wrong.",
         "Time saved against everything on, quantiles over the scenes (below 0: it took longer):",
         *aligned(rows),

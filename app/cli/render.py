@@ -27,7 +27,7 @@ DESCRIPTION = (
 EXAMPLES = """The npz file has three arrays; row 0 is the bottom row.
   color      (H, W, 4) float32, linear, as the blend method leaves it
   depth      (H, W) float32, as the depth method stores it
-  primitive  (H, W) int32, number of the triangle seen, -1 for none
+  primitive  (H, W) int32, number of the visible triangle, -1 for none
 
 examples:
   rasterscope render teapot.obj -o teapot.png
@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
         if path is not None and not path.lower().endswith(ending) and not is_device(path):
             raise UsageError(f"argument {name}: the name of the file must end with {ending}, got {path}")
     if options.output is None and options.buffers is None:
-        raise UsageError("nothing would be written: -o out.png, --buffers out.npz or both are wanted")
+        raise UsageError("nothing would be written: give -o out.png, --buffers out.npz or both")
 
     opened = open_file(options)
     settings = chosen_settings(opened.document.settings, options.set)

@@ -5,7 +5,7 @@ import json
 
 from lessons.scenes import CATALOGUE
 
-DESCRIPTION = """List the built-in scenes. Their names open wherever a FILE is wanted."""
+DESCRIPTION = """List the built-in scenes. Their names can be given for any FILE."""
 EXAMPLES = """examples:
   rasterscope scenes
   rasterscope shared-edge

@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of the window (1280x800)",
     )
     parser.add_argument(
-        "--theme", choices=("light", "dark"), default="light", help="look of the window (light)"
+        "--theme", choices=("light", "dark"), default="light", help="theme of the window (light)"
     )
     parser.add_argument(
         "--stage", choices=STAGES, metavar="NAME", help=f"stage that is shown: {', '.join(STAGES)}"
@@ -91,7 +91,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--grow",
         action="store_true",
         default=None,
-        help="measure of the whole pipeline too how cost grows with the picture (minutes)",
+        help="also measure how the cost of the whole pipeline grows with the picture (minutes)",
     )
     parser.add_argument(
         "--choose", metavar="METHOD", help="open the pictures of a method, or the first cell where it fails"

@@ -33,13 +33,13 @@ its triangles (its segment, its lit mesh) as few, short and small as they can be
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    parser.add_argument("experiment", metavar="EXPERIMENT", nargs="?", help="what is tried; --list names all")
+    parser.add_argument(
+        "experiment", metavar="EXPERIMENT", nargs="?", help="experiment to run; --list shows all"
+    )
     parser.add_argument(
         "--list", action="store_true", help="list the experiments with their axes, methods and claims"
     )
-    parser.add_argument(
-        "--shrink", metavar="METHOD", help="make the first failing cell of this method as small as it can be"
-    )
+    parser.add_argument("--shrink", metavar="METHOD", help="shrink the first failing cell of this method")
     parser.add_argument("--seed", metavar="N", type=seed_from_text, default=0, help="of what is random (0)")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and maps; default: none")
 
@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(list_text()))
         return 0
     if options.experiment is None:
-        raise UsageError("EXPERIMENT is wanted; --list names all")
+        raise UsageError("EXPERIMENT is required; --list shows all")
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")

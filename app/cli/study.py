@@ -31,7 +31,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    parser.add_argument("family", metavar="FAMILY", nargs="?", help="what is compared; --list names all")
+    parser.add_argument("family", metavar="FAMILY", nargs="?", help="family to compare; --list shows all")
     parser.add_argument(
         "--list", action="store_true", help="list the families with their works, dials and errors"
     )
@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(list_text()))
         return 0
     if options.family is None:
-        raise UsageError("FAMILY is wanted; --list names all")
+        raise UsageError("FAMILY is required; --list shows all")
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")

@@ -7,7 +7,7 @@ from importlib import import_module
 
 BEFORE_QT = ("app.files.open_any", "core.fast_path.workers", "core.trace.tracers", "core.pixel_history")
 """Modules that the window needs and that need no Qt. Once PySide6 is loaded, it reads the source of every module that
-is imported from then on, to see whether its own features are wanted there: some 0.1 ms for each of several hundred."""
+is imported from then on, to look for its own features: some 0.1 ms for each of several hundred."""
 
 
 def run(target: str | None) -> int:

@@ -17,8 +17,8 @@ MARKS = {
 WORDS = {
     Outcome.RIGHT: "right",
     Outcome.HOLE: "hole",
-    Outcome.DOUBLE_HIT: "drawn twice or where nothing is",
-    Outcome.WRONG_ORDER: "the farther one is seen",
+    Outcome.DOUBLE_HIT: "drawn twice or outside",
+    Outcome.WRONG_ORDER: "farther one visible",
     Outcome.NOT_A_NUMBER: "not a number",
     Outcome.OVERFLOW: "overflow",
     Outcome.WRONG_PICTURE: "wrong picture",

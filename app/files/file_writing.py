@@ -39,7 +39,7 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     Raises
     ------
     FileWriteError
-        If it cannot be written; what stood at ``path`` is as it was.
+        If it cannot be written; what stood at ``path`` is unchanged.
     """
     target = Path(os.path.realpath(path))
     try:

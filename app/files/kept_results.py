@@ -81,7 +81,7 @@ class KeptResults(JobGroup):
         self._reading.start_in_parts(work)
 
     def keep(self, name: str, content: Callable[[], bytes | None]) -> None:
-        """Write a result in the place of the last one of its ``name``."""
+        """Replace the last result of this ``name``."""
         if not self._has_begun:
             return
 
@@ -96,13 +96,13 @@ class KeptResults(JobGroup):
     @Slot(object)
     def _tell_unread(self, unread: tuple[str, ...]) -> None:
         if unread:
-            self.failed.emit(f"Of the results of the last start: {'; '.join(unread)}.")
+            self.failed.emit(f"Results of the last start: {'; '.join(unread)}.")
 
     @Slot(object)
     def _tell(self, error: Exception) -> None:
         if not isinstance(error, OSError | ValueError):
             raise error
-        self.failed.emit(f"The result is not kept for the next start: {error}.")
+        self.failed.emit(f"The result could not be kept for the next start: {error}.")
 
 
 def write_result(folder: Path, name: str, content: bytes) -> None:
@@ -111,7 +111,7 @@ def write_result(folder: Path, name: str, content: bytes) -> None:
     Raises
     ------
     OSError
-        If it cannot be written or is too large; what was kept before is as it was.
+        If it cannot be written or is too large; the previous results are unchanged.
     """
     if len(content) > LARGEST:
         raise FileWriteError(f"{name} is larger than {LARGEST >> 20} MiB")

@@ -74,14 +74,14 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
 
 def listen(pipe: BinaryIO, messages: "SimpleQueue[tuple[str, Any]]") -> None:
     """Put what the process says into ``messages``, and its end behind that, whatever happens."""
-    end = "before its result was whole"
+    end = "before its result was complete"
     try:
         while True:
             messages.put(pickle.load(pipe))
     except EOFError:
         end = "without a result"
     except pickle.UnpicklingError as problem:
-        end = f"in the middle of it: {problem}"
+        end = f"in the middle of its result: {problem}"
     finally:
         messages.put(("end", end))
 

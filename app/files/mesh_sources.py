@@ -21,7 +21,7 @@ Fingerprints = tuple[dict[str, str], ...]
 
 @dataclass(frozen=True)
 class _Remembered:
-    """A file as it was when it was opened."""
+    """A file at the time it was opened."""
 
     stamp: tuple[int, int]
     fingerprints: Fingerprints

@@ -40,7 +40,7 @@ def read_record(path: Path, model: type[Model], program: str, noun: str, version
     try:
         found = json.loads(content)
     except (ValueError, RecursionError) as problem:
-        raise SavedRecordError(f"it is not {noun}, or only a part of one: it is not JSON") from problem
+        raise SavedRecordError(f"it is not {noun}, or it is incomplete: it is not valid JSON") from problem
     if not isinstance(found, dict) or found.get("program") != program:
         raise SavedRecordError(f"it is not {noun} of Rasterscope")
     if found.get("version") != version or isinstance(found.get("version"), bool | float):

@@ -1,4 +1,4 @@
-"""State files: what is open, and where the stepping is, saved so that it opens as it was.
+"""State files: what is open, and where the stepping is, saved so that it opens unchanged.
 
 A state names the mesh file or built-in scene that its meshes come from and takes from there every array that
 is still the same; edited arrays, cameras, lights and triangles given in clip space stand in the file itself.
@@ -151,7 +151,7 @@ def _parse(content: bytes) -> StateRecord:
     try:
         found = json.loads(content)
     except (ValueError, RecursionError) as problem:
-        raise StateFileError("it is not a state file, or only a part of one: it is not JSON") from problem
+        raise StateFileError("it is not a state file, or it is incomplete: it is not valid JSON") from problem
     if not isinstance(found, dict) or found.get("program") != "rasterscope":
         raise StateFileError("it is not a state file of Rasterscope")
     if found.get("version") != VERSION or isinstance(found.get("version"), bool | float):

@@ -27,7 +27,7 @@ class StepRequest:
     opening: "Opening"
     title: str
     other: Settings | None = None
-    """Settings of B, for A | B; ``None``: only A is looked at."""
+    """Settings of B, for A | B; ``None``: only A is shown."""
     triangle: int | None = None
     """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
 
@@ -162,7 +162,7 @@ class Pages(QWidget):
 
     @property
     def made(self) -> tuple[Page, ...]:
-        """The pages that have been shown by now."""
+        """The pages that have been shown so far."""
         return tuple(self._made.values())
 
     def page(self, name: str) -> Page:

@@ -14,7 +14,7 @@ from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 
 PICTURE_ROUNDS = 3
-"""Timed runs of every method for a picture of the page: fewer than in the window, where the figures are wanted."""
+"""Timed runs of every method for a picture of the page: fewer than in the window, where the figures matter."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     if isinstance(page, ResultPage):
         _show_result(page, content)
     elif isinstance(page, PlanPage):
-        page.plans.look()
+        page.plans.analyse()
         _wait_until(lambda: not page.plans.is_running)
     if refusals.texts:
         raise ValueError(refusals.texts[0])
@@ -81,7 +81,7 @@ class _Refusals:
 
 
 def _show_result(page: ResultPage, content: PageContent) -> None:
-    """Do the work that is wanted, and open what is wanted of it."""
+    """Run the requested work, and open the requested method."""
     results = page.results
     if content.name:
         results.show_named(

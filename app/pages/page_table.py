@@ -46,12 +46,12 @@ PAGE_KINDS = (
     PageKind(
         "stability",
         "Stability",
-        "See where methods fail: one map for each, every cell a real run (Alt+3)",
+        "See where methods fail: one map per method, one real run per cell (Alt+3)",
         _make_stability,
         (".json",),
         b'"rasterscope stress"',
     ),
-    PageKind("plan", "Plan", "What does this scene need? No more than that (Alt+4)", _make_plan),
+    PageKind("plan", "Plan", "Find the cheapest methods that this scene needs (Alt+4)", _make_plan),
 )
 HEAD = 256
 """Bytes at the beginning of a file that name the program it is of."""

@@ -165,7 +165,7 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
         self._show()
 
     def _show(self) -> None:
-        """Show the result, or as much of it as there is by now."""
+        """Show the result, or as much of it as has come."""
         self._pace.settle()
         self._show_result()
         self.tell_shown()
@@ -239,7 +239,7 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
 
     @Slot(object)
     def take_kept(self, content: Any) -> None:
-        """Show what was kept from an earlier start, unless there is another result by now."""
+        """Show what was kept from an earlier start, unless there is a newer result."""
         result = self._result_of(content, is_kept=True)
         choice = self._choices.get(result.name)
         if choice is not None and choice.result is None and self._running != result.name:

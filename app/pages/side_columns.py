@@ -27,7 +27,7 @@ class SideColumns(QSplitter):
         self.setStretchFactor(1, 1)
         self.setSizes([WIDTH, 1000])
         self._text_px = LIGHT.text_px
-        """Size of the type that the left column is wide enough for, but for what it is owed."""
+        """Size of the type that the left column's width was chosen for."""
         self._owed = 1.0
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()

@@ -46,7 +46,7 @@ def machine_sentence(study: Study) -> str:
 def machine_words(here: Mapping[str, str]) -> str:
     """Return a machine as `core.study.accuracy.record.machine` describes it, in words."""
     if not here:
-        return "The machine was not noted."
+        return "The machine is unknown."
     return (
         f"{here.get('processor', '?')}, {here.get('system', '?')}; Python {here.get('python', '?')}, "
         f"NumPy {here.get('numpy', '?')}, Rasterscope {here.get('rasterscope', '?')}; {here.get('date', '?')}"

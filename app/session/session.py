@@ -104,7 +104,7 @@ class Session(QObject):
 
     @property
     def plan(self) -> "PlanReport | None":
-        """What the open scene needs; ``None``: it has not been measured, or another scene is open by now."""
+        """What the open scene needs; ``None``: it has not been measured, or another scene is open."""
         return self._plan if self._plan is not None and self._plan.scene is self.document.scene else None
 
     def set_plan(self, plan: "PlanReport") -> None:
@@ -120,7 +120,7 @@ class Session(QObject):
         Raises
         ------
         ValueError
-            If it cannot be traced; everything stays as it was.
+            If it cannot be traced; nothing changes.
         """
         self.tracing.cancel()
         if trace is None:
@@ -139,7 +139,7 @@ class Session(QObject):
         Raises
         ------
         ValueError
-            If it cannot be traced; everything stays as it was.
+            If it cannot be traced; nothing changes.
         """
         if document is not self.latest:
             self._put(document, gesture)

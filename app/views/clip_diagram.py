@@ -32,7 +32,7 @@ class ClipState:
     before: Floats = field(repr=False)
     """(3, 4) clip positions of the triangle."""
     polygon: Floats = field(repr=False)
-    """(M, 4) what is left of it by now."""
+    """(M, 4) what is left of it so far."""
     emitted: Floats = field(repr=False)
     """(E, 4) new corners that the planes up to now have made."""
     plane: int
@@ -68,10 +68,10 @@ def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     if clipped.is_divided:
         # From here on the triangle is what the division made of it.
         if not clipped.counts[0][found[0]]:
-            return still(before, "A corner cannot be divided by w: the triangle is left out.")
+            return still(before, "A corner cannot be divided by w: the triangle is dropped.")
         before = clipped.polygons[0][found[0], :3, :4]
         if not clipped.planes:
-            return still(before, "The triangle as the division by w made it: no plane is clipped against.")
+            return still(before, "The triangle after the division by w: no plane clips it.")
     return _clipped_state(trace, stage, int(found[0]), triangle, before, position)
 
 

@@ -123,7 +123,7 @@ class Scene3dPresenter(QObject):
             self._show(self._drawn)
 
     def set_shown(self, is_shown: bool) -> None:
-        """Say whether the view is in sight: figures are told only then."""
+        """Set whether the view is in sight: figures are reported only then."""
         self._is_shown = is_shown
         self._tell_figures()
         if is_shown and self._drawn is not None and self._drawn.shot.size != self._view.picture_size():
@@ -241,7 +241,7 @@ class Scene3dPresenter(QObject):
 
     @Slot(float)
     def _count_frame(self, seconds: float) -> None:
-        """Take a picture that was painted, and tell its figures unless others were told just now."""
+        """Take a picture that was painted, and report its figures unless others were reported just now."""
         self._rate.add(seconds)
         self._has_new_figures = True
         if not self._figures_timer.isActive():

@@ -10,8 +10,8 @@ from widgets.space.frame_corner import SizeChoice
 
 VISIBILITIES: dict[Visibility, str] = {
     "layer": "no depth, since no pixel belongs to two triangles",
-    "packed-depth": "depth and triangle number in one word, the least is seen",
-    "stacks": "every fragment in its turn, blended",
+    "packed-depth": "depth and triangle number packed in one word; the smallest is visible",
+    "stacks": "every fragment in drawing order, blended",
     "frame": "through all buffers",
     "supersampled": "a picture of all samples, drawn like any other, then averaged",
     "multisampled": "one word for each of four samples, averaged where they differ",

@@ -28,7 +28,7 @@ class SceneWorker(QObject):
         self._is_stopped = False
         self._number = 0
         self._told = 0
-        """Number of the last work whose result was told, or is not wanted any more."""
+        """Number of the last work whose result was reported or dropped."""
         self._executor = ThreadPoolExecutor(max_workers=1, thread_name_prefix="scene picture")
         self._relay = _Relay()
         self._relay.done.connect(self._take_result)

@@ -37,7 +37,9 @@ class Look(QObject):
 
     def toggle_presenter(self) -> None:
         """Fill the screen with large type, or go back to the window."""
-        window = self.parent()  # Not an attribute: a window in a cycle would not end when it is let go.
+        window = (
+            self.parent()
+        )  # Not an attribute: a window in a cycle would not be deleted when it is released.
         assert isinstance(window, QWidget)
         if window.isFullScreen():
             window.showNormal()

@@ -1,4 +1,4 @@
-"""The main window: its layout, what every action does, and how it comes back as it was left."""
+"""The main window: its layout, what every action does, and how its layout is restored."""
 
 import sys
 import traceback
@@ -141,7 +141,7 @@ class MainWindow(QMainWindow):
 
     @Slot(str)
     def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
-        """Show a message where the window is looked at; it does not stop anything.
+        """Show a message in the window without stopping anything.
 
         What only informs goes to the status bar, so that the page does not move while one steps.
         """
@@ -329,7 +329,7 @@ class MainWindow(QMainWindow):
             )
             save_preferences(self.preferences)
         except (OSError, StateFileError) as error:
-            print(f"rasterscope: the window could not be remembered: {error}", file=sys.stderr)
+            print(f"rasterscope: the window layout could not be saved: {error}", file=sys.stderr)
         super().closeEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

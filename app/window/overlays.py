@@ -62,7 +62,7 @@ class Overlays(QObject):
     def ask_condition(self) -> None:
         """Ask for the condition of a breakpoint."""
         names = ", ".join(variable_names(self._session.stage_trace))
-        hint = f"F5 stops where it holds. Names here: {names}. Leave it empty to stop nowhere."
+        hint = f"F5 stops where the condition holds. Names: {names}. Leave it empty for no condition."
         self._ask("condition", "Break where", hint, self._page.stepping.condition)
 
     def _ask(self, name: str, label: str, hint: str, text: str = "") -> None:
@@ -87,7 +87,7 @@ class Overlays(QObject):
     def _go_to_pixel(self, text: str) -> None:
         parts = text.replace(",", " ").split()
         if len(parts) != 2 or not all(part.isdecimal() for part in parts):
-            raise ValueError(f"Wanted column and row, as 12, 7; got “{text}”.")
+            raise ValueError(f"Enter column and row, such as 12, 7; got “{text}”.")
         pixel = int(parts[0]), int(parts[1])
         if not self._session.has_pixel(pixel):
             raise ValueError(f"Pixel ({pixel[0]}, {pixel[1]}) is not in the raster.")

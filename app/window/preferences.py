@@ -18,7 +18,7 @@ RECENT_LIMIT = 10
 
 
 class Preferences(BaseModel):
-    """Everything that comes back as it was left."""
+    """Everything that is restored at the next start."""
 
     model_config = ConfigDict(strict=True, frozen=True, extra="ignore", allow_inf_nan=False)
 

@@ -41,7 +41,7 @@ def first_document(preferences: Preferences) -> tuple[Opened, str]:
         try:
             return open_any(preferences.last_state), ""
         except (OSError, ValueError) as error:
-            warning = f"What was open last could not be opened again: {error}"
+            warning = f"The last scene could not be opened again: {error}"
     scene = CATALOGUE[0]
     return Opened(open_document(scene.make(), scene.title)), warning
 

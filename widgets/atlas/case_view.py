@@ -34,7 +34,7 @@ class CaseRecord:
     pixel: Pixel | None = None
     """Where it is wrong first."""
     has_formats: bool = False
-    """Whether its pixels can be looked at in every number format."""
+    """Whether its pixels can be tested in every number format."""
     can_step: bool = False
     can_shrink: bool = False
     can_save: bool = False
@@ -61,7 +61,7 @@ class CaseView(QWidget):
         self.heading.setAccessibleName("Chosen cell")
         self.verdict = QLabel(self)
         self.verdict.setWordWrap(True)
-        self.verdict.setAccessibleName("What came of it")
+        self.verdict.setAccessibleName("Outcome")
         self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.linked = LinkedGrids(WORDS, self)
         self.values = QLabel(self)
@@ -71,11 +71,11 @@ class CaseView(QWidget):
         self.tabs = QTabWidget(self)
         self.step_button = button_with_tip(
             "Open in the stepper",
-            "Step this very run, at the pixel that is wrong (Enter on the cell, Ctrl+Return)",
+            "Step this run at the wrong pixel (Enter on the cell, Ctrl+Return)",
             self,
         )
         self.shrink_button = button_with_tip(
-            "Shrink", "Make the scene as small as it can be and still fail in the same way (S)", self
+            "Shrink", "Find the smallest scene that still fails in the same way (S)", self
         )
         self.save_button = button_with_tip(
             "Save case…", "Save the small case as a scene, or as a Python test", self

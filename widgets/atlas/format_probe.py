@@ -34,12 +34,12 @@ _BITS = HEAD.index("Bits of the value")
 EXPLANATIONS = (
     "Number format of the coverage test",
     "How many triangles cover the pixel in this format; a tick: as many as should",
-    "Pixels of the whole picture that this format covers too often or too seldom: what a map's cell tells",
+    "Pixels of the whole picture that this format covers too often or too seldom: the count of a map's cell",
     "A triangle that decides this pixel",
-    "What the format says of this triangle and the pixel",
+    "The format's decision for this triangle and the pixel",
     "The edge that decides",
     "Edge function at the pixel's centre in this format",
-    "The same in exact arithmetic, corners unrounded",
+    "The same in exact arithmetic, with unsnapped corners",
     "The first operation after which the decision stays wrong, even if all others were exact",
     "Bit pattern of the value",
 )

@@ -16,7 +16,7 @@ class CellKind:
     title: str
     """What it means, in words."""
     mark: str
-    """One character, so that no outcome is told by colour alone."""
+    """One character, so that no outcome depends on colour alone."""
     fills: tuple[str, str]
     """``#rrggbb`` on a light and on a dark background."""
     inks: tuple[str, str]

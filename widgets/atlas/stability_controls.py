@@ -16,9 +16,9 @@ class StabilityControls(RunPanel):
         super().__init__(
             "Experiment and running it",
             "Run",
-            "Run every method at every place of the grid (F5). It continues while you view other "
-            "experiments and pages; the last maps of every experiment return at the next start.",
-            "Stop running and keep the previous maps (Escape)",
+            "Run every method at every place of the grid (F5). It continues while you use other experiments and pages. "
+            "The last maps of each experiment are kept for the next start.",
+            "Stop running; the previous maps are unchanged (Escape)",
             parent,
         )
         self.question, self.claim = self._sentence("Question"), self._sentence("Claim")

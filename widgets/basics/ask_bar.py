@@ -8,7 +8,7 @@ from widgets.basics.labels import set_role
 
 
 class AskBar(QWidget):
-    """Asks for a text; Enter hands it on, Escape closes. What is wrong with it is told under the field."""
+    """Asks for a text; Enter hands it on, Escape closes. Errors appear under the field."""
 
     text_entered = Signal(str, str)
     """The user has typed an answer: name of the question and text."""
@@ -25,11 +25,11 @@ class AskBar(QWidget):
         self.field.returnPressed.connect(self._enter)
         self.field.textEdited.connect(self._forget_problem)
         self.enter_button = QPushButton("OK", self)
-        self.enter_button.setToolTip("Take the answer (Enter)")
+        self.enter_button.setToolTip("Accept (Enter)")
         self.enter_button.clicked.connect(self._enter)
         self.close_button = QPushButton("Close", self)
         self.close_button.setProperty("flat", True)
-        self.close_button.setToolTip("Close without an answer (Escape)")
+        self.close_button.setToolTip("Cancel (Escape)")
         self.close_button.clicked.connect(self._close)
         self.hint = QLabel(self)
         self.hint.setWordWrap(True)

@@ -79,7 +79,7 @@ class MessageBar(QWidget):
         self.details_button.toggled.connect(self._show_details)
         self.action_button = self._button("", "Do what the message offers")
         self.action_button.clicked.connect(self.action_requested)
-        self.cancel_button = self._button("Cancel", "Stop this work and keep the open scene")
+        self.cancel_button = self._button("Cancel", "Stop this work; the open scene is unchanged")
         self.cancel_button.clicked.connect(self._cancel)
         self.dismiss_button = QToolButton(self)
         self.dismiss_button.setText("✕")
@@ -110,7 +110,7 @@ class MessageBar(QWidget):
 
     @Slot(object)
     def show_message(self, message: Message | None) -> None:
-        """Show a message in the place of what was there; None clears."""
+        """Replace the message; None clears."""
         if message is None:
             self.clear()
             return

@@ -34,7 +34,7 @@ class OutlineRow:
     vertex: int | None = None
     """0, 1 or 2 where it is that vertex of its triangle."""
     note: str = ""
-    """Text in the place of numbers (``968 triangles``), or the tooltip where there are numbers."""
+    """Text instead of numbers (``968 triangles``), or the tooltip where there are numbers."""
     is_editable: bool = True
 
 

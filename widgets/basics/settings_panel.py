@@ -58,7 +58,7 @@ class SettingsPanel(QWidget):
         self._body: QWidget | None = None
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
-        self._empty = QLabel("The methods of each stage are chosen here.", self)
+        self._empty = QLabel("Choose the methods of each stage here.", self)
         self._empty.setProperty("role", "muted")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)

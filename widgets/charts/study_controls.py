@@ -44,13 +44,13 @@ class StudyControls(RunPanel):
         super().__init__(
             "Work and measuring",
             "Measure",
-            "Measure all methods on this work (F5). It continues while you view other families and pages; the last "
-            "result of every family returns at the next start.",
-            "Stop measuring and keep the previous results (Escape)",
+            "Measure all methods on this work (F5). It continues while you use other families and pages. The last "
+            "result of each family is kept for the next start.",
+            "Stop measuring; the previous results are unchanged (Escape)",
             parent,
         )
-        self.work_box = self.box("Work", "What all methods are put to")
-        self.measure_box = self.box("Error", "What is counted as wrong: the vertical axis of the chart")
+        self.work_box = self.box("Work", "The work that all methods do")
+        self.measure_box = self.box("Error", "The error on the vertical axis of the chart")
         self.cost_box = self.box(
             "Cost", "Time on this machine, or a count of work that is the same on every machine"
         )

@@ -44,12 +44,12 @@ class StudyPictures(QWidget):
         self.values.setProperty("role", "muted")
         self.step_button = button_with_tip(
             "Open in the stepper",
-            "Step this run, at the pinned pixel or where it is wrong first (Ctrl+Return)",
+            "Step this run at the pinned pixel, or at its first error (Ctrl+Return)",
             self,
         )
         self.divergence_button = button_with_tip(
             "Step to first divergence",
-            "Step both runs, A | B, where they first part ways (Ctrl+Shift+Return)",
+            "Step both runs, A | B, at their first divergence (Ctrl+Shift+Return)",
             self,
         )
         self.copy_button = button_with_tip("Copy picture", "Put the three pictures on the clipboard", self)

@@ -19,7 +19,7 @@ from widgets.basics.drawn_text import paint_empty
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.charts.series_marks import SeriesIcon
 
-EMPTY = "The numbers of every method appear here once measured."
+EMPTY = "The numbers of each method appear here as they are measured."
 _FULL = int(Qt.ItemDataRole.UserRole)
 _KEY = _FULL + 1
 _NOTE_WIDTH = 360

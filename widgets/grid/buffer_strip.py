@@ -214,7 +214,7 @@ class BufferStrip(QWidget):
             tile.grid.set_view(view)
 
     def set_hidden_names(self, names: frozenset[str]) -> None:
-        """Hide these buffers, as they were left; emits nothing."""
+        """Hide these buffers again; emits nothing."""
         self._hidden = frozenset(names)
         for name, tile in self._tiles.items():
             tile.setVisible(name not in self._hidden)

@@ -58,7 +58,7 @@ class CompareView(QWidget):
         self.linked.pixel_clicked.connect(self.pixel_clicked)
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
-            (self.family_box, "Family of B", "What B does otherwise than A"),
+            (self.family_box, "Family of B", "The family in which B differs from A"),
             (self.value_box, "Method of B", "The method that B uses"),
         ):
             box.setAccessibleName(name)
@@ -71,7 +71,7 @@ class CompareView(QWidget):
     def _lay_out(self) -> None:
         reset, swap = QPushButton("B = A", self), QPushButton("Swap", self)
         reset.setToolTip("Make B like A again")
-        swap.setToolTip("Make B the settings of the page, and A the other ones")
+        swap.setToolTip("Make B's settings the current ones, and A's the others")
         reset.clicked.connect(self.reset_requested)
         swap.clicked.connect(self.swap_requested)
         row = QHBoxLayout()

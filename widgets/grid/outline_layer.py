@@ -11,7 +11,7 @@ from widgets.grid.view import GridPlacement
 
 
 class OutlineLayer:
-    """Keeps the last triangles as they were painted: smooth lines are slow to paint, a picture of them is not."""
+    """Keeps a picture of the last triangles: smooth lines are slow to paint, a picture of them is not."""
 
     def __init__(self, most: int = 2) -> None:
         """Keep at most so many pictures: two for every size of grid that shows the triangles."""

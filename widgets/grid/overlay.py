@@ -1,6 +1,6 @@
 """Overlays of a pixel grid: frozen records that stack over the cells, each with a name for the legend.
 
-Nothing is told by colour alone: every mark has a fill, hatch, ring, glyph or outline of its own.
+Nothing depends on colour alone: every mark has a fill, hatch, ring, glyph or outline of its own.
 """
 
 from dataclasses import dataclass, field

@@ -205,7 +205,7 @@ class PixelGrid(GridDisplay):
             super().keyReleaseEvent(event)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        """Ask for the pinned pixel's menu with the menu key; the right button asks when let go unmoved."""
+        """Ask for the pinned pixel's menu with the menu key; the right button asks when released without a move."""
         if event.reason() == QContextMenuEvent.Reason.Keyboard and self._pin is not None:
             corner = self.placement().cells_rect(*self._pin).bottomRight().toPoint()
             self.pixel_menu_requested.emit(*self._pin, self.mapToGlobal(corner))
@@ -300,7 +300,7 @@ class PixelGrid(GridDisplay):
         return self._drag is _Drag.VERTEX and self._has_moved
 
     def _end_drag(self, take_back: bool) -> None:
-        """End a drag before the button is let go."""
+        """End a drag before the button is released."""
         drag, self._drag = self._drag, _Drag.NONE
         if drag is _Drag.VERTEX and self._has_moved and self._vertex is not None:
             (self.vertex_drag_taken_back if take_back else self.vertex_drag_finished).emit(self._vertex)

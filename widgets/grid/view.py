@@ -16,7 +16,7 @@ WHOLE_CELL = 6.0
 
 @dataclass(frozen=True)
 class GridView:
-    """The part of a raster that is looked at; independent of the widget's size, so grids can share it."""
+    """The part of a raster that is shown; independent of the widget's size, so grids can share it."""
 
     x: float = 0.5
     """Middle of the view as a fraction of the raster's width, from the left."""

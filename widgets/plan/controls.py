@@ -1,4 +1,4 @@
-"""What stands above a plan: how much may differ, how often it is timed, and looking."""
+"""What stands above a plan: how much may differ, how often it is timed, and the analysis."""
 
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QWidget
@@ -12,7 +12,7 @@ EXACT, WITHIN = "exact", "within"
 
 
 class PlanControls(RunPanel):
-    """Holds the tolerance; offers looking, and to use what was chosen."""
+    """Holds the tolerance; offers the analysis, and to use its settings."""
 
     applying_requested = Signal()
     chart_requested = Signal()
@@ -20,38 +20,40 @@ class PlanControls(RunPanel):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
-            "Tolerance and looking",
-            "Look",
-            "Look at the scene, choose, and measure what was chosen (F5)",
-            "Stop; what was found before stays (Escape)",
+            "Tolerance and analysis",
+            "Analyse",
+            "Analyse the scene, choose methods, and measure the result (F5)",
+            "Stop the analysis; the previous plan is unchanged (Escape)",
             parent,
         )
         self.kind_box = self.box(
             "Tolerance",
-            "How much the picture may differ from the one with everything on; exact: no byte of it",
+            "How much the picture may differ from the one with everything on. Exact: every byte is equal",
         )
         self.kind_box.addItem("Within", WITHIN)
         self.kind_box.addItem("Exact", EXACT)
         self.color_box = self.number("Colour", "Largest difference of a channel, in 1/255", 0, MOST_COLOR)
         self.color_box.setSuffix("/255")
         self.color_box.setValue(2)
-        self.pixels_box = self.number("Pixels", "How many pixels may differ by more", 0, MOST_PIXELS)
+        self.pixels_box = self.number(
+            "Allowed exceptions", "How many pixels may differ by more", 0, MOST_PIXELS
+        )
         self.pixels_box.setGroupSeparatorShown(True)
         self.rounds_box = self.number(
-            "Rounds", "How often everything is timed, in turns: more take longer", 1, MOST_ROUNDS
+            "Rounds", "How often each picture is timed, in turn; more rounds take longer", 1, MOST_ROUNDS
         )
         self.rounds_box.setValue(3)
         self.apply_button = self.button(
-            "Apply", "Draw and step the scene with what was chosen (Ctrl+Return); undo takes it back"
+            "Apply", "Use these settings for the scene (Ctrl+Return); Undo restores the old ones"
         )
         self.chart_button = self.button(
-            "On the chart", "See the choice among all others: Whole pipeline, on the Compare page"
+            "On the chart", "Show the plan among all methods: Whole pipeline, on the Compare page"
         )
         self.add_row(
             (
                 ("Tolerance", self.kind_box),
                 ("Colour", self.color_box),
-                ("but for pixels", self.pixels_box),
+                ("allowed exceptions", self.pixels_box),
                 ("Rounds", self.rounds_box),
                 *(self.start_button, self.cancel_button, self.apply_button, self.chart_button),
                 *(self.progress, self.doing),

@@ -38,7 +38,7 @@ class PlanRow:
     is_needed: bool = False
     """Whether something expensive is kept: it stands out."""
     can_draw: bool = False
-    """Whether there is a difference to be looked at."""
+    """Whether there is a difference to show."""
 
 
 class PlanRowView(QWidget):
@@ -54,7 +54,7 @@ class PlanRowView(QWidget):
         self.reason, self.numbers, self.verdict = QLabel(self), QLabel(self), QLabel(self)
         self.mark = QLabel(self)
         self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip("Draw this choice alone beside everything on, and where they differ")
+        self.picture_button.setToolTip("Draw this choice alone, everything on, and the difference")
         self.picture_button.clicked.connect(self._ask)
         policy = self.picture_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)  # The columns of all rows stand under one another.

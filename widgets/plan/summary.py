@@ -29,7 +29,7 @@ class SummaryRecord:
     advice: str
     """Rich text: how fine the meshes are."""
     can_draw: bool
-    """Whether there is a difference to be looked at."""
+    """Whether there is a difference to show."""
 
 
 class PlanSummary(QWidget):
@@ -42,7 +42,7 @@ class PlanSummary(QWidget):
         super().__init__(parent)
         self.setProperty("role", "panel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setAccessibleName("What the plan comes to")
+        self.setAccessibleName("Result of the plan")
         self._record: SummaryRecord | None = None
         self.mark, self.headline, self.details = QLabel(self), QLabel(self), QLabel(self)
         self.about, self.stale = ElidedLabel(self), QLabel(self)
@@ -53,9 +53,7 @@ class PlanSummary(QWidget):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip(
-            "Draw the whole choice beside everything on, and where they differ (D)"
-        )
+        self.picture_button.setToolTip("Draw all choices together, everything on, and the difference (D)")
         self.picture_button.clicked.connect(self.picture_requested)
         top = QHBoxLayout()
         top.setSpacing(8)
@@ -101,12 +99,12 @@ class PlanSummary(QWidget):
 
 
 class PlanFindings(QScrollArea):
-    """What was seen in the scene and how fine its meshes are, each folded away until it is wanted."""
+    """Findings in the scene and how fine its meshes are, each folded away until it is wanted."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         body = QWidget()
-        self.findings, self.advice = Fold("What was seen", body), Fold("How fine the meshes are", body)
+        self.findings, self.advice = Fold("Findings", body), Fold("Mesh detail", body)
         self.hint = QLabel(body)
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "muted")
@@ -120,16 +118,14 @@ class PlanFindings(QScrollArea):
         self.setWidget(body)
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setAccessibleName("What was seen in the scene")
+        self.setAccessibleName("Findings in the scene")
         self.advice.set_open(True)
         self.show_record(None)
 
     def show_record(self, record: SummaryRecord | None) -> None:
         """Show what a plan is made of, or what will stand here."""
         self.hint.setVisible(record is None)
-        self.hint.setText(
-            "What is seen in the scene stands here: signs of w, layers, depth range, texels, highlights."
-        )
+        self.hint.setText("Findings appear here: signs of w, layers, depth range, texels, highlights.")
         for fold in (self.findings, self.advice):
             fold.setVisible(record is not None)
         if record is not None:

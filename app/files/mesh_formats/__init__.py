@@ -38,7 +38,7 @@ def read_file(path: Path, report: Report) -> LoadedMeshes:
     """Read ``path`` with the reader of its extension and check that there is something to draw."""
     try:
         if path.is_dir():
-            raise MeshFileError(f"a mesh is wanted, and {path.name} is a folder, not a file")
+            raise MeshFileError(f"{path.name} is a folder, not a mesh file")
         reader = READERS.get(path.suffix.lower())
         if reader is None:
             extension = f"the extension {path.suffix}" if path.suffix else "no extension"

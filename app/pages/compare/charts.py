@@ -95,7 +95,7 @@ def scatter_of(
 def _why_empty(points: Sequence[Point], measure: ErrorMeasure, cost: str) -> str:
     measured = [point for point in points if point.is_measured]
     if not measured:
-        return "Every method refused this work; the text on the left says why."
+        return "Every method refused this work. The figures on the left give the reasons."
     reasons = dict.fromkeys(point.reasons.get(measure.name, "") for point in measured)
     return " ".join([f"“{measure.title}” is not defined for this work.", *filter(None, reasons)])
 
@@ -109,7 +109,7 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
     """Return the chart of a cost against the dial that it grows with, one line for each method."""
     dial = cost_dial(study.work)
     if dial is None:
-        return ChartEmpty(f"“{study.work.title}” has no size that cost would grow with; choose another work.")
+        return ChartEmpty(f"“{study.work.title}” has no size that could grow. Choose another work.")
     if len(study.growth) < 2:
         return ChartEmpty(f"How cost grows with “{dial.title.lower()}” has not been measured.")
     series = tuple(
@@ -118,7 +118,7 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
         if (found := _growing(study.growth, point, title_of(point, numbers), numbers, cost)) is not None
     )
     if not series:
-        return ChartEmpty("Every method refused this work; the text on the left says why.")
+        return ChartEmpty("Every method refused this work. The figures on the left give the reasons.")
     axes = dial_axis(dial), cost_axis(cost, study.work.unit)
     return ChartPicture(*axes, series, is_named=len(series) <= MOST_NAMED)
 

@@ -75,7 +75,7 @@ def study_text(study: Study, path: str = "") -> str:
     parts = [f"<b>{escape(study.title)}</b>", f"{escape(work_sentence(study))}."]
     if path:
         parts.append(
-            f"A saved study, {escape(path)}: its numbers are of the machine and the day given below."
+            f"A saved study, {escape(path)}. Its numbers were measured on the machine and day below."
         )
     parts.append(
         "Point at a mark to read its figures. Click it to see its picture; Ctrl+click another one to compare."

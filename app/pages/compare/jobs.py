@@ -163,7 +163,7 @@ def divergence_of(shown: PointsShown) -> StepRequest | str:
             is_many = scene_triangle_count(scene) > TRACED_TOGETHER and found.triangle >= 0
             triangle = found.triangle if is_many else None
             return StepRequest(there, f"{names}, first divergence", second.settings, triangle)
-    return f"{names} do not part ways on this work: every step that was compared has the same numbers."
+    return f"{names} do not diverge on this work: all compared steps have the same numbers."
 
 
 def _is_too_large(size: tuple[int, int]) -> bool:

@@ -22,7 +22,7 @@ FILE_WORDS = FileWords(
     view="charts",
     nothing="measure first (F5)",
     kinds="Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
-    f"Study, to be opened again (*{EXTENSION});;Page as shown (*.pdf)",
+    f"Study, to be opened again (*{EXTENSION});;Current view (*.pdf)",
     export_tip="Write the charts, the numbers or the whole study to a file (Ctrl+E)",
     copy_tip="Put the charts, or the numbers with all their digits, on the clipboard",
 )

@@ -67,7 +67,7 @@ class StudyPicturesPresenter(QObject):
         """Open the pictures of a point; ``is_added``: beside the one that is open."""
         result, point = self._studies.result, self._studies.point(method)
         if self._studies.is_partial or result is None or point is None:
-            self.message_sent.emit("Pictures are there once the measuring is done.")
+            self.message_sent.emit("Pictures are available when the measurement is finished.")
             return
         if is_added and self._chosen and method != self._chosen[0]:
             self._chosen = (self._chosen[0], method)
@@ -82,7 +82,7 @@ class StudyPicturesPresenter(QObject):
             self._view.show_waiting(f"{point.title} drew nothing: {point.refused}")
         elif not result.can_run_again:
             self._view.show_waiting(
-                f"This study was saved without its scene, {result.study.scene}: open that scene and measure it."
+                f"This study was saved without its scene, {result.study.scene}. Open that scene and measure it."
             )
         else:
             names = " and ".join(self._title(each) for each in self._chosen)
@@ -163,9 +163,9 @@ class StudyPicturesPresenter(QObject):
     def step_to_divergence(self) -> None:
         """Open both runs on the Step page, where they first part ways."""
         if self._shown is None or len(self._shown.points) < 2:
-            self.message_sent.emit("Lock two points together first: click one, then Ctrl+click another.")
+            self.message_sent.emit("Select two points first: click one, then Ctrl+click another.")
             return
-        self._view.show_busy("Looking for the first place at which they part ways …")
+        self._view.show_busy("Searching for the first divergence …")
         self._jobs.find_divergence(self._shown)
 
     @Slot(object)

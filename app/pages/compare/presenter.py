@@ -28,7 +28,7 @@ from widgets.charts.study_table import StudyTable, TableRecord
 
 NOTHING = "Error against cost, one mark for each method. Choose the work above, then press Measure (F5)."
 NO_GROWTH = (
-    "How cost grows with the size of the work, one line for each method; it is measured along with the rest."
+    "How cost grows with the size of the work, one line for each method. It is measured with the other chart."
 )
 GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
 WORK_WORDS = ResultWords(
@@ -60,7 +60,7 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         self._session, self._jobs, self._controls = session, jobs, controls
         self._charts, self._legend, self._table = charts, legend, numbers
         self._partial: Study | None = None
-        """What has been measured by now, of the family that is being measured."""
+        """What has been measured so far, of the family that is being measured."""
         self._numbers: Mapping[str, int] = {}
         self._pointed = ""
         self._chosen = ""

@@ -18,7 +18,7 @@ from core.study.planner.trials import difference, shown
 
 @dataclass(frozen=True, eq=False)
 class PlanOrder:
-    """What is to be looked at, and how closely."""
+    """What to analyse, and with which tolerance."""
 
     scene: AnyScene
     settings: Settings
@@ -47,18 +47,18 @@ class PlanPictures:
 
 
 class PlanJobs(JobGroup):
-    """At most one look and one drawing at a time."""
+    """At most one analysis and one drawing at a time."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         # What was cancelled may still be in its last drawing, which would disturb the times of the next.
         self._turn = Lock()
-        self.looking = self.add_job()
+        self.analysing = self.add_job()
         """Gives the ``Plan`` before it is measured, and in the end a ``PlanReport``."""
         self.drawing = self.add_job()
         """Gives a `PlanPictures`."""
 
-    def look(self, order: PlanOrder) -> None:
+    def analyse(self, order: PlanOrder) -> None:
         """Plan, then measure; the plan comes before its numbers."""
 
         def work(
@@ -66,7 +66,7 @@ class PlanJobs(JobGroup):
         ) -> PlanReport:
             def watch(done: float, doing: str) -> None:
                 if is_cancelled():
-                    raise StudyCancelledError("The look was cancelled.")
+                    raise StudyCancelledError("The analysis was cancelled.")
                 progress(done, doing)
 
             with self._turn:
@@ -74,7 +74,7 @@ class PlanJobs(JobGroup):
                 planned(chosen)
                 return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)
 
-        self.looking.start_in_parts(work)
+        self.analysing.start_in_parts(work)
 
     def draw(self, scene: AnyScene, chosen: Plan, setting: str) -> None:
         """Draw what a plan chose at one stage and nowhere else, or with an empty ``setting`` all that it chose."""

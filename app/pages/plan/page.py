@@ -40,8 +40,8 @@ class PlanPage(WorkPage):
     def handlers(self) -> Handlers:
         """Return what the keys of this page do."""
         return {
-            "look": self.plans.look,
-            "cancel_look": self.plans.cancel,
+            "analyse": self.plans.analyse,
+            "cancel_analysis": self.plans.cancel,
             "apply_plan": self.plans.apply,
             "plan_difference": self.opened.open_all,
             "plan_chart": self.show_on_chart,
@@ -60,7 +60,7 @@ class PlanPage(WorkPage):
     def show_on_chart(self) -> None:
         """Measure the choice among all others of the scene, on the Compare page."""
         if self.plans.shown is None or self.plans.shown.report is None or self.plans.is_stale:
-            self.message_sent.emit("There is no choice for this scene yet: look first (F5).")
+            self.message_sent.emit("There is no plan for this scene yet. Run the analysis first (F5).")
             return
         self.action_requested.emit("page_compare")
         self.action_requested.emit("measure_scene")

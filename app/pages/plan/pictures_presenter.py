@@ -50,7 +50,7 @@ class PlanPicturesPresenter(QObject):
     def _draw(self, setting: str) -> None:
         shown = self._plans.shown
         if shown is None or shown.report is None:
-            self.message_sent.emit("There is no difference to show yet: look first (F5).")
+            self.message_sent.emit("There is no difference to show yet. Run the analysis first (F5).")
             return
         self._drawn = None
         self._view.show()
@@ -97,14 +97,14 @@ class PlanPicturesPresenter(QObject):
 
     def _title(self, drawn: PlanPictures) -> str:
         if not drawn.setting:
-            return "All that was chosen"
+            return "All choices together"
         chosen = getattr(drawn.settings, drawn.setting)
         return f"{family_title(drawn.setting)}: {table.get(drawn.setting, chosen).title}"
 
     def _before(self, drawn: PlanPictures) -> str:
         shown = self._plans.shown
         is_everything = shown is not None and drawn.before == shown.plan.everything
-        return "Everything on" if is_everything else "Everything on, but for what this choice rests on"
+        return "Everything on" if is_everything else "Everything on, except what this choice needs"
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:

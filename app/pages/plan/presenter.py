@@ -1,4 +1,4 @@
-"""The Plan page's looking: what was asked, chosen and measured, and whether it is still of this scene."""
+"""The Plan page's analysis: what was asked, chosen and measured, and whether it is still for this scene."""
 
 from dataclasses import dataclass, replace
 
@@ -24,11 +24,13 @@ class PlanShown:
     report: PlanReport | None = None
 
 
-WORDS = WorkWords("The look was cancelled", "It could not be planned", "the previous plan is unchanged")
+WORDS = WorkWords(
+    "The analysis was cancelled", "The scene could not be analysed", "the previous plan is unchanged"
+)
 
 
 class PlanPresenter(BackgroundTask):
-    """Looks at the open scene and shows what it needs; results of an earlier scene are marked as such."""
+    """Analyses the open scene and shows what it needs; marks results of an earlier scene."""
 
     def __init__(
         self,
@@ -39,17 +41,17 @@ class PlanPresenter(BackgroundTask):
         rows: PlanRows,
         parent: QObject | None = None,
     ) -> None:
-        super().__init__(jobs.looking, controls, WORDS, parent)
+        super().__init__(jobs.analysing, controls, WORDS, parent)
         self._session, self._jobs = session, jobs
         self._controls, self._summaries, self._rows = controls, summaries, rows
         self._order: PlanOrder | None = None
-        """What is being looked at."""
+        """What is being analysed."""
         self._asked: PlanOrder | None = None
-        """What was looked at last."""
+        """What was analysed last."""
         self._before: PlanShown | None = None
         """What comes back if that comes to nothing."""
         self.shown: PlanShown | None = None
-        controls.start_requested.connect(self.look)
+        controls.start_requested.connect(self.analyse)
         controls.cancel_requested.connect(self.cancel)
         controls.applying_requested.connect(self.apply)
         session.document_changed.connect(self.refresh)
@@ -68,10 +70,10 @@ class PlanPresenter(BackgroundTask):
             not is_applied and everything_on(document.scene, document.settings) != self.shown.plan.everything
         )
 
-    # Looking.
+    # Analysing.
 
     @Slot()
-    def look(self) -> None:
+    def analyse(self) -> None:
         """Plan for the open scene, and measure the plan."""
         document, controls = self._session.document, self._controls
         exact = Tolerance.exact()
@@ -85,10 +87,10 @@ class PlanPresenter(BackgroundTask):
             controls.rounds_box.value(),
             document.title or "scene",
         )
-        self._jobs.looking.cancel()
+        self._jobs.analysing.cancel()
         self._order, self._before = order, self.shown
-        controls.show_progress(Progress("Looking at the scene", 0, 0))
-        self._jobs.look(order)
+        controls.show_progress(Progress("Analysing the scene", 0, 0))
+        self._jobs.analyse(order)
 
     @Slot(object)
     def _take_part(self, plan: Plan) -> None:
@@ -100,7 +102,7 @@ class PlanPresenter(BackgroundTask):
         assert self._asked is not None
         self._show(PlanShown(self._asked, report.plan, report))
         self._session.set_plan(report)
-        self.message_sent.emit(f"Planned {self._asked.title}.")
+        self.message_sent.emit(f"Analysed {self._asked.title}.")
 
     def _put_back(self) -> None:
         """Show what was found before."""
@@ -134,9 +136,9 @@ class PlanPresenter(BackgroundTask):
         stale = ""
         if self.is_stale:
             stale = (
-                f"This is of an earlier scene, {order.title}: look again (F5)."
+                f"This plan is for an earlier scene, {order.title}. Run the analysis again (F5)."
                 if order.scene is not self._session.document.scene
-                else "The settings have changed since: look again (F5)."
+                else "The settings have changed since. Run the analysis again (F5)."
             )
         facts = plan.findings.facts
         return SummaryRecord(
@@ -158,10 +160,10 @@ class PlanPresenter(BackgroundTask):
         """Take the chosen settings over, in one step that undo takes back."""
         shown = self.shown
         if shown is None or shown.report is None:
-            self.message_sent.emit("There is nothing to apply yet: look first (F5).")
+            self.message_sent.emit("There is nothing to apply yet. Run the analysis first (F5).")
             return
         if self.is_stale:
-            self.refused.emit("What was chosen is for an earlier scene: look again (F5).")
+            self.refused.emit("The scene has changed. Run the analysis again (F5).")
             return
         document = self._session.latest
         if document.settings == shown.plan.settings:
@@ -170,6 +172,6 @@ class PlanPresenter(BackgroundTask):
         try:
             self._session.edit(replace(document, settings=shown.plan.settings))
         except (ValueError, MemoryError) as error:
-            self.refused.emit(f"The choice cannot be stepped: {error} The settings are unchanged.")
+            self.refused.emit(f"The plan cannot be stepped: {error} The settings are unchanged.")
         else:
-            self.message_sent.emit("Applied what the scene needs; Ctrl+Z takes it back.")
+            self.message_sent.emit("Applied the planned settings. Ctrl+Z restores the old ones.")

@@ -14,7 +14,7 @@ from core.study.planner.phrases import in_bytes
 from widgets.plan.rows import PlanRow, Verdict
 
 EMPTY = (
-    "What does this scene need? No more than that: Look (F5) tries cheaper methods stage by stage and chooses the "
+    "What does this scene need? Analyse (F5) tries cheaper methods stage by stage and chooses the "
     "cheapest whose error stays within the tolerance: clipping or none, a perspective divide or none, a depth buffer "
     "or none, how many samples. Each choice has its reason and a predicted error. Then all of them are drawn and timed "
     "against the picture with everything on, and wrong predictions are flagged. Apply uses these settings."
@@ -22,7 +22,7 @@ EMPTY = (
 
 
 def about(title: str, size: tuple[int, int], tolerance: Tolerance) -> str:
-    """Return what was looked at, and how closely."""
+    """Return what was analysed, and with which tolerance."""
     return f"{title}, {size[0]}×{size[1]} pixels, {tolerance_text(tolerance)}."
 
 
@@ -45,9 +45,7 @@ def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None)
     is_cheaper = decision.chosen != decision.dearest
     instead = f"instead of {table.get(decision.setting, decision.dearest).title}" if is_cheaper else ""
     if not is_cheaper:
-        instead = (
-            "kept: cheaper methods are too far off" if decision.is_needed else "there is nothing cheaper"
-        )
+        instead = "kept: cheaper methods are too inaccurate" if decision.is_needed else "no cheaper method"
     verdict = Verdict.OPEN
     if outcome is not None:
         verdict = Verdict.HELD if outcome.is_right else Verdict.WRONG
@@ -116,11 +114,9 @@ def details(plan: Plan, report: PlanReport) -> str:
         parts.append(f"A prediction was wrong: {family_title(outcome.decision.setting)}, {outcome.text}.")
     if report.fallen_back:
         names = joined([family_title(name) for name in report.fallen_back])
-        parts.append(
-            f"The first plan was beyond the tolerance when measured, so everything is on again at {names}."
-        )
+        parts.append(f"The first plan was beyond the tolerance when measured. Restored: {names}.")
     needed = [family_title(each.setting) for each in plan.decisions if each.is_needed]
-    kept = f"Kept, as cheaper methods are too far off: {joined(needed)}."
+    kept = f"Kept because cheaper methods are too inaccurate: {joined(needed)}."
     parts.append(kept if needed else "Nothing expensive is needed.")
     return " ".join(parts)
 
@@ -137,5 +133,5 @@ def findings_html(findings: Findings) -> str:
 def advice_html(tessellations: tuple[Tessellation, ...]) -> str:
     """Return the advice on how fine meshes are, as rich text."""
     if not tessellations:
-        return "Triangles given one by one have no smooth surface."
+        return "Separate triangles do not describe a smooth surface."
     return "".join(f"<p style='margin:2px 0'>{escape(each.text)}</p>" for each in tessellations)

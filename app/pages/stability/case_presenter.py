@@ -195,7 +195,7 @@ class StabilityCasePresenter(QObject):
     def _tell_no_dial(self, error: Exception) -> None:
         if not isinstance(error, ValueError):
             raise error
-        self.refused.emit(f"The pixel could not be shown in every number format: {error}")
+        self.refused.emit(f"The pixel could not be tested in every number format: {error}")
 
     # To the stepper.
 
@@ -223,9 +223,9 @@ class StabilityCasePresenter(QObject):
         """Make the case small."""
         found = self._found
         if found is None or not case_record(found).can_shrink:
-            self.message_sent.emit("Only a cell that fails can be made smaller.")
+            self.message_sent.emit("Only a failing cell can be shrunk.")
             return
-        self._view.show_waiting("Shrinking …", "Leaving out parts, pixels and digits as long as it fails.")
+        self._view.show_waiting("Shrinking …", "Removing parts, pixels and digits while it still fails.")
         self._jobs.shrink(found.order)
 
     @Slot(object)
@@ -241,11 +241,11 @@ class StabilityCasePresenter(QObject):
             raise error
         if self._found is not None:
             self._view.show_case(case_record(self._found))
-        self.refused.emit(f"It could not be made smaller: {error}")
+        self.refused.emit(f"The case could not be shrunk: {error}")
 
 
 def _no_experiment(name: str) -> str:
     """Return why a cell of a saved atlas cannot be run."""
     if name == OPEN_SCENE:
-        return "An atlas is saved without its scene: open that scene and run it to see its cases."
+        return "An atlas is saved without its scene. Open that scene and run the experiment to see its cases."
     return "This version has no such experiment: the case cannot be run."

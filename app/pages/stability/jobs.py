@@ -1,4 +1,4 @@
-"""Runs experiments off the GUI thread: whole grids, single cells to be looked at, and the shrinker."""
+"""Runs experiments off the GUI thread: whole grids, single cells, and the shrinker."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class CellRun:
 
 @dataclass(frozen=True, eq=False)
 class CaseOrder:
-    """One cell to be looked at."""
+    """One cell to open."""
 
     experiment: Experiment
     place: CellPlace
@@ -161,7 +161,7 @@ def wanted_cover(experiment: Experiment, is_part: bool) -> Wanted:
 
 
 def drawn(scene: AnyScene, settings: Settings) -> Frame | None:
-    """Return the picture of a case; ``None``: a method does not take the scene, or it is too large to be looked at."""
+    """Return the picture of a case; ``None``: a method does not take the scene, or it is too large to show."""
     if scene.size[0] * scene.size[1] > MOST_PIXELS:
         return None
     try:

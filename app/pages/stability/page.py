@@ -27,7 +27,7 @@ FILE_WORDS = FileWords(
     view="maps",
     nothing="run the experiment first (F5)",
     kinds="Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
-    f"Atlas, to be opened again (*{EXTENSION});;Page as shown (*.pdf)",
+    f"Atlas, to be opened again (*{EXTENSION});;Current view (*.pdf)",
     export_tip="Write the maps, all cells or the whole atlas to a file (Ctrl+E)",
     copy_tip="Put the maps on the clipboard",
 )
@@ -112,7 +112,7 @@ class StabilityPage(ResultPage):
         """Ask where the small case is to go, and write it there."""
         found = self.opened.shrunk
         if found is None:
-            self.message_sent.emit("Shrink a failing cell first (S): the smallest case is worth a file.")
+            self.message_sent.emit("Shrink a failing cell first (S). Only the smallest case can be saved.")
             return
         stem = shrunk_name(found.order.experiment.info.name, found.order.place.key)
         self.ask_path("Save case", f"{stem}{STATE_EXTENSION}", CASE_KINDS, self.save_case_to)

@@ -43,8 +43,8 @@ from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartEmpty, ChartPicture
 
 NOTHING = (
-    "One map for each method, one cell for each place: the result of a real run. Press Run (F5); "
-    "each cell appears when its run ends."
+    "One map for each method. Each cell is the outcome of one real run. Press Run (F5); cells appear as "
+    "they are run."
 )
 WORK_WORDS = ResultWords(
     cancelled="Running was cancelled",
@@ -165,7 +165,7 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         return found
 
     def _partial_text(self) -> str:
-        return "Being run; cells appear row by row."
+        return "Running; cells appear row by row."
 
     def _result_texts(self) -> list[str]:
         assert self.result is not None
@@ -263,7 +263,7 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
 
     @Slot()
     def _show_parts(self) -> None:
-        """Show the cells that have been run by now; the figures of the cell that is pointed at wait."""
+        """Show the cells that have been run so far; the figures of the cell that is pointed at wait."""
         self._maps.show_atlas(atlas_record(self.info, self.cells))
         self._show_curves()
 

@@ -109,7 +109,7 @@ def experiment_text(choice: ExperimentChoice) -> str:
         origin = f"Opened from {escape(result.path)}. " if result.path else ""
         parts.append(
             f"<p>{origin}Seed {result.atlas.seed}. {escape(machine_words(result.atlas.machine))}</p>"
-            "<p>Point at a cell to read what came of it. Click it to see the case; double-click to step it.</p>"
+            "<p>Point at a cell to read its outcome. Click it to see the case; double-click to step it.</p>"
         )
     return "".join(parts)
 
@@ -186,7 +186,7 @@ def shrunk_record(found: ShrunkFound) -> CaseRecord:
 
 
 def has_formats(opening: Opening) -> bool:
-    """Return whether the pixels of a case can be looked at in every number format: triangles in clip space, filled."""
+    """Return whether the pixels of a case can be tested in every number format: triangles in clip space, filled."""
     is_filled = opening.settings.polygon_mode == "fill" and opening.stage in ("edges", "raster")
     return is_filled and isinstance(opening.scene, ClipScene)
 
@@ -269,10 +269,8 @@ def cell_kinds() -> tuple[CellKind, ...]:
 
 
 SEVERITY = "Severity, how wrong a run is"
-BELOW_ZERO = "This axis has values below 0, which have no place on a logarithmic axis: the maps show them."
-NOTHING_RUN = (
-    "How wrong each method is along the axis, one line for each; it comes with the cells of the map."
-)
+BELOW_ZERO = "This axis has values below 0. A logarithmic axis cannot show them; the maps do."
+NOTHING_RUN = "Severity along the axis, one line for each method. It appears with the cells of the map."
 
 
 def has_curves(info: ExperimentInfo) -> bool:

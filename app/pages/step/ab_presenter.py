@@ -39,7 +39,7 @@ class ComparePresenter(QObject):
         super().__init__(parent)
         self._session, self._view = session, view
         self._differences: dict[str, str | int] = {"fill": "scanline-lecture"}
-        """What B does otherwise than A: family and value."""
+        """The family in which B differs from A: family and value."""
         self._buffer = "color"
         self._is_active = False
         self._job = Job(self)
@@ -209,7 +209,7 @@ def compare(
         GridBuffer("A", a, kind, range=scale, origin=origin),
         GridBuffer("B", b, kind, range=scale, origin=origin),
         GridBuffer("difference", amount, "bool" if buffer == "primitive" else "signed", origin=origin),
-        "A, the page's settings",
+        "A, current settings",
         "B, " + (settings_difference(mine, other) or "the same settings"),
         summary + ".",
         (MaskOverlay("difference", Mark.DIFFERENCE, differs),),

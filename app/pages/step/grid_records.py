@@ -124,7 +124,7 @@ def edge_overlay(geometry: GridGeometry) -> SegmentOverlay | None:
 
 
 def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverlay | None:
-    """Return the boxes and blocks that binning has looked at by now (all of them in later stages)."""
+    """Return the boxes and blocks that binning has tested so far (all of them in later stages)."""
     if stage.stage not in ("bin", "raster"):
         return None
     bins = trace.stage("bin")
@@ -158,7 +158,7 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
 
 
 def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
-    """Return the marks of the rows done by now, one mask for each kind."""
+    """Return the marks of the rows done so far, one mask for each kind."""
     done = stage.steps.rows_done(position)
     pixel = stage.pixel[:done]
     of_pixel = pixel[:, 0] >= 0
@@ -194,7 +194,7 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
 
 
 def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverlay | None:
-    """Return the spans of a scanline fill that are known by now."""
+    """Return the spans of a scanline fill that are known so far."""
     if stage.stage != "raster" or "sample" in stage.columns:
         return None
     done = stage.steps.rows_done(position)

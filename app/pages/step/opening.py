@@ -71,7 +71,7 @@ class StepOpening(QObject):
         """Pin a pixel and go to the first step about it; say how to get there where only another run has one."""
         self._session.set_pin(pixel)
         if has_other and not len(self._session.trace.stage(stage).rows_at_pixel(*pixel)):
-            said = f"A has no step at pixel {pixel}: Swap makes B the run that is stepped, then J goes to its step."
+            said = f"A has no step at pixel {pixel}. Swap A and B; then J goes to the step of B."
             self.message_sent.emit(Message(MessageKind.INFORMATION, said))
         else:
             self._page.stepping.step_into(stage, *pixel)

@@ -34,12 +34,12 @@ class PixelMenu(QObject):
         heading = self.menu.addAction(f"Pixel ({self._pixel[0]}, {self._pixel[1]})")
         heading.setEnabled(False)
         is_pinned = self._session.pin == self._pixel
-        self._add("Take the pin away" if is_pinned else "Pin", "pin")
+        self._add("Remove the pin" if is_pinned else "Pin", "pin")
         has_breakpoint = self._pixel in self._stepping.pixel_breakpoints
-        self._add("Take the breakpoint away" if has_breakpoint else "Breakpoint", "breakpoint")
+        self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
-            self._add(f"Step into it: {stage_of(stage).short_title}", stage)
+            self._add(f"Step here in {stage_of(stage).short_title}", stage)
 
     def _add(self, text: str, name: str) -> None:
         self.menu.addAction(text).setData(name)

@@ -22,7 +22,7 @@ from widgets.basics.marks import Mark
 from widgets.inspector.history_view import HistoryEntry, PixelStory, PixelValue
 
 MOST_GROUPS = 4
-"""Groups of samples with a history of their own; further ones are only counted."""
+"""Groups of samples whose histories are written out; those of more triangles in a pixel are only counted."""
 Lines = list[tuple[HistoryEntry, int | None]]
 """The lines of a history, each with its triangle."""
 

@@ -10,7 +10,7 @@ from widgets.timeline.pipeline_rail import StageEntry, StageState
 
 INSERTED_FOR = {
     "clip": "corners in front of the eye",
-    "blend": 'pixels that are mixed with what is there: they are blended "over"',
+    "blend": 'its pixels blended "over"',
 }
 """What a method lacked that made the pipeline insert a stage."""
 COMPUTED = "No pixel is tested: the ends of the spans are computed."

@@ -60,7 +60,7 @@ class SteppingPresenter(QObject):
     message_sent = Signal(str)
     """Something to tell: there is no further event."""
     message_ended = Signal(str)
-    """What was told is true no longer, since the cursor or the pin is elsewhere."""
+    """The last message no longer holds: the cursor or the pin has moved."""
     condition_changed = Signal(str)
     """The condition of a breakpoint, empty: none."""
 
@@ -335,7 +335,7 @@ class SteppingPresenter(QObject):
         self.refresh_marks()
 
     def set_bookmarks(self, bookmarks: list[Bookmark]) -> None:
-        """Set the bookmarks, as they were left."""
+        """Restore the bookmarks."""
         self.bookmarks = bookmarks
         self.refresh_marks()
 
@@ -346,7 +346,7 @@ class SteppingPresenter(QObject):
         if mark in self.bookmarks:
             self.bookmarks.remove(mark)
         elif len(self.bookmarks) >= 10:
-            self._tell("Ten bookmarks are set; take one away first.")
+            self._tell("All ten bookmarks are set. Remove one first.")
         else:
             self.bookmarks.append(mark)
         self.refresh_marks()

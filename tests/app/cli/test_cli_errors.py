@@ -22,7 +22,7 @@ SOLID = "rasterscope render: "
     ("arguments", "wanted"),
     [
         (["render"], "the following arguments are required: FILE"),
-        (["render", "cube"], "-o out.png, --buffers out.npz or both are wanted"),
+        (["render", "cube"], "give -o out.png, --buffers out.npz or both"),
         (["render", "cube", "-o", "out.jpg"], "must end with .png, got out.jpg"),
         (["render", "cube", "-o", "out.png", "--buffers", "out.zip"], "must end with .npz, got out.zip"),
         (["render", "cube", "-o", "out.png", "--size", "0x0"], "1 to 16384 pixels each way, got 0x0"),

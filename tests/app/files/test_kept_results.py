@@ -153,7 +153,7 @@ def test_a_folder_that_cannot_be_made_is_told(
     kept.keep("line", lambda: b"{}")
     qtbot.waitUntil(lambda: bool(told), timeout=20000)
     kept.shut_down()
-    assert told[0].startswith("The result is not kept for the next start: ")
+    assert told[0].startswith("The result could not be kept for the next start: ")
     assert "cannot be made" in told[0]
 
 

@@ -103,7 +103,7 @@ def test_a_path_that_cannot_be_read_is_refused(tmp_path):
         open_mesh(tmp_path / "gone.obj")
     for name in ("folder.obj", "folder"):
         (tmp_path / name).mkdir()
-        with pytest.raises(MeshFileError, match=f"a mesh is wanted, and {name} is a folder"):
+        with pytest.raises(MeshFileError, match=f"{name} is a folder, not a mesh file"):
             open_mesh(tmp_path / name)
 
 

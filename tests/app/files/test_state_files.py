@@ -463,7 +463,7 @@ def test_a_part_of_a_state_is_refused(tmp_path):
     content = path.read_bytes()
     for length in range(1, len(content) - 2, 97):
         path.write_bytes(content[:length])
-        with pytest.raises(StateFileError, match="only a part of one"):
+        with pytest.raises(StateFileError, match="it is incomplete"):
             load_state(path)
 
 

@@ -274,7 +274,7 @@ def test_how_a_frame_was_drawn_as_text():
     bands = (BandTime(0, 500, 0.0231), BandTime(500, 1024, 0.0228))
     assert drawing_text(figures_of(route=route, sharing=Sharing(bands))).splitlines() == [
         "Drawn by 2 processes: rows 0 to 499 in 23.1 ms, rows 500 to 1,023 in 22.8 ms.",
-        "Seen: depth and triangle number in one word, the least is seen.",
+        "Seen: depth and triangle number packed in one word; the smallest is visible.",
         "Colours: light once per visible pixel, in single precision.",
         "Triangles: 67,652 along spans, 3 in bands, 0 one by one.",
         "Fragments: 798,142 for 399,071 pixels, depth complexity 2.00.",

@@ -156,7 +156,7 @@ def test_a_lost_last_state_is_told(window: MainWindow) -> None:
     preferences, _ = load_preferences()
     Path(preferences.last_state).write_text("{}")
     opened, warning = first_document(preferences)
-    assert warning.startswith("What was open last could not be opened again")
+    assert warning.startswith("The last scene could not be opened again")
     assert opened.document.title == "Single triangle"
 
 

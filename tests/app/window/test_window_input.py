@@ -161,7 +161,7 @@ def test_no_button_lacks_a_name_or_a_tooltip(window: MainWindow) -> None:
 def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
     window.run_action("go_to_pixel")
     field = window.overlays.ask_bar.field
-    for text, told in (("abc", "Wanted column and row"), ("1000, 3", "is not in the raster")):
+    for text, told in (("abc", "Enter column and row"), ("1000, 3", "is not in the raster")):
         field.selectAll()
         QTest.keyClicks(field, text)
         QTest.keyClick(field, Qt.Key.Key_Return)

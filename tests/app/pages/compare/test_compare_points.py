@@ -113,4 +113,4 @@ def test_without_a_point_the_keys_say_what_to_do(window: MainWindow, page: Compa
     assert "Click a point first" in window.statusBar().currentMessage()
     both = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     QTest.keyClick(window, Qt.Key.Key_Return, both)
-    assert "Lock two points together first" in window.statusBar().currentMessage()
+    assert "Select two points first" in window.statusBar().currentMessage()

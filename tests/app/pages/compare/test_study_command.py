@@ -57,7 +57,7 @@ def test_the_list_names_every_family_and_work() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([], "FAMILY is wanted; --list names all"),
+        ([], "FAMILY is required; --list shows all"),
         (["colour"], "family must be one of line, fill"),
         (["fill", "--work", "circles"], "work of fill must be one of triangles"),
         (["fill", "--dial", "size"], "must be NAME=NUMBER such as size=64, got size"),

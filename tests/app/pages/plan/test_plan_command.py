@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.core.covering import in_turn
 
 from app.files.open_any import open_any
 from core.study import Tolerance, plan
 from core.study.planner.trials import difference, shown
 from tests.app.cli.cli_runs import refused, run_program
+from tests.covering import in_turn
 
 
 def test_a_scene_is_planned_and_measured() -> None:
@@ -39,8 +39,8 @@ def test_the_corpus_tells_the_time_saved() -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ((), "FILE or --corpus is wanted, one of them"),
-        (("cube", "--corpus", "3"), "FILE or --corpus is wanted, one of them"),
+        ((), "either FILE or --corpus is required"),
+        (("cube", "--corpus", "3"), "either FILE or --corpus is required"),
         (("cube", "--tolerance", "300"), "tolerance color must be from 0 to 255, got 300"),
         (("cube", "--pixels", "-1"), "tolerance pixels must be a whole number from 0 on, got -1"),
         (("--corpus", "0"), "must be a whole number from 1 to 100000, got 0"),

@@ -141,7 +141,7 @@ def test_another_scene_leaves_the_results_as_those_of_the_earlier(
     settings = window.session.document.settings
     QTest.keyClick(window, Qt.Key.Key_Return, CTRL)
     assert window.session.document.settings == settings
-    assert "look again" in window.messages.text.text()
+    assert "Run the analysis again" in window.messages.text.text()
     assert window.session.plan is None
     window.session.undo()
     assert not page.summary.stale.isVisible()
@@ -183,7 +183,7 @@ def test_a_scene_that_is_too_large_is_told(
     monkeypatch.setattr(planning, "look", refuse)
     QTest.keyClick(window, Qt.Key.Key_F5)
     qtbot.waitUntil(window.messages.isVisible, timeout=60000)
-    assert "could not be planned" in window.messages.text.text()
+    assert "could not be analysed" in window.messages.text.text()
     assert page.plans.shown is not None
     assert page.plans.shown.report is report
 
@@ -265,7 +265,7 @@ def test_without_a_plan_the_chart_has_no_ring_and_says_so(window: MainWindow, pa
 
 def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> None:
     page.controls.rounds_box.setValue(99)
-    page.plans.look()
+    page.plans.analyse()
     start = time.perf_counter()
     page.window().close()
     assert not page.plans.is_running

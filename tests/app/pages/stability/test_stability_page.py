@@ -276,7 +276,7 @@ def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> Non
     wait_for_case(page, qtbot)
     assert not page.case.shrink_button.isEnabled()
     QTest.keyClick(page.window(), Qt.Key.Key_S)
-    assert "Only a cell that fails" in status(page)
+    assert "Only a failing cell" in status(page)
     QTest.mouseClick(page.case.close_button, LEFT)
     QTest.keyClick(page.window(), Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
     assert "Click a cell first" in status(page)

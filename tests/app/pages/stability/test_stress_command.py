@@ -97,7 +97,7 @@ def test_the_list_names_every_experiment() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([], "EXPERIMENT is wanted; --list names all"),
+        ([], "EXPERIMENT is required; --list shows all"),
         (["earthquake"], "experiment must be one of precision-dial, slivers"),
         (["slivers", "-o", "no such folder"], "there is no folder no such folder"),
         (["slivers", "--shrink", "coverage=decimal"], "--shrink takes a method of slivers: coverage=float16"),

@@ -43,7 +43,7 @@ def test_a_watch_ends_planning(place: int) -> None:
 def test_a_watch_is_told_every_method_that_is_tried() -> None:
     told: list[str] = []
     plan(sphere_scene(12, 48), costs=Costs(), watch=lambda done, doing: told.append(doing))
-    assert told[0] == "Looking at the scene"
+    assert told[0] == "Analysing the scene"
     assert "Trying one sample a pixel" in told
     assert "Trying flat shading" in told
     assert told[-1] == "Predicting the time"
