@@ -25,9 +25,7 @@ from core import STAGES, Trace, trace
 from core.raster.binning import bound
 from core.raster.fills.traits import fill_traits
 
-DESCRIPTION = (
-    """Write the trace of one stage: a row for each thing that it did, with every number that took part."""
-)
+DESCRIPTION = """Write the trace of one stage: a row for each step, with every number involved."""
 EXAMPLES = """text  for reading: rows with the sentence and the formula of every operation, in symbols and in numbers
 json  rows with kind, triangle, pixel, all numbers, and for every operation its key, its sentence, its formula
       (LaTeX) and the line of the algorithm's listing; no value (NaN) is null
@@ -146,7 +144,7 @@ def check_length(traced: Trace) -> None:
         tests = len(source.geometry.edges) * source.raster.shape[0] * source.raster.shape[1]
     if tests > LONGEST_TRACE:
         raise ValueError(
-            f"the trace may have {tests:,} pixel tests, and {LONGEST_TRACE:,} can be kept: choose one --triangle, "
+            f"the trace would have {tests:,} pixel tests, and at most {LONGEST_TRACE:,} fit: choose one --triangle, "
             "a smaller --size or --region, or another fill"
         )
 

@@ -201,6 +201,7 @@ def plain_text(latex: str) -> str:
     text = re.sub(r"\\(?:textcolor|color)\{[^{}]*\}", "", text)
     text = re.sub(r"\\(?:mathrm|text)\s*\{([^{}]*)\}", r"\1", text)
     for _ in range(4):
+        text = re.sub(r"(?<![A-Za-z}_^])\{([^{}]*)\}", r"\1", re.sub(r"([_^])\{(\w+)\}", r"\1\2", text))
         text = re.sub(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}", r"(\1)/(\2)", text)
     text = re.sub(r"\\(?:begin|end)\{[^{}]*\}(?:\{[^{}]*\})?", " ", text).replace(r"\\", "; ")
     text = re.sub(r"\\(?:quad|qquad|,|;|!|left|right)(?![A-Za-z])", " ", text)

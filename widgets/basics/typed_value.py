@@ -146,7 +146,7 @@ class TypedValue(QWidget):
         self.edit.setCursorPosition(0)
         self.edit.setModified(False)
         self.edit.setToolTip(
-            f"{self._name} = {full_text(self._value)}\nDecimals, fractions (3/256) and pi are read."
+            f"{self._name} = {full_text(self._value)}\nAccepts decimals, fractions (3/256) and pi."
         )
 
     def _fitting_text(self) -> str:

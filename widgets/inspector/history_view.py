@@ -29,7 +29,7 @@ from widgets.inspector.pixel_story import (
 
 __all__ = ["HistoryEntry", "PixelHistory", "PixelStory", "PixelValue"]
 
-HINT = "Point at a pixel or click one: what happened to it appears here."
+HINT = "Point at a pixel, or click one, to see its history."
 """What an empty pane is for."""
 
 
@@ -62,7 +62,7 @@ class PixelHistory(QWidget):
         self.place.setProperty("role", "muted")
         self.rejected_box = QCheckBox("Show rejected", self)
         self.rejected_box.setChecked(True)
-        self.rejected_box.setToolTip("Show fragments that did not reach the pixel, too")
+        self.rejected_box.setToolTip("Also show rejected fragments")
         self.rejected_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.rejected_box.toggled.connect(self._filter.show_rejected)
         self.rejected_box.clicked.connect(self.rejected_toggled)

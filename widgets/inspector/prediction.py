@@ -32,7 +32,7 @@ class PredictionView(QWidget):
         self.field = QLineEdit(self)
         self.field.setMaximumWidth(140)
         self.field.setAccessibleName("Your answer")
-        self.field.setToolTip("Decimals, fractions (3/256) and pi are read; Enter checks")
+        self.field.setToolTip("Accepts decimals, fractions (3/256) and pi; Enter checks")
         self.field.returnPressed.connect(self._check_number)
         self.field.textEdited.connect(self._forget_note)
         self.check_button = QPushButton("Check", self)
@@ -40,7 +40,7 @@ class PredictionView(QWidget):
         self.check_button.clicked.connect(self._check_number)
         self.reveal_button = QPushButton("Reveal", self)
         self.reveal_button.setProperty("flat", True)
-        self.reveal_button.setToolTip("Show the value without answering; it counts neither way")
+        self.reveal_button.setToolTip("Show the value without answering; this does not count")
         self.reveal_button.clicked.connect(self.reveal_requested)
         self.next_button = QPushButton("Next question", self)
         self.next_button.setToolTip("Ask about the next step")
@@ -64,7 +64,7 @@ class PredictionView(QWidget):
         """Ask a question, or say why there is none (by default: what the pane is for)."""
         self._question = question
         self._verdict = None
-        hint = hint or "Turn prediction on: the next value stays hidden until you have said what it will be."
+        hint = hint or "Turn prediction on to predict each value before it appears."
         text = question.text if question else hint
         if question and question.tolerance:
             text = f"{text} ({question.tolerance})"
@@ -175,7 +175,7 @@ class PredictionView(QWidget):
             mark = Mark.RIGHT if is_right else Mark.WRONG
             self._icon.setPixmap(mark_pixmap(mark, current_theme().text_px + 4, self.devicePixelRatioF()))
         self._icon.setVisible(is_right is not None)
-        heading = {True: "Right: ", False: "Not right: ", None: "It is so: "}[is_right]
+        heading = {True: "Right: ", False: "Wrong: ", None: "Answer: "}[is_right]
         self.verdict.setText(heading + self._verdict.text)
         self.verdict.show()
         set_role(self.verdict, {True: "good", False: "bad", None: ""}[is_right])

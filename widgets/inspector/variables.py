@@ -147,7 +147,9 @@ class VariablesView(QTreeWidget):
             painter.setPen(QColor(current_theme().muted_text))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
             box = self.viewport().rect().adjusted(8, 0, -8, 0)
-            painter.drawText(box, flags, "The variables of each step appear here; changed ones stand out.")
+            painter.drawText(
+                box, flags, "The variables of each step appear here; changed ones are highlighted."
+            )
 
     def _fill(self) -> None:
         for row, variable in enumerate(self._variables):

@@ -19,7 +19,7 @@ from widgets.inspector.listing import HINT, ListingText, ListingView
 from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
 
-HIDDEN_HISTORY = "What happened to a pixel stays hidden until prediction is turned off (P)."
+HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
 NO_LISTING = "This step decides or copies; it has no algorithm to list."
 
 

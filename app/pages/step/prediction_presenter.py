@@ -67,9 +67,7 @@ class PredictionPresenter(QObject):
         if self._asked is None:
             at_end = row >= trace.steps.row_count
             what = "This stage is done." if at_end else "There is nothing to predict in the next step."
-            self._view.show_question(
-                None, f"{what} The results stay hidden until prediction is turned off (P)."
-            )
+            self._view.show_question(None, f"{what} Turn prediction off (P) to see the results.")
             return
         self._view.show_question(self._asked.question)
 
@@ -100,7 +98,7 @@ class PredictionPresenter(QObject):
             covered = self._covered()
             found = len(covered & self._found)
             wrong = len(self._found - covered)
-            text = f"{found} of {len(covered)} covered pixels were found, {wrong} clicks were wrong."
+            text = f"{found} of {len(covered)} covered pixels found, {wrong} clicks wrong."
             self._session.go_to(self._session.stage_trace.steps.count)
             self._view.show_verdict(Verdict(None, text))
 

@@ -97,10 +97,10 @@ def written(step: StepValues) -> Said:
 shows(
     "blend",
     {
-        "color": VariableText("shaded colour", "Linear red, green, blue and straight alpha, as shaded."),
+        "color": VariableText("shaded", "Linear red, green, blue and straight alpha, as shaded."),
         "intensity": VariableText("I", "Intensity: fraction of the line's colour that the pixel gets."),
         "source": VariableText("source", "Fragment's colour: linear red, green, blue and straight alpha."),
         "before": VariableText("buffer", "Colour that the buffer held."),
-        "after": VariableText("colour buffer", "Colour that the buffer holds.", previous="before"),
+        "after": VariableText("new", "Colour that the buffer holds.", previous="before"),
     },
 )

@@ -170,11 +170,6 @@ def out_of_range(step: StepValues) -> Said:
     )
 
 
-def _letter(step: StepValues) -> str:
-    """Return the letter of depths in formulas: d where they are whole numbers on a plane."""
-    return "d" if step.has("origin") else "z"
-
-
 shows(
     "depth",
     {
@@ -203,12 +198,15 @@ shows(
         ),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText(
-            lambda step: f"{_letter(step)} new", "What the depth format stores of the fragment."
+            lambda step: "d" if step.has("origin") else "z new",
+            "What the depth format stores of the fragment.",
         ),
         "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
         "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
         "before_key": VariableText("key before", "Key in the buffer; the smaller one stays.", is_key=True),
-        "before": VariableText(lambda step: f"{_letter(step)} buffer", "What the depth buffer held."),
+        "before": VariableText(
+            lambda step: "d buffer" if step.has("origin") else "z buffer", "What the depth buffer held."
+        ),
         "passes": VariableText("passes", "Whether the fragment is kept."),
         "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
         "after_key": VariableText(

@@ -95,13 +95,17 @@ def homogeneous(step: StepValues) -> Said:
     return f"{_corner(step)} keeps its homogeneous position (x, y, w) = {place}: {reason}."
 
 
+def _has_area(step: StepValues) -> bool:
+    """Tell whether the area is that of snapped corners; else it is a determinant."""
+    return step.flag("is_projected") and all(map(math.isfinite, step.vector("snapped")))
+
+
 @explains("edges.orientation.area")
 def orientation(step: StepValues) -> Said:
     """Twice the signed area, or the determinant where a corner is not projected."""
     value, is_projected = step.number("doubled_area"), step.flag("is_projected")
     first, start, finish = step.vector("snapped"), step.vector("start"), step.vector("finish")
-    is_snapped = all(map(math.isfinite, first))
-    is_area = is_projected and is_snapped
+    is_snapped, is_area = all(map(math.isfinite, first)), _has_area(step)
     name = "Twice the signed area" if is_area else "The determinant of the (x, y, w) matrix"
     rest = ": nothing is drawn"
     if value > 0:
@@ -248,7 +252,7 @@ shows(
         "snapped": VariableText("snapped", "Position on the 1/256-pixel grid, used for coverage."),
         "rounded": VariableText("rounded", "x, y and w in the number format."),
         "doubled_area": VariableText(
-            lambda step: "2A" if step.flag("is_projected") else "D",
+            lambda step: "2A" if _has_area(step) else "D",
             "Twice the signed area 2A, or the determinant D.",
         ),
         "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),

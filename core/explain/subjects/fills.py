@@ -250,6 +250,10 @@ def line_rounded(step: StepValues) -> Said:
     return text, equation(*beside(*sides))
 
 
+def _crossing_label(step: StepValues, k: int) -> str:
+    return f"x {('first', 'second', '')[k]}" if step.kind == "line" else f"x on edge {k}"
+
+
 def _value_label(step: StepValues, k: int) -> str:
     return f"E{k} ({number_format(step)})"
 
@@ -290,7 +294,9 @@ shows(
             "distance #", "From the edge, in pixels; below 0 is outside.", "covered", "edges"
         ),
         **{
-            f"crossing_{k}": VariableText(f"crossing {k}", "x where the row crosses the edge.", edge=k)
+            f"crossing_{k}": VariableText(
+                partial(_crossing_label, k=k), "x where the row crosses the edge.", edge=k
+            )
             for k in range(3)
         },
         **CENTRE,

@@ -260,7 +260,7 @@ shows(
         "room": VariableText(
             _either("−N · (P₀ − Pₑ)", "q"), "Room inside the border at the first end; below 0: outside."
         ),
-        "crossing_t": VariableText("t of the border", "Where the edge crosses the border's line."),
+        "crossing_t": VariableText("t (border)", "Where the edge crosses the border's line."),
         "bound_before": VariableText(
             "bound before", "The latest entry, or earliest exit, of the previous borders."
         ),

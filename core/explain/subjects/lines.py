@@ -299,14 +299,15 @@ DECISIONS = {
     "bresenham-lecture": "D",
     "bresenham-float": "e + m",
     "rectangle": "a",
+    "diamond-exit": "{minor} − {minor} centre",
 }
-"""What the number that chooses the pixel is called; else it is the line's coordinate along the minor axis."""
+"""Symbol of the number that chooses the pixel; of other methods the line's coordinate along the minor axis."""
 
 
 def decision_name(step: StepValues) -> str:
     """Return the formula's symbol of the number that chooses the pixel."""
     _, minor = axes(step)
-    return DECISIONS.get(line_method(step), f"{minor} of the line")
+    return DECISIONS.get(line_method(step), "{minor}").format(minor=minor)
 
 
 shows(

@@ -1,5 +1,7 @@
 """Transforming corners: a row of a matrix, the division by w, and the viewport."""
 
+from functools import partial
+
 from core.explain.equation import equation, fraction, linear, number_latex
 from core.explain.number_text import number_text, spoken
 from core.explain.records import Asked, number
@@ -93,6 +95,14 @@ def placed(step: StepValues) -> Said:
     )
 
 
+SPACES = {"divide": "ndc", "viewport": "window"}
+"""Steps that are not named after the space they lead to."""
+
+
+def _label(step: StepValues, axis: str) -> str:
+    return f"{axis} {SPACES.get(step.kind, step.kind.split('-to-')[-1])}"
+
+
 shows(
     "transform",
     {
@@ -100,7 +110,7 @@ shows(
         "corner": given("corner", "Number of the corner in the triangle."),
         "before": given("position before", "x, y, z, w in the space before the step."),
         **{
-            f"after_{axis}": VariableText(f"{axis} after", f"{axis} in the space after the step.")
+            f"after_{axis}": VariableText(partial(_label, axis=axis), f"{axis} in the space after the step.")
             for axis in AXES
         },
         "width": given("W", "Width of the picture in pixels."),

@@ -280,5 +280,5 @@ def test_numbers_that_overflow_are_one_warning(tmp_path):
 )
 def test_a_trace_that_cannot_be_kept(tmp_path, arguments):
     line = refused(1, "trace", *arguments, "--stage", "depth", "-o", "out.json", cwd=tmp_path)
-    assert "pixel tests, and 5,000,000 can be kept: choose one --triangle" in line
+    assert "pixel tests, and at most 5,000,000 fit: choose one --triangle" in line
     assert list(tmp_path.iterdir()) == []

@@ -97,7 +97,7 @@ def test_rejection_is_said_in_words(history) -> None:
 
 def test_an_empty_pane_says_what_it_is_for_and_differs_from_a_pixel_without_fragments(history) -> None:
     history.show_story(None)
-    assert "appears here" in history.verdict.text()
+    assert "see its history" in history.verdict.text()
     assert not history.view.isVisible()
     history.show_story(PixelStory(0, 0, "No triangle reaches this pixel."))
     assert history.verdict.text() == "No triangle reaches this pixel."

@@ -49,7 +49,7 @@ def test_the_verdict_stands_beside_the_answer_and_closes_the_question(qtbot, vie
     qtbot.keyClick(view.field, Qt.Key.Key_Return)
     view.show_verdict(Verdict(False, "the depth is 0.4213."))
     view.show_count(3, 4)
-    assert view.verdict.text() == "Not right: the depth is 0.4213."
+    assert view.verdict.text() == "Wrong: the depth is 0.4213."
     assert view.verdict.property("role") == "bad"
     assert view.count.text() == "3 of 4 right"
     assert view.next_button.isVisible()

@@ -26,7 +26,7 @@ def test_results_are_hidden_while_asking(asking: MainWindow) -> None:
     assert all(len(places) == 0 for places in page.timeline.bar.run().marks.values())
     asking.session.set_pin((30, 20))
     page.detail_tabs.setCurrentWidget(page.history)
-    assert "stays hidden until prediction" in page.history.verdict.text()
+    assert "Turn prediction off" in page.history.verdict.text()
     assert page.pointed_text((30, 20)) == ""
 
 
@@ -47,7 +47,7 @@ def test_coverage_is_clicked_and_judged_at_once(asking: MainWindow) -> None:
     page.grid.pixel_clicked.emit(*right)
     assert page.prediction.verdict.text().startswith("Right:")
     page.grid.pixel_clicked.emit(*wrong)
-    assert page.prediction.verdict.text().startswith("Not right:")
+    assert page.prediction.verdict.text().startswith("Wrong:")
     page.grid.pixel_clicked.emit(*wrong)
     assert page.prediction.count.text() == "1 of 2 right"
     hidden = page.grid.hidden()
@@ -55,7 +55,7 @@ def test_coverage_is_clicked_and_judged_at_once(asking: MainWindow) -> None:
     assert not hidden[right[1], right[0]]
     assert hidden.sum() == hidden.size - 2
     page.prediction.reveal_button.click()
-    assert page.prediction.verdict.text().startswith("It is so: 1 of ")
+    assert page.prediction.verdict.text().startswith("Answer: 1 of ")
     assert asking.session.cursor.position == asking.session.stage_trace.steps.count
 
 
@@ -78,7 +78,7 @@ def test_a_reveal_counts_neither_way(asking: MainWindow) -> None:
     asking.session.step(1)
     view = asking.page.prediction
     view.reveal_button.click()
-    assert view.verdict.text().startswith("It is so: ")
+    assert view.verdict.text().startswith("Answer: ")
     assert view.count.text() == ""
 
 
@@ -101,6 +101,6 @@ def test_a_history_that_is_hidden_says_so(window: MainWindow) -> None:
     window.session.set_pin((20, 20))
     assert window.page.history.place.isVisible()
     window.toggle_predict()
-    assert "until prediction is turned off" in window.page.history.verdict.text()
+    assert "Turn prediction off" in window.page.history.verdict.text()
     window.toggle_predict()
     assert window.page.history.place.text() == "Pixel column 20, row 20"
