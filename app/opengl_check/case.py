@@ -5,11 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core.raster.edges.snapping import SUBPIXELS
 from core.records.arrays import Floats, Singles
 from core.scene import Texture
 from core.settings import Settings
 
-STEP = 1 / 256
+STEP = 1 / SUBPIXELS
 """Pixels between two places of the lattice that coverage is decided on."""
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from core.raster.edges.snapping import SUBPIXELS
 from core.records.arrays import Floats, Integers, Singles
 
 
@@ -20,8 +21,8 @@ def put_on_lattice(rng: np.random.Generator, points: Floats) -> Floats:
         return np.rint(points)
     if kind == 2:
         return np.rint(points * 2) / 2
-    lattice = np.rint(points * 256)
-    return (lattice if kind == 3 else lattice + rng.uniform(-0.3, 0.3, points.shape)) / 256
+    lattice = np.rint(points * SUBPIXELS)
+    return (lattice if kind == 3 else lattice + rng.uniform(-0.3, 0.3, points.shape)) / SUBPIXELS
 
 
 def gradual_values(rng: np.random.Generator, shape: tuple[int, ...]) -> Singles:

@@ -23,6 +23,7 @@ from app.views.scene_picture import (
 )
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import ViewSpace, make_space, move_corner_to, thinned
+from core.explain.number_text import counted
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
 from core.scene import AnyScene, Scene
@@ -263,8 +264,7 @@ class Scene3dPresenter(QObject):
     def _caption(self) -> str:
         document = self._session.document
         count = document.triangle_count
-        noun = "triangle" if count == 1 else "triangles"
-        parts = [f"{count:,} {noun}."]
+        parts = [f"{counted(count, 'triangle')}."]
         if isinstance(document.scene, Scene):
             parts.append("Camera and view volume are drawn as lines, the near plane thick.")
         else:

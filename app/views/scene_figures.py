@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from core.explain.number_text import counted
 from core.fast_path import Route
 from core.fast_path.record import Coloring, Visibility
 from core.fast_path.workers import Sharing
@@ -53,7 +54,7 @@ def figures_text(figures: FrameFigures, per_second: float | None) -> str:
     milliseconds = figures.seconds * 1000
     parts.append(f"{milliseconds:,.{0 if milliseconds >= 99.95 else 1}f} ms")
     parts.append(f"{figures.size[0]} × {figures.size[1]}")
-    parts.append(f"{figures.triangle_count:,} {'triangle' if figures.triangle_count == 1 else 'triangles'}")
+    parts.append(counted(figures.triangle_count, "triangle"))
     return " · ".join(parts)
 
 

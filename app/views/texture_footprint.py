@@ -6,6 +6,7 @@ import numpy as np
 
 from app.session.session import Session
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
+from core.explain.number_text import counted
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
@@ -225,9 +226,8 @@ def _caption(
     else:
         pixel, _, at = found[0]
         read = at.reads[place]
-        count = len(read.samples.shares[0])
         share = f", {number_text(100 * read.share, 3)} % of the colour" if len(at.reads) > 1 else ""
-        reads = f"reads {count} texel{'s' if count > 1 else ''} ({source.settings.texture_filter}{share})."
+        reads = f"reads {counted(len(read.samples.shares[0]), 'texel')} ({source.settings.texture_filter}{share})."
         if place:
             parts.append(f"Of this level the {pixel.name} {reads}")
         else:

@@ -7,8 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 
-SUBPIXELS = 256
-"""Steps of one pixel that a snapped position can take; fractions are shown in these."""
+from core.raster.edges.snapping import SUBPIXELS
 
 EXACT_DIGITS = 7
 """Formulas and variables write numbers out that are exact with so many digits."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.fast_path.byte_words import DRIFT
+from core.framebuffer.display import SRGB_EXPONENT, SRGB_OFFSET, SRGB_SCALE, SRGB_SLOPE
 from core.records.arrays import Flags, Floats, Integers
 from core.stages.geometry import Geometry
 
@@ -138,6 +139,7 @@ def _spread(values: Floats, index: Integers) -> Floats:
 
 def _steepest_slope(byte: Floats) -> Floats:
     """Return the bytes (P,) that sRGB rises by per unit of linear light above ``byte`` (P,), at most."""
-    power = 255 * 1.055 / 2.4 * np.float_power((byte / 255 + 0.055) / 1.055, -1.4)
-    slope: Floats = np.minimum(power, 255 * 12.92)
+    root = (byte / 255 + SRGB_OFFSET) / SRGB_SCALE
+    power = 255 * SRGB_SCALE / SRGB_EXPONENT * np.float_power(root, 1 - SRGB_EXPONENT)
+    slope: Floats = np.minimum(power, 255 * SRGB_SLOPE)
     return slope

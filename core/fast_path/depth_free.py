@@ -9,7 +9,7 @@ import numpy as np
 from core.fragments.interpolation import set_up_planes, value_plane
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.fixed_depth import SLOPE_LIMIT
-from core.raster.edges.snapping import place_corners
+from core.raster.edges.snapping import SUBPIXELS, place_corners
 from core.records.arrays import Flags, Floats, Integers
 from core.stages.geometry import Geometry
 
@@ -17,7 +17,7 @@ FARTHEST = 1 - 2.0**-20
 """Window depth that float32 and fixed point still tell from the far plane, rounding of their planes included."""
 THIN = 2.0**-4
 """Pixels. A wider triangle is many times wider than the 2^-9 that a corner is moved by."""
-SNAPPING = 2.0**-8
+SNAPPING = 1 / SUBPIXELS
 """Pixels that snapping moves a point along an axis, at most, with room to spare."""
 ROUNDING = 2.0**-48
 """Rounding of a plane through corners at x and y, as a part of x y over twice the area, with room to spare."""

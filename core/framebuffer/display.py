@@ -23,6 +23,13 @@ from core.records.arrays import Flags, Floats, Singles, read_only
 Bytes = NDArray[np.uint8]
 Words = NDArray[np.uint32]
 
+SRGB_LIMIT, SRGB_SLOPE = 0.0031308, 12.92
+"""Linear values up to the limit are on the straight part of the sRGB curve, which rises by the slope."""
+SRGB_SCALE, SRGB_OFFSET, SRGB_EXPONENT = 1.055, 0.055, 2.4
+"""Beyond it is the part ``scale * linear ** (1 / exponent) - offset``."""
+ENCODED_LIMIT = 0.04045
+"""The sRGB value at the limit."""
+
 _BLOCK = 16384
 """Values that are encoded at once, so that their numbers stay in the processor's cache."""
 
@@ -43,13 +50,14 @@ class DisplayImage:
 def srgb(linear: Floats) -> Floats:
     """Return the sRGB values (0 to 1) of linear ones (0 to 1): the formula, for arrays of any shape."""
     with np.errstate(invalid="ignore"):
-        power = 1.055 * np.float_power(linear, 1 / 2.4) - 0.055
-    return np.where(linear <= 0.0031308, 12.92 * linear, power)
+        power = SRGB_SCALE * np.float_power(linear, 1 / SRGB_EXPONENT) - SRGB_OFFSET
+    return np.where(linear <= SRGB_LIMIT, SRGB_SLOPE * linear, power)
 
 
 def linear_light(encoded: Floats) -> Floats:
     """Return the linear values of sRGB ones, for arrays of any shape: the inverse of `srgb`."""
-    return np.where(encoded <= 0.04045, encoded / 12.92, np.float_power((encoded + 0.055) / 1.055, 2.4))
+    power = np.float_power((encoded + SRGB_OFFSET) / SRGB_SCALE, SRGB_EXPONENT)
+    return np.where(encoded <= ENCODED_LIMIT, encoded / SRGB_SLOPE, power)
 
 
 def srgb_byte(linear: float) -> int:

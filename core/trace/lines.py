@@ -41,9 +41,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "previous": _previous(steps.decision, segment),
     }
     columns |= line_traits(line).columns(steps)
-    segments = check_segments(
-        outlines.drawn, source.scene.size[0], source.scene.size[1], source.settings.pixel_center
-    )
+    segments = check_segments(outlines.drawn, *source.scene.size, raster.center)
     set_up = line_set_up(segments, line)
     columns |= {name: values[segment] for name, values in set_up.items()}
     is_steep = columns["is_steep"]

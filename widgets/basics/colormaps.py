@@ -6,6 +6,8 @@ from importlib import import_module
 import numpy as np
 from numpy.typing import NDArray
 
+from core.framebuffer.display import srgb
+
 COLORMAPS = ("viridis", "cividis", "diverging", "grey")
 """Names that :func:`colormap_table` knows."""
 
@@ -94,8 +96,7 @@ def oklch_to_srgb(
         ),
         axis=-1,
     ).clip(0.0, 1.0)
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return np.rint(255.0 * encoded).astype(np.uint8)
+    return np.rint(255.0 * srgb(linear)).astype(np.uint8)
 
 
 def _through(colors: tuple[str, ...], count: int) -> NDArray[np.uint8]:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QImage
 
+from core.framebuffer.display import linear_light, srgb
 from widgets.basics.colormaps import colormap_table, id_table
 from widgets.basics.theme import VERTEX_COLORS, Theme
 from widgets.grid.buffer import GridBuffer
@@ -218,8 +219,7 @@ def _to_image(pixels: NDArray[np.uint32]) -> QImage:
 def srgb_table() -> NDArray[np.uint8]:
     """Return the sRGB byte of each linear value i / 65535, (65536,) uint8, read-only (IEC 61966-2-1)."""
     linear = np.arange(_SRGB_STEPS + 1) / _SRGB_STEPS
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    table = np.rint(255.0 * encoded).astype(np.uint8)
+    table = np.rint(255.0 * srgb(linear)).astype(np.uint8)
     table.setflags(write=False)
     return table
 
@@ -231,10 +231,7 @@ def _vertex_light() -> NDArray[np.float64]:
     encoded = (
         np.stack([(packed >> np.uint32(shift)) & np.uint32(255) for shift in (16, 8, 0)], axis=1) / 255.0
     )
-    light: NDArray[np.float64] = np.where(
-        encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4
-    )
-    return light
+    return linear_light(encoded)
 
 
 @cache

@@ -9,9 +9,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QColor, QFont
 from PySide6.QtWidgets import QApplication
+
+from core.framebuffer.display import linear_light
 
 VERTEX_COLORS = ("#0072B2", "#E69F00", "#009E73")
 """Colours of vertices, edges and barycentric weights 0, 1, 2 (Okabe and Ito), for lines, fills and marks."""
@@ -232,9 +235,8 @@ def contrast(first: str, second: str) -> float:
 def relative_luminance(color: str) -> float:
     """Return the luminance of an sRGB colour, 0 (black) to 1 (white)."""
     parsed = QColor(color)
-    channels = (parsed.redF(), parsed.greenF(), parsed.blueF())
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+    red, green, blue = linear_light(np.array([parsed.redF(), parsed.greenF(), parsed.blueF()])).tolist()
+    return float(0.2126 * red + 0.7152 * green + 0.0722 * blue)
 
 
 def ink_color(ink: str, theme: Theme | None = None) -> str:

@@ -8,6 +8,7 @@ from app.session.document import Document
 from core import Trace
 from core.explain.stage_texts import depth_text
 from core.framebuffer.display import to_display
+from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.records.arrays import Integers
@@ -97,7 +98,7 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
     in_front = geometry.vertices.clip[corners, 3:] > 0
     window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
     with np.errstate(invalid="ignore"):
-        snapped = np.rint(window * 256) / 256
+        snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
     snaps = number_format(document.settings.coverage).corner_kind == "snapped"
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(

@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any
 
-from core.explain.number_text import number_text
+from core.explain.number_text import counted, number_text
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
+from core.raster.edges.snapping import SUBPIXELS
 
 Values = Mapping[str, Any]
 Sentence = str | Callable[[Values], str]
@@ -50,7 +51,7 @@ def chain_sentences(event: PixelEvent) -> tuple[tuple[str, str], ...]:
 def count_sentences(history: PixelHistory) -> tuple[str, ...]:
     """Return one line for every group of triangles that are not listed."""
     return tuple(
-        f"{_plural(count, 'more triangle')}: {COUNTED[reason]}." for reason, count in history.counts.items()
+        f"{counted(count, 'more triangle')}: {COUNTED[reason]}." for reason, count in history.counts.items()
     )
 
 
@@ -73,10 +74,6 @@ def _words(link: Link) -> str:
 # Pieces of sentences
 
 
-def _plural(count: int, noun: str) -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
 def _pixels(distance: float) -> str:
     """Return a length in pixels; a very small one in 1/256 of a pixel too."""
     length = abs(distance)
@@ -84,7 +81,7 @@ def _pixels(distance: float) -> str:
         return "an unknown distance"
     text = f"{number_text(length)} px"
     if 0 < length < 0.25:
-        text += f" ({number_text(length * 256)}/256)"
+        text += f" ({number_text(length * SUBPIXELS)}/{SUBPIXELS})"
     return text
 
 
@@ -116,7 +113,7 @@ def _outside(values: Values) -> str:
         planes_of.setdefault(corners, []).append(PLANES[plane])
     parts = []
     for corners, planes in planes_of.items():
-        more = f" and outside {_plural(len(planes) - 1, 'more plane')}" if len(planes) > 1 else ""
+        more = f" and outside {counted(len(planes) - 1, 'more plane')}" if len(planes) > 1 else ""
         parts.append(f"{_corners(corners)} {planes[0]}{more}")
     return ", ".join(parts)
 
@@ -238,12 +235,12 @@ def _all_missed(values: Values) -> str:
 
 def _seen(values: Values) -> str:
     rejected = values["fragment_count"] - values["passed_count"]
-    behind = f"; {_plural(rejected, 'fragment')} rejected" if rejected else ""
+    behind = f"; {counted(rejected, 'fragment')} rejected" if rejected else ""
     return f"triangle {values['triangle']} is visible here{behind}"
 
 
 def _seen_over(values: Values) -> str:
-    return f"{_seen(values)}, {_plural(values['overwritten_count'], 'fragment')} overwritten"
+    return f"{_seen(values)}, {counted(values['overwritten_count'], 'fragment')} overwritten"
 
 
 PLANES = {

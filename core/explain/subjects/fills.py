@@ -26,9 +26,10 @@ from core.explain.subjects.edges import tie_reason
 from core.explain.subjects.number_formats import equals, number_format
 from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
+from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
 
-SNAP_DISTANCE = 1 / 256
+SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
 COVERAGE_QUESTION = Question(
     "Click the covered pixels, each is checked at once; or step on to be asked about one at a time.",

@@ -11,13 +11,12 @@ from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
+from core.framebuffer.display import SRGB_LIMIT, SRGB_OFFSET, SRGB_SCALE, SRGB_SLOPE
 
 NAMES = "abcdefghijklmnopqrstuvwxyz"
 """Names of different samples: 0, 1 and 2 are corners."""
 MOST = 4
 """Summands that are written out."""
-SRGB_LIMIT = 0.0031308
-"""Linear values up to here are on the straight part of the sRGB curve."""
 
 
 def _channel(step: StepValues) -> int:
@@ -146,9 +145,9 @@ def encoded(step: StepValues) -> Said:
     letter, value = CHANNEL_LETTERS[channel], clamped[channel]
     result: list[Part] = [(f"s_{letter}", color[channel]), "="]
     if value <= SRGB_LIMIT:
-        return text, equation(*result, "12.92", r"\cdot", (f"c_{letter}", value))
+        return text, equation(*result, str(SRGB_SLOPE), r"\cdot", (f"c_{letter}", value))
     power = (f"c_{letter}^{{1/2.4}}", f"{number_latex(value)}^{{1/2.4}}")
-    return text, equation(*result, "1.055", r"\cdot", power, "-", "0.055")
+    return text, equation(*result, str(SRGB_SCALE), r"\cdot", power, "-", str(SRGB_OFFSET))
 
 
 def red_byte(step: StepValues) -> Asked | None:

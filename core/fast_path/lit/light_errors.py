@@ -16,11 +16,12 @@ from core.fast_path.lit.corner_places import CornerPlaces
 from core.fast_path.lit.pixel_light import PixelLight
 from core.fast_path.lit.planes import rounding
 from core.fast_path.lit.vertex_facts import ALIKE
+from core.framebuffer.display import SRGB_EXPONENT, SRGB_LIMIT, SRGB_SLOPE
 
-STEEPEST = 255 * 12.92
+STEEPEST = 255 * SRGB_SLOPE
 """Bytes that sRGB rises by per unit of light, at most."""
-POWER = 1 / 2.4
-SHARE = STEEPEST * 0.0031308 ** (1 - POWER)
+POWER = 1 / SRGB_EXPONENT
+SHARE = STEEPEST * SRGB_LIMIT ** (1 - POWER)
 """x f'(x) / x^(1/2.4) is at most this: the value where the straight beginning of sRGB ends."""
 SINGLE = 2.0**-20
 """Unit vectors in float32, and the products of two, are rounded by less."""

@@ -1,18 +1,16 @@
 """Lines of which some were cut at their second end: the pixel there belongs to them."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.records import LinePixels, LineSteps
+from core.raster.lines.drawing import draw_segments
+from core.raster.lines.records import LinePixels, LineSteps, check_segments
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers, read_only
 
 
-def draw_cut_lines(
-    segments: Floats, is_cut: Flags, raster: Raster, line: str, pixel_center: str
-) -> LinePixels:
+def draw_cut_lines(segments: Floats, is_cut: Flags, raster: Raster, line: str) -> LinePixels:
     """Find the pixels of segments (L, 2, 2) as ``draw_lines`` does, and the last one of those that ``is_cut`` (L,).
 
     Notes
@@ -20,12 +18,12 @@ def draw_cut_lines(
     An outline leaves out the last pixel of each edge because the next edge begins there. No edge begins where the
     border of the raster cut one.
     """
-    size = raster.width, raster.height
+    whole = check_segments(segments, raster.width, raster.height, raster.center)
     if not is_cut.any():
-        return draw_lines(segments, *size, line, pixel_center=pixel_center)
+        return draw_segments(whole, line, last_pixel=False)
     of_part = [np.flatnonzero(~is_cut), np.flatnonzero(is_cut)]
     parts = [
-        draw_lines(segments[index], *size, line, last_pixel, pixel_center)
+        draw_segments(replace(whole, ends=whole.ends[index]), line, last_pixel)
         for last_pixel, index in zip((False, True), of_part, strict=True)
     ]
     owner = np.concatenate([index.take(part.owner) for index, part in zip(of_part, parts, strict=True)])

@@ -22,13 +22,12 @@ from math import ceil, floor
 import numpy as np
 
 from core.methods import method
+from core.raster.edges.snapping import SUBPIXELS
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
 from core.raster.lines.traits import OCTANT, PLOT, line_rows
 from core.records.arrays import Flags, Floats, Integers
 from core.records.operation import Operation
 
-SUBPIXELS = 256
-"""Steps of the lattice that the line's ends are snapped to, in one pixel."""
 END_SUBPIXELS = 2**32
 """The same for the ends' own comparisons: so fine that hardly a float64 end is moved."""
 

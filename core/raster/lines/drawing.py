@@ -69,19 +69,24 @@ def draw_lines(
     |..##..|
     |##....|
     """
-    checked_segments = check_segments(segments, width, height, pixel_center)
+    center: float = table.get("pixel_center", pixel_center).function()
+    return draw_segments(check_segments(segments, width, height, center), line, last_pixel)
+
+
+def draw_segments(segments: Segments, line: str, last_pixel: bool) -> LinePixels:
+    """Find the pixels of L checked segments; see `draw_lines`."""
     rule, find_pixels = table.get("line", line).function, line_traits(line).find_pixels
     if find_pixels is not None and not isinstance(line, ReplacedName):
         # The numbers that chose the pixels are found when they are asked for.
-        ends, bounds = checked_segments.pixel_indices.reshape(-1, 4), (0, 0, width, height)
+        ends, bounds = segments.pixel_indices.reshape(-1, 4), (0, 0, segments.width, segments.height)
         column, row, owner = find_pixels(ends, bounds, last_pixel)
-        find_steps = partial(_run_steps, rule, checked_segments, last_pixel)
+        find_steps = partial(_run_steps, rule, segments, last_pixel)
         intensities = None
     else:
-        run = rule(checked_segments, last_pixel)
-        seen = run.seen(checked_segments)
+        run = rule(segments, last_pixel)
+        seen = run.seen(segments)
         column, row, owner = run.column.take(seen), run.row.take(seen), run.owner.take(seen)
-        find_steps = partial(_steps_of, checked_segments, run, seen)
+        find_steps = partial(_steps_of, segments, run, seen)
         intensities = None if run.intensity is None else read_only(run.intensity.take(seen))
     if intensities is None:
         intensities = np.broadcast_to(np.float64(1.0), owner.shape)

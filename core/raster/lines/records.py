@@ -19,8 +19,6 @@ COORDINATE_LIMIT = 2.0**20
 """Farthest end of a segment, in pixels from the window's origin: all integer decisions then fit 64 bits."""
 STEP_LIMIT = 2**16
 """Most steps of the methods whose numbers are added up one after the other, each rounded from the one before."""
-PIXEL_CENTERS = {"half": 0.5, "integer": 0.0}
-"""Where the centre of pixel (0, 0) lies, for each value of the setting ``pixel_center``."""
 BLENDING = "blending"
 """What methods need whose pixels have intensities: they are mixed with what is there."""
 MINOR_MARGIN = 2.0
@@ -138,12 +136,13 @@ class LineRun:
         return np.flatnonzero(is_seen)
 
 
-def check_segments(segments: Any, width: int, height: int, pixel_center: str) -> Segments:
-    """Check what `draw_lines` was given, or say what was wanted and what came (ValueError)."""
+def check_segments(segments: Any, width: int, height: int, center: float) -> Segments:
+    """Check what `draw_lines` was given, or say what was wanted and what came (ValueError).
+
+    ``center`` is where in a pixel its centre lies.
+    """
     ends = checked("segments", segments, ("L", 2, 2))
     width, height = checked_size("raster", (width, height), SIZE_LIMIT)
-    if pixel_center not in PIXEL_CENTERS:
-        raise ValueError(f"pixel_center must be one of {', '.join(PIXEL_CENTERS)}, got {pixel_center}")
     too_far = (np.abs(ends) > COORDINATE_LIMIT).any(axis=(1, 2))
     if too_far.any():
         segment = int(np.argmax(too_far))
@@ -151,7 +150,7 @@ def check_segments(segments: Any, width: int, height: int, pixel_center: str) ->
             f"segments must stay within {COORDINATE_LIMIT:.0f} pixels of the window's origin, "
             f"got {ends[segment].tolist()} (segment {segment}): clip it first"
         )
-    return Segments(ends, width, height, PIXEL_CENTERS[pixel_center])
+    return Segments(ends, width, height, center)
 
 
 def major_first(points: Any, is_steep: Flags) -> Any:

@@ -24,13 +24,12 @@ from math import ceil, floor, isqrt, sqrt
 import numpy as np
 
 from core.methods import method
+from core.raster.edges.snapping import SUBPIXELS
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
 from core.raster.lines.traits import OCTANT, PLOT, LineTraits, line_rows
 from core.records.arrays import Flags, Floats, Integers
 from core.records.operation import Operation
 
-SUBPIXELS = 256
-"""Steps of the lattice that the ends are snapped to, in one pixel."""
 CANDIDATES = 3
 """Pixels of a column that are looked at: the one nearest to the line and both beside it. """
 MOST_INSIDE = 2

@@ -21,7 +21,7 @@ from core.raster.coverage import Fragments, join_fragments
 from core.raster.edges.snapping import CornerPositions
 from core.raster.lines.cut_lines import draw_cut_lines
 from core.raster.lines.drawing import interpolate_line, segment_parameter
-from core.raster.lines.records import PIXEL_CENTERS, LinePixels, LineSteps
+from core.raster.lines.records import LinePixels, LineSteps
 from core.raster.lines.traits import has_intensities
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
@@ -216,7 +216,6 @@ def draw_outlines(
     line : str
         A method of the family ``line``.
     """
-    pixel_center = next(name for name, center in PIXEL_CENTERS.items() if center == raster.center)
     length = np.abs(outlines.drawn[:, 1] - outlines.drawn[:, 0]).max(axis=1, initial=0.0)
     length = np.minimum(length, max(raster.width, raster.height)) + 1
     ends = np.flatnonzero(np.diff(np.cumsum(length) // BATCH, append=-1)) + 1
@@ -224,7 +223,7 @@ def draw_outlines(
     left, bottom, right, top = raster.bounds
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         part = slice(int(first), int(end))
-        drawn = draw_cut_lines(outlines.drawn[part], outlines.is_cut[part], raster, line, pixel_center)
+        drawn = draw_cut_lines(outlines.drawn[part], outlines.is_cut[part], raster, line)
         (column, row), segment = drawn.pixels.T, drawn.owner + first
         intensity = drawn.intensities if has_intensities(line) else None
         fragments = LineFragments(outlines.primitive.take(segment), column, row, segment, intensity)

@@ -17,6 +17,7 @@ from core.methods import table
 from core.raster.lines.records import check_segments
 from core.raster.lines.traits import line_set_up, line_traits
 from core.records.arrays import Floats
+from core.resolved import resolve
 from core.settings import Settings
 from core.study.accuracy.counted_numbers import CountedNumber, plain
 
@@ -114,7 +115,7 @@ def listing_ends(
     segments: Floats, size: tuple[int, int], settings: Settings
 ) -> list[list[int] | list[float]]:
     """Return x0, y0, x1, y1 of every segment (L, 2, 2) as the listing takes them: pixels, or positions."""
-    checked = check_segments(segments, *size, settings.pixel_center)
+    checked = check_segments(segments, *size, resolve(settings).center)
     set_up = line_set_up(checked, settings.line)
     ends = np.column_stack([set_up["first_end"], set_up["second_end"]])
     listed: list[list[int] | list[float]] = ends.tolist()
