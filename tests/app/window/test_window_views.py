@@ -67,7 +67,7 @@ def test_every_view_at_every_stage_of_every_scene(window: MainWindow) -> None:
 def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
     for (name, scene), cull in in_turn(POOR.items(), ["none", "back"]):
         window.session.open(replace(open_document(scene, name), settings=Settings(cull=cull)))
-        look_at_everything(window, ("pixels",))
+        look_at_everything(window, ("pixels",), ("clip", "bin", "raster", "resolve"))
         look_at_everything(window, ("scene", "clip", "pyramid"), ("clip", "raster"))
 
 

@@ -11,14 +11,14 @@ from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.scene import AnyScene
 from lessons.shapes import sphere
 from tests.core.fast_path.references import exact_bytes
+from tests.covering import every_pair
 
 PER_PIXEL, PER_TRIANGLE, FIXED = {"none": 24, "msaa-4": 40}, 900, 24_000_000
 
 
-@pytest.mark.parametrize(("columns", "side"), [(64, 1024), (512, 512)])
-@pytest.mark.parametrize("shading", ["phong", "gouraud"])
-@pytest.mark.parametrize("antialiasing", list(PER_PIXEL))
-def test_memory_of_a_picture(columns: int, side: int, shading: str, antialiasing: str) -> None:
+@every_pair(extent=[(64, 1024), (512, 512)], shading=["phong", "gouraud"], antialiasing=list(PER_PIXEL))
+def test_memory_of_a_picture(extent: tuple[int, int], shading: str, antialiasing: str) -> None:
+    columns, side = extent
     mesh = sphere(columns=columns, rows=columns // 2)
     scene = Scene(
         (mesh,),

@@ -233,6 +233,7 @@ def test_a_difference_opens_in_the_stepper(window: MainWindow, page: PlanPage, q
     assert window.page.comparing.other.antialiasing == "ssaa-16"
 
 
+@pytest.mark.slow
 def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
     report = looked(page, qtbot)
     compare = window.pages.page("compare")
