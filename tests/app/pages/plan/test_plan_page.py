@@ -198,7 +198,7 @@ def test_a_wrong_prediction_is_said_plainly() -> None:
     assert {row.verdict for row in rows[1:]} == {Verdict.HELD, Verdict.OPEN}
     text = details(report.plan, report)
     assert "A prediction was wrong: Cull, predicted 0/255, measured 7/255." in text
-    assert "beyond the tolerance when measured, so everything is on again at Depth" in text
+    assert "beyond the tolerance when measured. Restored: Depth" in text
     slow = replace(report, seconds_everything=np.array([1.0]), seconds_chosen=np.array([2.0]))
     assert "2.00 times as slow" in headline(slow.plan, slow)
 
@@ -261,7 +261,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
 def test_without_a_plan_the_chart_has_no_ring_and_says_so(window: MainWindow, page: PlanPage) -> None:
     QTest.keyClick(window, Qt.Key.Key_M, CTRL)
     assert window.pages.current is page
-    assert "look first" in window.statusBar().currentMessage()
+    assert "Run the analysis first" in window.statusBar().currentMessage()
 
 
 def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> None:
