@@ -15,7 +15,7 @@ def the_application() -> QApplication:
     return found if isinstance(found, QApplication) else QApplication(["rasterscope"])
 
 
-class Look(QObject):
+class Appearance(QObject):
     """Changes the theme, and goes to full screen and back."""
 
     theme_changed = Signal(str)

@@ -19,7 +19,7 @@ from app.pages.step.page import StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
-from app.window.appearance import Look, the_application
+from app.window.appearance import Appearance, the_application
 from app.window.keys import has_use_for
 from app.window.menus import Menus
 from app.window.message_words import sentence_case
@@ -50,7 +50,7 @@ class MainWindow(QMainWindow):
         self._lay_out()
         self.menus = Menus(self)
         self.menus.show_recent(self.preferences.recent_files)
-        self.look = Look(self)
+        self.appearance = Appearance(self)
         self.edits = DocumentEdits(self.session, self)
         self.overlays = Overlays(self.page, self.pages, self)
         self.files = FileActions(self.page, self.pages, self.messages, self)
@@ -90,8 +90,8 @@ class MainWindow(QMainWindow):
         menus.scene_chosen.connect(self.open_path)
         menus.recent_chosen.connect(self.open_path)
         menus.raster_chosen.connect(self.edits.choose_raster)
-        menus.theme_chosen.connect(self.look.set_theme)
-        self.look.theme_changed.connect(self._remember_theme)
+        menus.theme_chosen.connect(self.appearance.set_theme)
+        self.appearance.theme_changed.connect(self._remember_theme)
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
@@ -123,7 +123,7 @@ class MainWindow(QMainWindow):
             "go_to_pixel": self.overlays.ask_pixel,
             "unpin": self.dismiss,
             "predict": self.toggle_predict,
-            "toggle_theme": self.look.toggle_theme,
+            "toggle_theme": self.appearance.toggle_theme,
             "presenter": self.toggle_presenter,
             "show_keys": self.overlays.toggle_keys,
             "undo": self.session.undo,
@@ -212,7 +212,7 @@ class MainWindow(QMainWindow):
 
     def toggle_presenter(self) -> None:
         """Fill the screen with large type, or go back to the window."""
-        self.look.toggle_presenter()
+        self.appearance.toggle_presenter()
         self.menus.show_checked("presenter", self.isFullScreen())
 
     # Pages.

@@ -28,7 +28,7 @@ def dial_sentence(found: PixelInFormats, run: str) -> str:
     else:
         said = f"{times(found.run_count)} by {run}{_fault(found.run_count, found.run_wanted)}"
     rule = "" if found.fill_rule == "shared-edge" else ", and all formats with this rule"
-    return f"Pixel ({column}, {row}), {who}: {times(found.run_wanted)} expected, {said}{rule}."
+    return f"Pixel ({column}, {row}), {who}: expected {times(found.run_wanted)}, {said}{rule}."
 
 
 def dial_rows(found: PixelInFormats) -> tuple[DialRow, ...]:

@@ -207,12 +207,12 @@ def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWi
     window.resize(1000, 700)
     qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
     before = window.page.columns.sizes()
-    window.look.set_theme("presenter")
+    window.appearance.set_theme("presenter")
     window.resize(1900, 1000)
     qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) > 1800)
     left, middle, right = window.page.columns.sizes()
     assert left > 1.4 * before[0]
     assert right > 1.4 * before[2]
     assert middle > 0.33 * 1800
-    window.look.set_theme("light")
+    window.appearance.set_theme("light")
     assert window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12)

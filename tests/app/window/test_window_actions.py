@@ -89,7 +89,7 @@ def put_back(window: MainWindow, document: Document) -> None:
     if window.page.prediction.isVisible():
         window.toggle_predict()
     if current_theme().name != "light":
-        window.look.set_theme("light")
+        window.appearance.set_theme("light")
     window.page.show_view("pixels")
     window.page.stepping.set_bookmarks([])
     window.session.open(document)

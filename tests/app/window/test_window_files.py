@@ -131,7 +131,7 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
     window.page.show_view("pyramid")
     window.page.card.fold_button.click()
     window.page.timeline.change_speed(2)
-    window.look.set_theme("dark")
+    window.appearance.set_theme("dark")
     speed = window.page.timeline.speed_box.currentData()
     cursor = window.session.cursor
     window.close()

@@ -101,7 +101,7 @@ def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None
 
 def test_every_theme_fills_the_window_with_its_ground(window: MainWindow) -> None:
     for theme in (DARK, PRESENTER, LIGHT):
-        window.look.set_theme(theme.name)
+        window.appearance.set_theme(theme.name)
         QApplication.processEvents()
         image = window.grab().toImage()
         ground = image.pixelColor(image.width() - 2, image.height() - 2)
@@ -122,7 +122,7 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
     assert isinstance(application, QApplication)
     found = []
     for _ in range(2):
-        window.look.toggle_theme()
+        window.appearance.toggle_theme()
         found.append(window.preferences.theme)
     assert found == ["dark", "light"]
     apply_theme(application, LIGHT)

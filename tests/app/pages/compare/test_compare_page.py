@@ -251,16 +251,16 @@ def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, 
     window.resize(1800, 1000)
     QApplication.processEvents()
     before = page.columns.sizes()[0]
-    window.look.set_theme("presenter")
+    window.appearance.set_theme("presenter")
     large = page.columns.sizes()[0]
     assert large == pytest.approx(before * PRESENTER.text_px / LIGHT.text_px, abs=2)
     state = page.layout_state()
     assert page.columns.sizes()[0] == large, "saving moves nothing"
-    window.look.set_theme("light")
+    window.appearance.set_theme("light")
     assert page.columns.sizes()[0] == pytest.approx(before, abs=2)
     page.columns.setSizes([500, 1200])
     page.restore_layout(state)
     assert page.columns.sizes()[0] == pytest.approx(before, abs=2), "widths are saved for the usual type"
-    window.look.set_theme("presenter")
+    window.appearance.set_theme("presenter")
     page.restore_layout(state)
     assert page.columns.sizes()[0] == pytest.approx(large, abs=2)

@@ -299,7 +299,7 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
     assert pin is not None
     sentence = page.case.formats.sentence.text()
     place = f"({pin[0]}, {pin[1]})"
-    assert sentence == f"Pixel {place}, triangle 0: once wanted, 0 times by coverage=float16 (hole)."
+    assert sentence == f"Pixel {place}, triangle 0: expected once, 0 times by coverage=float16 (hole)."
     assert by_format["float16"].cells[HEAD.index("Whole picture")].endswith(f"first {place}")
     page.case.linked.pixel_clicked.emit(0, 0)
     qtbot.waitUntil(lambda: all(row.is_right for row in page.case.formats.rows), timeout=60000)
@@ -339,6 +339,6 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
 
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
     run(page, qtbot)
-    window.look.set_theme("presenter")
+    window.appearance.set_theme("presenter")
     QApplication.processEvents()
     assert page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).width() >= 24
