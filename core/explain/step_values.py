@@ -4,25 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from core.framebuffer.packed_keys import NUMBER_BITS
 from core.trace import Explanation
 
 AXES = ("x", "y", "z", "w")
 CHANNELS = ("red", "green", "blue", "alpha")
 ATTRIBUTES = ("color", "uv", "position", "normal", "diffuse_light", "specular_light")
 """What may be interpolated, by the names of core."""
-TEXEL_NAMES = ("bottom left", "bottom right", "top left", "top right")
-"""The four texels of bilinear filtering, in order."""
-PLANE_SIGNS = {
-    "near": ("z", 1),
-    "far": ("z", -1),
-    "left": ("x", 1),
-    "right": ("x", -1),
-    "bottom": ("y", 1),
-    "top": ("y", -1),
-}
-"""Clip planes: the signed distance is w plus or minus one coordinate."""
-KEY_NUMBER_BITS = 24
-"""Bits of a packed key below the depth."""
 
 
 class StepValues:
@@ -35,11 +23,6 @@ class StepValues:
         self.triangle = triangle
         self.stage, self.kind, self.operation = explanation.key.split(".", 2)
         self._pixel = pixel
-
-    @property
-    def key(self) -> str:
-        """The key of the step's row: one for all interpolated values, and one for the three edges."""
-        return row_key(self.explanation.key)
 
     @property
     def edge(self) -> int:
@@ -128,12 +111,7 @@ def row_key(key: str) -> str:
 
 def key_fields(key: int) -> tuple[str, str]:
     """Write the fields of a packed key in hexadecimal: the depth, and the number of the triangle plus one below it."""
-    return f"0x{key >> KEY_NUMBER_BITS:010x}", f"0x{key & ((1 << KEY_NUMBER_BITS) - 1):06x}"
-
-
-def key_text(key: int) -> str:
-    """Write a packed key in hexadecimal."""
-    return " | ".join(key_fields(key))
+    return f"0x{key >> NUMBER_BITS:010x}", f"0x{key & ((1 << NUMBER_BITS) - 1):06x}"
 
 
 def is_left_or_bottom(a: float, b: float) -> bool:

@@ -22,11 +22,8 @@ from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.number_formats import DETERMINANT, equals
 from core.explain.variable_text import VariableText, given, hides, shows
+from core.raster.edges.snapping import SNAP_LIMIT
 
-SNAP_LIMIT = 2**16
-"""Corners farther from the window's origin than this, in pixels, are not snapped."""
-WHOLE_NUMBERS = ("fixed-24.8", "int64")
-"""Number formats that cannot represent every corner."""
 ROUNDING = 1e-9
 """Pixels below which a corner counts as unmoved."""
 
@@ -81,7 +78,7 @@ def homogeneous(step: StepValues) -> Said:
         step.vector("homogeneous")[2],
         step.text("number_format"),
     )
-    if form in WHOLE_NUMBERS:
+    if step.text("rounding") == "wrapped":
         return (
             f"{_corner(step)} cannot be represented in {form}: behind the eye or too far away, "
             f"so the triangle is not drawn: (x, y, w) = {place}."
@@ -89,7 +86,7 @@ def homogeneous(step: StepValues) -> Said:
     if not w > 0:
         reason = f"its w is {spoken(w)}, not above 0"
     elif form == "snapped" and any(abs(value) > SNAP_LIMIT for value in step.vector("window")):
-        reason = f"it lies more than {SNAP_LIMIT:,} pixels away"
+        reason = f"it lies more than {SNAP_LIMIT:,.0f} pixels away"
     else:
         reason = "this number format does not snap"
     return f"{_corner(step)} keeps its homogeneous position (x, y, w) = {place}: {reason}."

@@ -3,13 +3,14 @@
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from core.explain.equation import Part, beside, equation, number_latex
 from core.explain.number_text import spoken, vector_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
+from core.methods import table
 
-MODULUS = {"fixed-24.8": 32, "int64": 64}
-"""Bits of the whole numbers of a number format."""
 DETERMINANT = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
 """The determinant of the corners in symbols."""
 
@@ -34,8 +35,9 @@ def equals(
         return r"\approx", []
     if abs(total - value) < 1:
         return "=", []
-    bits = MODULUS[step.text("number_format")] - fraction_bits
-    return r"\equiv", [r"\quad", rf"(\mathrm{{mod}} \, 2^{{{bits}}})"]
+    whole = np.dtype(table.get("coverage", step.text("number_format")).function().held_as)
+    modulus = rf"(\mathrm{{mod}} \, 2^{{{8 * whole.itemsize - fraction_bits}}})"
+    return r"\equiv", [r"\quad", modulus]
 
 
 @explains("edges.rounded.round")

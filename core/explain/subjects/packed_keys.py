@@ -3,8 +3,9 @@
 from core.explain.equation import conclusion, equation, linear, number_latex, relation
 from core.explain.number_text import spoken
 from core.explain.rows import Said, explains
-from core.explain.step_values import KEY_NUMBER_BITS, StepValues, key_fields
+from core.explain.step_values import StepValues, key_fields
 from core.explain.subjects.depth import passes
+from core.framebuffer.packed_keys import NUMBER_BITS
 
 _NEW, _BUFFER = r"\mathrm{key}_{\mathrm{new}}", r"\mathrm{key}_{\mathrm{buffer}}"
 
@@ -26,7 +27,7 @@ def _key_latex(key: int) -> str:
 
 def _holder(key: int) -> str:
     """Say whose key it is."""
-    number = key & ((1 << KEY_NUMBER_BITS) - 1)
+    number = key & ((1 << NUMBER_BITS) - 1)
     return f"triangle {number - 1}" if number else "the empty buffer"
 
 
@@ -63,7 +64,7 @@ def key(step: StepValues) -> Said:
         f"which hold the number of triangle {number} plus one."
     )
     depth = (r"(d + 2^{20})", rf"({step.whole('stored')} + 2^{{20}})")
-    terms = (depth, r"\cdot", rf"2^{{{KEY_NUMBER_BITS}}}", "+", (r"(n + 1)", f"({number} + 1)"))
+    terms = (depth, r"\cdot", rf"2^{{{NUMBER_BITS}}}", "+", (r"(n + 1)", f"({number} + 1)"))
     return text, equation((_NEW, _key_latex(packed)), "=", *terms)
 
 
@@ -74,7 +75,7 @@ def minimum(step: StepValues) -> Said:
     there = _holder(old)
     if new < old:
         text = f"passes: its key is less than the buffer's {key_text(old)}, of {there}"
-    elif new >> KEY_NUMBER_BITS == old >> KEY_NUMBER_BITS:
+    elif new >> NUMBER_BITS == old >> NUMBER_BITS:
         text = f"fails: the depths tie, and {there} has the lower number, as it came first"
     else:
         text = f"fails: the buffer's key, {key_text(old)} of {there}, is smaller"
@@ -95,7 +96,7 @@ def key_written(step: StepValues) -> Said:
     if step.flag("passes") and not step.flag("writes"):
         text = f"the buffer keeps {key_text(after)}, of {_holder(after)}, as the line covers under half of the pixel"
     kept = (
-        rf"\lfloor \min({_NEW}, {_BUFFER}) / 2^{{{KEY_NUMBER_BITS}}} \rfloor",
+        rf"\lfloor \min({_NEW}, {_BUFFER}) / 2^{{{NUMBER_BITS}}} \rfloor",
         rf"\mathrm{{{key_fields(after)[0]}}}",
     )
     made = equation((r"d_{\mathrm{buffer}}", step.number("after")), "=", kept, "-", "2^{20}")
