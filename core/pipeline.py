@@ -122,7 +122,8 @@ def draw_triangles(
 
 def draw(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all; the buffers are those of the raster's region."""
-    sampling = resolve(settings).imported.sampling
+    resolved = resolve(settings).imported
+    sampling, settings = resolved.sampling, resolved.settings
     if sampling.is_area:
         return draw_areas(scene, settings, raster, chosen)
     if sampling.side:

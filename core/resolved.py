@@ -160,5 +160,8 @@ class ResolvedSettings:
 
 @lru_cache(maxsize=16)
 def resolve(settings: Settings) -> ResolvedSettings:
-    """Return what settings stand for; that of the last few settings is kept."""
+    """Return what settings stand for; that of the last few settings is kept.
+
+    Its ``settings`` are the first that were equal to these: passed on, they are found again without being compared.
+    """
     return ResolvedSettings(settings)

@@ -20,11 +20,11 @@ from core.fast_path.byte_errors import (
     perspective_error,
     product_error,
 )
-from core.fast_path.byte_words import FIELDS, unpack
 from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.record import Coloring
 from core.framebuffer.display import srgb
 from core.framebuffer.nearest import NearestFragments
+from core.numeric.byte_words import FIELDS, unpack
 from core.numeric.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
 from core.raster.spans.bands import Strip
 from core.records.arrays import Flags, Floats, Integers

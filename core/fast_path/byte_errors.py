@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.fast_path.byte_words import DRIFT
 from core.framebuffer.display import SRGB_EXPONENT, SRGB_OFFSET, SRGB_SCALE, SRGB_SLOPE
+from core.numeric.byte_words import DRIFT
 from core.records.arrays import Flags, Floats, Integers
 from core.stages.geometry import Geometry
 

@@ -14,9 +14,8 @@ from core.fast_path.draw_context import DrawContext, Words, encode
 from core.fast_path.opaque import draw_opaque
 from core.fast_path.palette import palette
 from core.fast_path.record import Coloring, DepthStatistics, Picture, Route
-from core.numeric.numpy_buffers import short_buffers
+from core.numeric.buffers import ScratchBuffers, short_buffers
 from core.raster.pixel_runs import Raster, make_raster
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve

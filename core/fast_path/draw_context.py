@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import encode_linear, write_pixels
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import TriangleRows, rows_of_triangles
 from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes, tie_owners
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import StageCount

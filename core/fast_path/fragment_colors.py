@@ -4,6 +4,7 @@ import numpy as np
 
 from core.fast_path.draw_context import DrawContext
 from core.fragments.interpolation import Interpolator
+from core.framebuffer.nearest import NearestFragments
 from core.raster.coverage import Fragments
 from core.records.arrays import Floats, Integers
 from core.resolved import resolve
@@ -43,3 +44,14 @@ class FragmentColors:
         color = self.at(primitive, *context.raster.position(place))
         with context.timed("resolve"):
             context.pixels[place] = context.encode(color)
+
+
+def shade_visible(context: DrawContext, nearest: NearestFragments) -> int:
+    """Write the pixels that something is seen at, and return how many there are; the others keep what they have."""
+    colors = FragmentColors(context)
+    seen_count = 0
+    with context.timed("depth"):
+        for place, primitive in nearest.seen():
+            seen_count += len(place)
+            colors.write(place, primitive)
+    return seen_count

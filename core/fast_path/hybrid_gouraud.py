@@ -12,9 +12,8 @@ from typing import ClassVar
 import numpy as np
 
 from core.fast_path.byte_colors import ByteColors
-from core.fast_path.deferred import shade_visible
 from core.fast_path.draw_context import DrawContext, blocks
-from core.fast_path.fragment_colors import FragmentColors
+from core.fast_path.fragment_colors import FragmentColors, shade_visible
 from core.fast_path.record import Coloring
 from core.framebuffer.nearest import READ_AT_ONCE, NearestFragments
 

@@ -8,11 +8,11 @@ again with depth. The surface of a convex solid without its back faces is a sing
 import numpy as np
 
 from core.fast_path.byte_colors import ByteColors
-from core.fast_path.byte_words import unpack
 from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.palette import PaletteColors
 from core.fast_path.record import Split
 from core.fast_path.textured import TextureColors
+from core.numeric.byte_words import unpack
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import BIG_AREA, TriangleRows, strips
 from core.raster.spans.packed import each_pass, word_spans

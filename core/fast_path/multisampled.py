@@ -20,8 +20,8 @@ from core.fast_path.palette import palette
 from core.fast_path.record import DepthStatistics, Route, Split
 from core.fast_path.visible import find_visible
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers, Singles
 from core.records.frame import StageCount
 from core.scene import AnyScene

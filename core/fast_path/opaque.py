@@ -110,7 +110,7 @@ def _draw_visible(
         with context.timed("resolve"):
             context.pixels.fill(context.background)
     if colors is None:
-        from core.fast_path.deferred import shade_visible
+        from core.fast_path.fragment_colors import shade_visible
 
         return nearest, Route("packed-depth", "deferred", split, shade_visible(context, nearest))
     with context.timed(colors.stage):

@@ -6,10 +6,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.fast_path.byte_words import OPAQUE, pack_level
 from core.fast_path.draw_context import BLOCK, DrawContext, Words
 from core.fast_path.record import Coloring
 from core.framebuffer.nearest import NearestFragments
+from core.numeric.byte_words import OPAQUE, pack_level
 from core.numeric.integer_planes import IntegerPlanes
 from core.records.arrays import Floats
 from core.records.primitives import CornerValues

@@ -22,9 +22,9 @@ from core.fast_path.draw_context import Words, encode
 from core.fast_path.record import Picture, Route
 from core.framebuffer.display import Bytes, from_display
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
+from core.numeric.buffers import ScratchBuffers
 from core.pipeline import draw
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Singles, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve

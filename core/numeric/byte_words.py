@@ -8,10 +8,17 @@ product puts elsewhere lies below bit 40 or beyond bit 63.
 import numpy as np
 from numpy.typing import NDArray
 
+from core.numeric.buffers import ScratchBuffers
+from core.records.arrays import Integers
+
+Words = NDArray[np.uint32]
+
 FIELDS = ((20, 12), (0, 12), (40, 16))
 """Lowest bit, and bits of the fraction, of red, green and blue."""
 OPAQUE = np.uint32(0xFF000000)
 """A pixel with alpha 255 and no colour."""
+DRIFT = 2.0**-13
+"""Bytes that a value is off at most after one step: half of the last bit of the shortest fraction."""
 _INTEGER_BITS = np.uint64(0xFF << 12 | 0xFF << 32 | 0xFF << 56)
 _MEETING = np.uint64(1 + (1 << 8) + (1 << 36))
 _SHIFT = np.uint64(40)
@@ -24,3 +31,19 @@ def pack_pixels(words: NDArray[np.uint64], wide: NDArray[np.uint64], pixels: NDA
     wide >>= _SHIFT
     np.copyto(pixels, wide, casting="unsafe")
     pixels |= OPAQUE
+
+
+def unpack(word: Integers, scratch: ScratchBuffers) -> Words:
+    """Return words (F,) as opaque pixels (F,) uint32; each has half a byte more, so that cutting off rounds."""
+    pixels: Words = scratch("unpacked_pixels", len(word), dtype=np.uint32)
+    pack_pixels(word.view(np.uint64), scratch("unpacked", len(word), dtype=np.uint64), pixels)
+    return pixels
+
+
+def pack_level(pixels: Words) -> Integers:
+    """Return the words (P,) int64 that `unpack` turns into ``pixels`` (P,), whatever their alpha."""
+    words = np.zeros(len(pixels), np.int64)
+    for channel, (shift, bits) in enumerate(FIELDS):
+        byte = (pixels.astype(np.int64) >> 8 * channel) & 0xFF
+        words += byte << (shift + bits)
+    return words

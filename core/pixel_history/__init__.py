@@ -1,12 +1,13 @@
 """Why a pixel looks as it does: its history from the vertices to the blended colour, for every triangle.
 
-The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn.
+The rules of the picture are applied to this one pixel, as a raster of its own; nothing else is drawn. It does not read
+a trace of the pixel, which would have rows of what is drawn only: most of a history is about triangles that are not
+(culled, clipped away, missed and by how far), and a source for the fragments alone is as long as their stages here.
 Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
 own; of exact areas ``pieces`` tells who covers how much of the pixel, and this one what is at its centre.
 """
 
-from core.pixel_history.at_samples import candidates_at
-from core.pixel_history.candidates import PixelCandidates, whole_geometry
+from core.pixel_history.candidates import PixelCandidates, candidates_at, whole_geometry
 from core.pixel_history.events import list_events
 from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
 from core.pixel_history.verdict import pixel_verdict, triangle_verdict

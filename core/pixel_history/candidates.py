@@ -5,6 +5,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
 from core.methods import table
 from core.pipeline import schedule
 from core.raster.binning import bound
@@ -16,6 +17,7 @@ from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount
+from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.declared import STAGES
@@ -26,6 +28,9 @@ ROUNDING_REACH = 2
 """Pixels by which a fill that rounds corners, or a line, may leave the triangle's box."""
 
 _geometries: "WeakKeyDictionary[AnyScene, tuple[Settings, Geometry]]" = WeakKeyDictionary()
+
+_finer: list[tuple[AnyScene, Settings, AnyScene, Geometry]] = []
+"""The last scene and settings that were asked about, the scene at n times its size, and its geometry."""
 
 
 def whole_geometry(source: TraceSource) -> Geometry:
@@ -243,3 +248,31 @@ def boxes_reach(corners: CornerPositions, center: tuple[float, float], reach: fl
     low, high = corners.decided.min(axis=1) - reach, corners.decided.max(axis=1) + reach
     within = (low <= center) & (high >= center)
     return np.asarray(~corners.is_projected.all(axis=1) | within.all(axis=1))
+
+
+def candidates_at(
+    source: TraceSource, column: int, row: int, triangle: int | None, sample: int
+) -> PixelCandidates:
+    """Return the candidates at one sample of a pixel; ``sample`` counts as in `core.records.frame.Samples`."""
+    scene, settings = source.scene, source.settings
+    side = resolve(settings).sampling.side
+    if not side:
+        whole = whole_geometry(source)
+        moved = at_sample(whole, sample)
+        return PixelCandidates(scene, settings, moved, column, row, triangle, whole)
+    finer, geometry = _finer_geometry(scene, settings, side)
+    up, across = divmod(sample, side)
+    at = side * column + across, side * row + up
+    return PixelCandidates(finer, finer_settings(settings), geometry, *at, triangle)
+
+
+def _finer_geometry(scene: AnyScene, settings: Settings, side: int) -> tuple[AnyScene, Geometry]:
+    """Return the scene at ``side`` times its size and its geometry; those of the last scene are kept."""
+    for of_scene, of_settings, finer, known in _finer:
+        if of_scene is scene and of_settings == settings:
+            return finer, known
+    finer = finer_scene(scene, side)
+    counts = {stage: StageCount() for stage in STAGES}
+    geometry = in_squares(process_geometry(finer, finer_settings(settings), counts), settings, side)
+    _finer[:] = [(scene, settings, finer, geometry)]
+    return finer, geometry

@@ -6,7 +6,14 @@ from core.framebuffer.blending import blend_traits
 from core.framebuffer.depth import DepthFormat
 from core.geometry.culling import REASONS
 from core.pixel_history.candidates import PixelCandidates
-from core.pixel_history.chain import clip_link, cull_link, raster_links, undrawn_values, vertex_link
+from core.pixel_history.chain import (
+    clip_link,
+    cull_link,
+    outline_link,
+    raster_links,
+    undrawn_values,
+    vertex_link,
+)
 from core.pixel_history.fragments import (
     Passage,
     PixelFragments,
@@ -15,7 +22,6 @@ from core.pixel_history.fragments import (
     overwriters,
     run_fragments,
 )
-from core.pixel_history.outlines import outline_link
 from core.pixel_history.records import Link, PixelEvent
 from core.records.arrays import Integers
 from core.resolved import resolve

@@ -16,10 +16,10 @@ import numpy as np
 
 from core.fragments.interpolation import plane_value
 from core.geometry.vertex_stage import transform_vertices
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import Raster, make_raster
 from core.raster.spans.fill import pixels_of_rows, rows_in_order
 from core.raster.spans.lanes import set_up_lanes, tie_owners
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.scene import Camera, Scene

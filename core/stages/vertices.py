@@ -73,6 +73,7 @@ def process_geometry(
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
+    settings = resolve(settings).settings
     if chosen is not None or (raster is not None and raster.region is not None):
         return _process(scene, settings, counts, chosen, raster)
     for of_scene, of_settings, known, known_counts in _last:

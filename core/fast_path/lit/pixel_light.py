@@ -14,7 +14,7 @@ import numpy as np
 from core.fast_path.draw_context import DrawContext, Words
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.geometry.matrices import world_to_camera
-from core.raster.spans.scratch_buffers import ScratchBuffers
+from core.numeric.buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.scene import Camera, DirectionalLight, Light, Material, Mesh, Scene
 

@@ -1,11 +1,14 @@
-"""Where one band ends and the next begins, so that all of them are done at the same time."""
+"""Where one band ends and the next begins, so that all are done at the same time, and where its pixels lie."""
 
 from itertools import pairwise
+from multiprocessing.shared_memory import SharedMemory
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.records.arrays import Floats
 
+PIXEL_BYTES = 4
 STEP = 0.1
 """Largest part of the height that a cut moves after one picture: one slow picture is no reason to turn all over."""
 DAMPING = 0.5
@@ -63,3 +66,13 @@ def moved_cuts(cuts: Floats, seconds: Floats, fixed: Floats) -> Floats:
     done = (done + 1e-6 * cuts) / (1 + 1e-6)
     move: Floats = np.clip(DAMPING * (np.interp(target, done, cuts) - cuts), -STEP, STEP)
     return cuts + move
+
+
+def byte_count(rows: int, columns: int) -> int:
+    """Return how many bytes a band needs."""
+    return rows * columns * PIXEL_BYTES
+
+
+def band_pixels(memory: SharedMemory, rows: int, columns: int) -> NDArray[np.uint8]:
+    """Return the pixels (rows, columns, 4) uint8 of a band, as a view of the memory."""
+    return np.ndarray((rows, columns, PIXEL_BYTES), np.uint8, memory.buf)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from core.fast_path.draw import draw_picture
 from core.fast_path.record import Picture, Route
-from core.fast_path.workers.band_memory import band_pixels
+from core.fast_path.workers.balance import band_pixels
 from core.fast_path.workers.messages import Message, Receiver
 from core.records.arrays import Integers
 from core.records.frame import StageCount

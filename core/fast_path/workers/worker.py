@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.fast_path.workers.band_memory import band_pixels, byte_count
+from core.fast_path.workers.balance import band_pixels, byte_count
 from core.fast_path.workers.messages import Sender
 from core.fast_path.workers.serving import READY, BandDone, BandFailed, BandOrder, serve
 from core.records.arrays import Integers

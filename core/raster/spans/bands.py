@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import Raster
 from core.raster.spans.fill import rows_in_order
 from core.raster.spans.lanes import TieOwners, set_up_lanes
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
 BIG_AREA = 1 << 15

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import method
+from core.numeric.buffers import ScratchBuffers
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.traits import FillTraits
 from core.raster.pixel_runs import Boxes, Raster, Runs
 from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes
 from core.raster.spans.rows import Carried, bounds_of_rows
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Integers
 
 

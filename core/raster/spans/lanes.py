@@ -22,9 +22,9 @@ from functools import cache
 import numpy as np
 
 from core.methods import table
+from core.numeric.buffers import ScratchBuffers
 from core.numeric.sorting import largest_first
 from core.raster.pixel_runs import Raster
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
 ROUNDING_MARGIN = 2.0**-35

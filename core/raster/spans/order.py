@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.numeric.buffers import ScratchBuffers
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.pixel_runs import Raster
 from core.raster.spans.fill import LaneRows, height_of_lanes, lane_rows, lanes_of_edges
 from core.raster.spans.lanes import TieOwners
 from core.raster.spans.rows import Carried, walk_rows
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers
 
 

@@ -14,12 +14,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from core.numeric.buffers import ScratchBuffers
 from core.numeric.integer_planes import IntegerPlanes
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import TieOwners, TriangleSetup
 from core.raster.spans.rows import Carried, bounds_of_rows, longest_first
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Integers
 
 FEW = 96

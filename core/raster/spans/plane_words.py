@@ -10,12 +10,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import TieOwners, TriangleSetup
 from core.raster.spans.packed import FEW, write_out
 from core.raster.spans.rows import Carried, Spans, walk_rows
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
 
 PAYLOAD_BITS = 32

@@ -14,10 +14,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from core.numeric.buffers import ScratchBuffers
 from core.numeric.sorting import largest_first
 from core.raster.pixel_runs import Raster
 from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, TieOwners, TriangleSetup
-from core.raster.spans.scratch_buffers import ScratchBuffers
 from core.records.arrays import Floats, Integers
 
 GROUP = 4096

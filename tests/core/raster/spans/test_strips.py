@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from core.numeric.buffers import ScratchBuffers
 from core.raster.pixel_runs import make_raster
 from core.raster.spans.bands import bands, rows_of_triangles, strips
 from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.raster.spans.rows import Carried, bounds_of_rows
-from core.raster.spans.scratch_buffers import ScratchBuffers
 
 TRIANGLES = {
     "slanted both ways": [(3.0, 2.0), (400.5, 180.25), (20.0, 390.0)],
