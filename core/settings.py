@@ -111,7 +111,9 @@ class Settings:
         asks=("listing", "operations"),
     )
     wrap: str = choice("repeat", "Texture wrap", "shade", "core.fragments.textures", reason=has_no_texture)
-    shading: str = choice("phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light)
+    shading: str = choice(
+        "phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light, asks=("traits",)
+    )
     visibility: str = choice(
         "z-buffer", "Visibility", "depth", "core.visibility.painters", "core.visibility.ray_casting"
     )

@@ -39,6 +39,9 @@ LARGEST_DRIFT = 0.45
 STEEPEST = 2.0**40
 """Bytes a pixel; steeper planes are seen edge-on."""
 
+NEARLY_LINEAR = ("perspective", "affine", "affine-n")
+"""Methods of interpolation between whose values and linear ones the bounds of the errors lie."""
+
 
 @dataclass(frozen=True, eq=False)
 class ByteColors:
@@ -169,7 +172,7 @@ def byte_colors(context: DrawContext) -> ByteColors | None:
     is_lit_at_corners = {"color"} <= set(values.layout) <= {"color", "diffuse_light", "specular_light"}
     if not is_lit_at_corners or context.has_texture:
         return None
-    if interpolation == "flat":
+    if interpolation not in NEARLY_LINEAR:
         return None
     vertices = vertex_bytes(context)
     count = values.index.shape[1]

@@ -12,7 +12,7 @@ from core.framebuffer.nearest import NearestFragments
 from core.numeric.byte_words import OPAQUE, pack_level
 from core.numeric.integer_planes import IntegerPlanes
 from core.records.arrays import Floats
-from core.records.primitives import CornerValues
+from core.records.primitives import CornerValues, lit_by
 from core.scene import ClipScene, Scene
 from core.stages.fragment_color import shade_fragments
 
@@ -29,7 +29,7 @@ def palette(context: DrawContext) -> Floats | None:
     sum: the colour is that of a corner.
     """
     scene, geometry = context.scene, context.geometry
-    if context.has_texture or (isinstance(scene, Scene) and context.settings.shading == "phong"):
+    if context.has_texture or (isinstance(scene, Scene) and lit_by(context.settings.shading) == "fragments"):
         return None
     values = geometry.primitives.values
     is_known = isinstance(scene, ClipScene) and geometry.clipped is None and _is_flat(scene)

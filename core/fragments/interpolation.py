@@ -224,13 +224,13 @@ def flat(planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: i
     return weights.T
 
 
-@method("provoking", "last", "Last corner", source="OpenGL 4.6, 13.4", exact_for="OpenGL's default")
+@method("provoking", "last", "Last", source="OpenGL 4.6, 13.4", exact_for="OpenGL's default")
 def last_corner() -> int:
     """Return the corner whose value a flat triangle takes."""
     return 2
 
 
-@method("provoking", "first", "First corner", source="OpenGL 4.6, 13.4; Vulkan's default", exact_for="Vulkan")
+@method("provoking", "first", "First", source="OpenGL 4.6, 13.4; Vulkan's default", exact_for="Vulkan")
 def first_corner() -> int:
     """Return the corner whose value a flat triangle takes."""
     return 0

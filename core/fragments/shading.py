@@ -58,6 +58,7 @@ LightRule = Callable[[Floats, Floats, Integers], tuple[Floats, Floats]]
     source="Phong 1975; Pellacini, Phong shading",
     exact_for="surfaces whose normals are the interpolated ones",
     breaks_where="the outline stays a polygon, and light can come from below the surface",
+    traits="fragments",
 )
 def phong(
     position: Floats, normal: Floats, corners: Integers, behind: Flags, _light: LightRule
@@ -90,6 +91,7 @@ def phong(
     source="Gouraud 1971; Pellacini, Gouraud shading; Jubair, Per-vertex shading",
     exact_for="matte surfaces of small triangles",
     breaks_where="a highlight smaller than a triangle: it is lost, or jumps from vertex to vertex",
+    traits="vertices",
 )
 def gouraud(
     position: Floats, normal: Floats, corners: Integers, behind: Flags, light: LightRule
@@ -111,6 +113,7 @@ def gouraud(
     source="Pellacini, flat shading",
     exact_for="polyhedra under distant light",
     breaks_where="curved surfaces look faceted",
+    traits="faces",
 )
 def flat(
     position: Floats, normal: Floats, corners: Integers, behind: Flags, light: LightRule
@@ -128,7 +131,14 @@ def flat(
     return {"diffuse_light": diffuse_light, "specular_light": specular_light}
 
 
-@method("shading", "unlit", "Unlit", source="colour as given", exact_for="pictures that contain their light")
+@method(
+    "shading",
+    "unlit",
+    "Unlit",
+    source="colour as given",
+    exact_for="pictures that contain their light",
+    traits="nothing",
+)
 def unlit(
     _position: Floats, _normal: Floats, _corners: Integers, _behind: Flags, _light: LightRule
 ) -> dict[str, Floats]:

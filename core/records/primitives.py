@@ -13,6 +13,18 @@ FORMS = ("perspective", "affine", "flat")
 """How values change from pixel to pixel, and along lines: with perspective, linearly in the window, not at all."""
 
 
+LIT = ("fragments", "vertices", "faces", "nothing")
+"""What a method of shading lights."""
+
+
+def lit_by(shading: str) -> str:
+    """Return which of `LIT` a method of the family ``shading`` lights: the ``traits`` of its row."""
+    lit: str = table.get("shading", shading).traits
+    if lit not in LIT:
+        raise ValueError(f"traits of shading {shading} must be one of {', '.join(LIT)}, got {lit}")
+    return lit
+
+
 def interpolation_form(interpolation: str) -> str:
     """Return which of `FORMS` a method of the family ``interpolation`` follows: the ``traits`` of its row."""
     form: str = table.get("interpolation", interpolation).traits

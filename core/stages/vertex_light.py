@@ -15,7 +15,7 @@ from core.geometry.matrices import camera_axes
 from core.geometry.vertex_stage import VertexStage, place_meshes
 from core.methods import table
 from core.records.arrays import Flags, Floats, Integers, read_only
-from core.records.primitives import CornerValues, own_corners
+from core.records.primitives import CornerValues, lit_by, own_corners
 from core.scene import Camera, Light, Material, Mesh, Scene
 from core.settings import Settings
 
@@ -43,9 +43,9 @@ def light_vertices(
     """
     corner = vertices.corner_rows.take(triangle, axis=1)
     behind = np.zeros(len(triangle), bool)
-    if settings.shading != "unlit":
+    if lit_by(settings.shading) != "nothing":
         behind = _is_seen_from_behind(scene, triangle)
-    if settings.shading == "flat":
+    if lit_by(settings.shading) == "faces":
         return _light_corners(scene, settings.shading, corner, behind)
     count = len(vertices.clip)
     side = corner + count * behind if behind.any() else corner
@@ -58,7 +58,9 @@ def light_vertices(
 
 def looks_alike_from_everywhere(scene: Scene, shading: str) -> bool:
     """Whether what is interpolated does not depend on the camera: no highlight is evaluated at vertices."""
-    return shading in ("phong", "unlit") or all(mesh.material.specular == 0 for mesh in scene.meshes)
+    return lit_by(shading) in ("fragments", "nothing") or all(
+        mesh.material.specular == 0 for mesh in scene.meshes
+    )
 
 
 def _used_sides(side: Integers, count: int) -> tuple[Integers, Integers]:

@@ -75,7 +75,7 @@ def cyrus_beck(segments: Floats, window: ClipWindow) -> ClippedLines:
 @method(
     "line_clipping",
     "cyrus-beck-lecture",
-    "Cyrus-Beck, as printed",
+    "Cyrus-Beck, as printed (Jubair)",
     source="Jubair, Cyrus-Beck Algorithm",
     exact_for="segments that are parallel to no edge",
     breaks_where="a segment parallel to an edge and outside of it is kept",

@@ -18,7 +18,7 @@ from core.records.arrays import Flags, Floats
 @method(
     "fill_rule",
     "shared-edge",
-    "Shared edge (right, then up)",
+    "Left and bottom edges (top-left rule, y up)",
     source="Zwicker 2016, Shared edges; OpenGL 4.6, 14.6.1",
     exact_for="meshes: every pixel of a shared edge once",
 )
