@@ -101,7 +101,9 @@ def test_two_points_that_never_part_say_so(window: MainWindow, page: ComparePage
     wait_for_pictures(page, qtbot)
     page.opened.step_to_divergence()
     qtbot.waitUntil(
-        lambda: window.pages.current_name == "step" or "do not part" in window.statusBar().currentMessage(),
+        lambda: (
+            window.pages.current_name == "step" or "do not diverge" in window.statusBar().currentMessage()
+        ),
         timeout=60000,
     )
     buffers = [grid.buffer() for grid in page.pictures.linked.grids]
