@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from core.framebuffer.packed_keys import NUMBER_BITS
+from core.raster.edges.fill_rule import owns as owns_by_side
 from core.trace import Explanation
 
 AXES = ("x", "y", "z", "w")
@@ -95,7 +96,7 @@ class StepValues:
         if self.has("fill_rule"):
             return self.text("fill_rule")
         a, b, owns = self.vector("a"), self.vector("b"), self.flags("owns_tie")
-        by_side = [is_left_or_bottom(x, y) for x, y in zip(a, b, strict=True)]
+        by_side = [owns_by_side(x, y) for x, y in zip(a, b, strict=True)]
         if by_side == owns:
             return "shared-edge"
         return "inclusive" if owns[min(edge, len(owns) - 1)] else "exclusive"
@@ -112,11 +113,6 @@ def row_key(key: str) -> str:
 def key_fields(key: int) -> tuple[str, str]:
     """Write the fields of a packed key in hexadecimal: the depth, and the number of the triangle plus one below it."""
     return f"0x{key >> NUMBER_BITS:010x}", f"0x{key & ((1 << NUMBER_BITS) - 1):06x}"
-
-
-def is_left_or_bottom(a: float, b: float) -> bool:
-    """Tell whether an edge with these inward coefficients is a left edge or a level bottom edge."""
-    return a > 0 or (a == 0 and b > 0)
 
 
 def component_names(attribute: str, count: int) -> Sequence[str]:
