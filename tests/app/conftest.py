@@ -10,7 +10,7 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
 from widgets.basics.style_sheet import apply_theme
-from widgets.basics.theme import LIGHT
+from widgets.basics.theme import LIGHT, current_theme
 
 
 @pytest.fixture
@@ -22,6 +22,7 @@ def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     apply_theme(application, LIGHT)
+    application.setStyleSheet("")  # half the time that a window takes goes into its style sheet
     scene = built_in_scene("shared-edge")
     made = MainWindow(open_document(scene.make(), scene.title))
     made.resize(1280, 800)
@@ -32,6 +33,7 @@ def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
     made.session.set_stage("raster", 4000)
     yield made
     made.close()
-    apply_theme(application, LIGHT)
+    if current_theme() != LIGHT:
+        apply_theme(application, LIGHT)
     made.deleteLater()
     application.processEvents()
