@@ -137,7 +137,7 @@ def test_the_rail_says_which_lines_asked_for_blending(window: MainWindow) -> Non
     window.session.set_setting("polygon_mode", "wireframe")
     assert "nserted" not in blend_tip()
     window.session.set_setting("line", "wu")
-    assert "Inserted because wu needs pixels that are mixed with what is there" in blend_tip()
+    assert "Inserted because wu needs its pixels blended" in blend_tip()
     window.session.set_setting("blend", "over")
     assert "nserted" not in blend_tip()
 
