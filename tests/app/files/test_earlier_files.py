@@ -1,0 +1,39 @@
+"""Files that version 0.1.0 wrote before its rooms were rearranged open with all that they held."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from app.files.atlas_files import load_atlas
+from app.files.state_files import load_state
+from app.files.study_files import load_study
+from core.pipeline import render
+
+EARLIER = Path(__file__).parent / "earlier"
+
+
+@pytest.mark.parametrize(("name", "triangles"), [("edited-cube", 12), ("typed-clip", 2)])
+def test_a_state_opens_and_draws(name: str, triangles: int) -> None:
+    written = json.loads((EARLIER / f"{name}.rasterscope").read_text(encoding="utf-8"))
+    state, warnings = load_state(EARLIER / f"{name}.rasterscope")
+    assert warnings == ()
+    assert asdict(state.document.settings) == written["settings"]
+    frame = render(state.document.scene, state.document.settings)
+    assert frame.statistics["transform"].incoming == triangles
+    assert (frame.primitive >= 0).any()
+
+
+def test_a_study_opens() -> None:
+    written = json.loads((EARLIER / "study-cull-closed.json").read_text(encoding="utf-8"))
+    study = load_study(EARLIER / "study-cull-closed.json")
+    assert [point.title for point in study.points] == [point["title"] for point in written["points"]]
+    assert asdict(study.settings) == written["settings"]
+
+
+def test_an_atlas_opens() -> None:
+    written = json.loads((EARLIER / "stress-precision-dial.json").read_text(encoding="utf-8"))
+    atlas = load_atlas(EARLIER / "stress-precision-dial.json")
+    assert [found.method for found in atlas.maps] == [found["method"] for found in written["maps"]]
+    assert [found.outcome.tolist() for found in atlas.maps] == [found["outcome"] for found in written["maps"]]
