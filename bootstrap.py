@@ -6,8 +6,8 @@
 
 All make the environment .venv beside this file when it is missing, and install the pinned packages into it.
 What is installed is stamped with a hash of the pins, so a second start needs no network. On Linux the loader
-is asked which system libraries Qt lacks. Whatever stands in the way is told in one sentence, with an exit
-code of its own.
+finds out which system libraries Qt lacks. Each kind of problem is reported in one sentence and has its own exit
+code.
 """
 
 import sys

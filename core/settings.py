@@ -149,7 +149,7 @@ class Settings:
     """Pixels on a side of a block (fills by blocks), 1 to 256."""
     correction_interval: int = number_field(
         16,
-        "Correction interval",
+        "Perspective correction interval",
         256,
         (1, 2, 4, 8, 16, 32, 64),
         "{0} px",

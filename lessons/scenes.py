@@ -61,7 +61,7 @@ def window_triangle(
     Notes
     -----
     The way there and back rounds; the result differs from x and y by far less than half of 1/256 pixel, so
-    corners on that lattice snap to the very same place.
+    corners on that grid snap to the very same place.
     """
     columns = [
         checked(name, values, (3,)) for name, values in (("x", x), ("y", y), ("depth", depth), ("w", w))

@@ -84,7 +84,7 @@ class _Ready:
 
 
 def run_workload(workload: Workload, libraries: Sequence[ModuleType], rounds: int, note: Note) -> Result:
-    """Draw one workload with every library that can; ``note`` is told what is being done."""
+    """Draw one workload with every library that can; ``note`` gets a text for every step."""
     note(f"{workload.name}: reference")
     work = workload.make()
     reference = make_reference(work)
@@ -124,7 +124,7 @@ def _make_ready(
         difference = compare(prepared.run(), contender.is_top_down, reference)
     except ImportError as error:
         return Missing(contender.library, f"not installed ({error})")
-    except Exception as error:  # whatever a foreign library does, the others go on and it is told
+    except Exception as error:  # A failing library is reported; the others go on.
         reason = " ".join(str(error).split()) or type(error).__name__
         return Missing(contender.library, reason)
     return _Ready(contender, version_of(library), prepared, difference)

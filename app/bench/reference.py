@@ -80,10 +80,10 @@ def cover_triangles(corners: Floats, size: tuple[int, int]) -> Iterator[Cover]:
     Corners and pixel centres are whole numbers of 1/256 pixel, so every edge function is exact in int64. A centre on
     an edge belongs to the triangle that contains the point moved an infinitesimal step right, then up.
     """
-    lattice = np.rint(corners * SUBPIXELS).astype(np.int64)
+    snapped = np.rint(corners * SUBPIXELS).astype(np.int64)
     half, limit = SUBPIXELS // 2, np.array(size)
-    firsts = np.clip(-((half - lattice.min(axis=1)) // SUBPIXELS), 0, limit)
-    ends = np.clip((lattice.max(axis=1) - half) // SUBPIXELS + 1, 0, limit)
+    firsts = np.clip(-((half - snapped.min(axis=1)) // SUBPIXELS), 0, limit)
+    ends = np.clip((snapped.max(axis=1) - half) // SUBPIXELS + 1, 0, limit)
     for triangle in np.flatnonzero((firsts < ends).all(axis=1)).tolist():
         (left, bottom), (right, top) = firsts[triangle], ends[triangle]
         x = SUBPIXELS * np.arange(left, right) + half
@@ -91,7 +91,7 @@ def cover_triangles(corners: Floats, size: tuple[int, int]) -> Iterator[Cover]:
         values = []
         inside = np.ones((top - bottom, right - left), bool)
         for k in range(3):
-            (x1, y1), (x2, y2) = lattice[triangle, k - 2], lattice[triangle, k - 1]
+            (x1, y1), (x2, y2) = snapped[triangle, k - 2], snapped[triangle, k - 1]
             a, b = y1 - y2, x2 - x1
             value = a * (x - x1) + b * (y - y1)
             inside &= value >= (0 if a > 0 or (a == 0 and b > 0) else 1)

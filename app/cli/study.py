@@ -46,15 +46,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="size of the work",
     )
     parser.add_argument(
-        "--rounds", metavar="N", type=rounds_from_text, default=ROUNDS, help=f"turns ({ROUNDS})"
+        "--rounds",
+        metavar="N",
+        type=rounds_from_text,
+        default=ROUNDS,
+        help=f"rounds of measurement ({ROUNDS})",
     )
-    parser.add_argument("--seed", metavar="N", type=seed_from_text, default=0, help="of the random work (0)")
+    parser.add_argument(
+        "--seed", metavar="N", type=seed_from_text, default=0, help="seed of the random work (0)"
+    )
     parser.add_argument("--no-growth", action="store_true", help="leave out how time grows with the work")
     parser.add_argument(
         "--error", metavar="NAME", help="the error of the chart; default: the first of the family"
     )
     parser.add_argument("--scene", metavar="FILE", help=f"for pipeline: {FILE_HELP}")
-    add_settings(parser, "for pipeline: the settings of which one is changed at a time")
+    add_settings(parser, "for pipeline: base settings; one is changed at a time")
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="folder for table, study and charts; default: none"
     )

@@ -51,7 +51,7 @@ def open_any(
     if not target or (not path.suffix and not path.exists()):
         known = ", ".join(scene_names())
         raise MeshFileError(
-            f"there is no file {target or 'of an empty name'} and no built-in scene of that name: {known}"
+            f"there is no file and no built-in scene named '{target}'; the built-in scenes are {known}"
         )
     path = path.absolute()
     if path.suffix.lower() == EXTENSION:

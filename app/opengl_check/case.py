@@ -11,7 +11,7 @@ from core.scene import Texture
 from core.settings import Settings
 
 STEP = 1 / SUBPIXELS
-"""Pixels between two places of the lattice that coverage is decided on."""
+"""Pixels between two places of the grid that coverage is decided on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ def clip_positions(window: Floats, depth: ArrayLike, w: ArrayLike, size: tuple[i
 def settle(clip: Singles, size: tuple[int, int]) -> Singles:
     """Move clip positions (..., 4) float32, all w > 0, to where float32 rounding cannot turn the snap.
 
-    That is by less than 1/1024 pixel, to at most 0.3 steps from the middle of a step of the lattice.
+    That is by less than 1/1024 pixel, to at most 0.3 steps from the middle of a step of the grid.
     """
     w = clip[..., 3].astype(float)
     steps = (clip[..., :2] / w[..., None] + 1) * np.array(size) / 2 / STEP

@@ -2,7 +2,7 @@
 
 OpenGL leaves three things to an implementation, and most cases keep clear of them, so that a picture has only
 one right answer. Window positions are computed in float32: corners stand near the middle of a step of the
-1/256 pixel lattice, never where a rounding error would snap them to the next one. Triangles that reach out of
+1/256-pixel grid, never where a rounding error would snap them to the next one. Triangles that reach out of
 the window may be clipped there and snapped again: the clip planes are moved out (``guard``), except in the
 families that are about clipping. Values are evaluated in float32: see `app.opengl_check.compare`.
 """
@@ -15,9 +15,9 @@ from app.opengl_check.case import STEP, Case, clip_positions, settle
 from app.opengl_check.shapes import (
     fan,
     gradual_values,
+    grid_corners,
     grid_mesh,
     icosphere,
-    lattice_corners,
     perspective_matrix,
     random_rotation,
     torus,
@@ -44,7 +44,7 @@ def _weights(rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
 def _big_triangle(rng: np.random.Generator, size: tuple[int, int]) -> Floats:
     """Return three corners (3, 2) that cover at least a thirtieth of the window."""
     while True:
-        corners = lattice_corners(rng, size, 3)
+        corners = grid_corners(rng, size, 3)
         (ax, ay), (bx, by) = corners[1] - corners[0], corners[2] - corners[0]
         if abs(ax * by - ay * bx) > size[0] * size[1] / 15:
             return corners
@@ -268,7 +268,7 @@ def _line_ends(rng: np.random.Generator, limit: int) -> Case:
 def _off_ties(window: Floats) -> Floats:
     """Move window positions off the middles and borders of pixels, each by another amount below 1/64 pixel.
 
-    So no end lies on the border of a diamond, nor where float32 and the 1/256 lattice may put it on either
+    So no end lies on the border of a diamond, nor where float32 and the 1/256-pixel grid may put it on either
     side of a pixel's middle.
     """
     whole = np.floor(window * 2) / 2

@@ -6,13 +6,13 @@ from core.raster.edges.snapping import SUBPIXELS
 from core.records.arrays import Floats, Integers, Singles
 
 
-def lattice_corners(rng: np.random.Generator, size: tuple[int, int], count: int) -> Floats:
-    """Return random window positions (count, 2) in pixels, put on one of the lattices of `put_on_lattice`."""
+def grid_corners(rng: np.random.Generator, size: tuple[int, int], count: int) -> Floats:
+    """Return random window positions (count, 2) in pixels, put on one of the grids of `put_on_grid`."""
     points = rng.uniform(0, 1, (count, 2)) * size
-    return put_on_lattice(rng, points)
+    return put_on_grid(rng, points)
 
 
-def put_on_lattice(rng: np.random.Generator, points: Floats) -> Floats:
+def put_on_grid(rng: np.random.Generator, points: Floats) -> Floats:
     """Move window positions (N, 2) to pixel centres, corners, half pixels, 1/256 pixel, or 0.3/256 beside."""
     kind = rng.integers(5)
     if kind == 0:
@@ -21,8 +21,8 @@ def put_on_lattice(rng: np.random.Generator, points: Floats) -> Floats:
         return np.rint(points)
     if kind == 2:
         return np.rint(points * 2) / 2
-    lattice = np.rint(points * SUBPIXELS)
-    return (lattice if kind == 3 else lattice + rng.uniform(-0.3, 0.3, points.shape)) / SUBPIXELS
+    snapped = np.rint(points * SUBPIXELS)
+    return (snapped if kind == 3 else snapped + rng.uniform(-0.3, 0.3, points.shape)) / SUBPIXELS
 
 
 def gradual_values(rng: np.random.Generator, shape: tuple[int, ...]) -> Singles:
@@ -36,7 +36,7 @@ def fan(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, Intege
     angles = (np.arange(count) + rng.uniform(0.1, 0.9, count)) * 2 * np.pi / count
     radius = rng.uniform(0.5, 0.95, count) * min(size) / 2
     ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) * radius[:, None]
-    points = put_on_lattice(rng, np.concatenate([np.zeros((1, 2)), ring]) + np.array(size) / 2)
+    points = put_on_grid(rng, np.concatenate([np.zeros((1, 2)), ring]) + np.array(size) / 2)
     rim = np.arange(count)
     return points, np.stack([np.zeros(count, int), rim + 1, (rim + 1) % count + 1], axis=1)
 
@@ -53,7 +53,7 @@ def grid_mesh(rng: np.random.Generator, size: tuple[int, int]) -> tuple[Floats, 
     falls = (rng.random(len(corner)) < 0.5)[:, None]
     first = np.where(falls, np.stack([a, b, c], 1), np.stack([a, b, d], 1))
     second = np.where(falls, np.stack([a, c, d], 1), np.stack([b, c, d], 1))
-    return put_on_lattice(rng, points), np.concatenate([first, second])
+    return put_on_grid(rng, points), np.concatenate([first, second])
 
 
 def turned(rng: np.random.Generator, triangles: Integers) -> Integers:

@@ -220,7 +220,7 @@ class Session(QObject):
 
     def _document_replaced(self, trace: Trace) -> None:
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
-        # The trace of before stays until everything shows the new one, which takes over what did not change.
+        # The previous trace stays until everything shows the new one, which takes over what did not change.
         earlier, self._trace = self._trace, trace
         count = self.stage_trace.steps.count
         position = count if was_at_end else min(self._cursor.position, count)

@@ -42,8 +42,8 @@ def signed_latex(value: float, digits: int = DIGITS) -> str:
     return f"({text})" if text.removeprefix("{").startswith("-") else text
 
 
-def lattice_latex(value: float) -> str:
-    """Write a position on the lattice of 1/256 pixel exactly: as a short decimal or a mixed fraction."""
+def grid_latex(value: float) -> str:
+    """Write a position on the 1/256-pixel grid exactly: as a short decimal or a mixed fraction."""
     text = position_text([value])[1:-1]
     if "/" not in text:
         return number_latex(value)

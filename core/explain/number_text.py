@@ -43,7 +43,7 @@ def parse_number(text: str) -> float:
     """
     found = _NUMBER.match(text.strip().replace("\u2212", "-"))
     if found is None or not (found["top"] or found["pi"]):
-        raise ValueError("a number is wanted, such as 1.5, 3/256 or pi/4")
+        raise ValueError("expected a number, such as 1.5, 3/256 or pi/4")
     value = float(found["top"].replace(",", ".")) if found["top"] else 1.0
     if found["pi"]:
         value *= math.pi
@@ -127,11 +127,11 @@ def vector_text(values: Sequence[float]) -> str:
 
 
 def position_text(values: Sequence[float]) -> str:
-    """Write a position on the lattice of 1/256 pixel exactly: ``(22.5, 41 77/256)``."""
-    return f"({', '.join(map(_lattice_text, values))})"
+    """Write a position on the 1/256-pixel grid exactly: ``(22.5, 41 77/256)``."""
+    return f"({', '.join(map(_grid_text, values))})"
 
 
-def _lattice_text(value: float) -> str:
+def _grid_text(value: float) -> str:
     if not math.isfinite(value) or value * 10**EXACT_DECIMALS == round(value * 10**EXACT_DECIMALS):
         return number_text(value + 0.0, 9)
     return fraction_text(value).removeprefix("~")

@@ -157,5 +157,5 @@ def logarithmic() -> DepthFormat:
     Where 1/w is not positive (a pixel that only the snapped corners cover) nothing is seen, as with 1/w.
     """
     quantity = DepthQuantity("logarithm", "inverse-w", logarithmic_depth, logarithm_of_w)
-    description = "Octaves of w from near (0) to far (1 and cleared), as a share, float32: smaller is nearer."
+    description = "log2(w / near) / log2(far / near), float32; 1 where cleared: smaller is nearer."
     return DepthFormat(quantity, description, 1.0, False, as_share)

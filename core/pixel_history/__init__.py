@@ -4,7 +4,7 @@ The rules of the picture are applied to this one pixel, as a raster of its own; 
 a trace of the pixel, which would have rows of what is drawn only: most of a history is about triangles that are not
 (culled, clipped away, missed and by how far), and a source for the fragments alone is as long as their stages here.
 Triangles whose box does not contain the pixel are only counted. Of several samples a pixel each has a history of its
-own; of exact areas ``pieces`` tells who covers how much of the pixel, and this one what is at its centre.
+own; of exact areas ``pieces`` lists which triangle covers how much of the pixel, and this one what is at its centre.
 """
 
 from core.pixel_history.candidates import PixelCandidates, candidates_at, whole_geometry

@@ -111,7 +111,7 @@ class Geometry:
 
     @cached_property
     def corners(self) -> CornerPositions:
-        """The corners of the primitives in the homogeneous window and on the lattice."""
+        """The corners of the primitives in the homogeneous window and on the grid."""
         with self.count:
             placed = place_corners_in(
                 self.primitives.clip, self.vertices.size, resolve(self.settings).numbers

@@ -80,7 +80,7 @@ def cuts_of(
     triangle_of : (P,) int64
         Number of every primitive's triangle.
     chosen : int, optional
-        The only triangle that is told of.
+        The only triangle whose cuts are rows.
     """
     squares, pixel = painter.squares, painter.stacks.pixel
     none = np.empty(0, np.int64)
@@ -191,11 +191,11 @@ def _cut_squares(cuts: PixelCuts) -> list[ColumnsOfPairs]:
     parts: list[ColumnsOfPairs] = []
     for edge in range(3):
         is_cut = ~cuts.is_whole.take(pieces.number)
-        whole, told = pieces.select(~is_cut), pieces.select(is_cut)
-        a, b, value = (part[told.number, edge] for part in cuts.edge_parts)
-        left, _ = split_pieces(told, a, b, value)
-        before, after = polygons_of(told, count), polygons_of(left, count)
-        parts.append((told.number, _of_cut(edge, (a, b, value), before[told.number], after[told.number])))
+        whole, cut = pieces.select(~is_cut), pieces.select(is_cut)
+        a, b, value = (part[cut.number, edge] for part in cuts.edge_parts)
+        left, _ = split_pieces(cut, a, b, value)
+        before, after = polygons_of(cut, count), polygons_of(left, count)
+        parts.append((cut.number, _of_cut(edge, (a, b, value), before[cut.number], after[cut.number])))
         joined = join_pieces([whole, left])
         pieces = joined.take(np.argsort(joined.number, kind="stable"))
     area = np.zeros(count)

@@ -19,7 +19,7 @@ def exact(values) -> list[Fraction]:
 
 
 def snapped_window(corner, size: tuple[int, int]) -> tuple[Fraction, Fraction] | None:
-    """Return the corner's place on the lattice of 1/256 pixel, or ``None`` where it has none."""
+    """Return the corner's place on the 1/256-pixel grid, or ``None`` where it has none."""
     x, y, _, w = exact(corner)
     if w <= 0:
         return None
@@ -31,7 +31,7 @@ def snapped_window(corner, size: tuple[int, int]) -> tuple[Fraction, Fraction] |
 
 
 def homogeneous_window(corner, size: tuple[int, int], snaps: bool = True) -> Point:
-    """Return D clip = (x, y, w) as the edges see it: (snapped w, w) where the corner is on the lattice."""
+    """Return D clip = (x, y, w) as the edges see it: (snapped w, w) where the corner is on the grid."""
     x, y, _, w = exact(corner)
     place = snapped_window(corner, size) if snaps else None
     if place is not None:

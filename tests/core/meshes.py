@@ -76,7 +76,7 @@ def fan(hub, rim) -> np.ndarray:
 
 
 def tiling(generator: np.random.Generator, size: tuple[int, int], steps: int, points: int) -> np.ndarray:
-    """Return window triangles (T, 3, 2) on the lattice of 1/steps pixel that tile a square around the window.
+    """Return window triangles (T, 3, 2) on the grid of 1/steps pixel that tile a square around the window.
 
     Points are put into the triangle they lie in, one after the other, and diagonals are turned at random:
     many slivers, many corners on pixel centres, no T-junction.

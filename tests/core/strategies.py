@@ -1,4 +1,4 @@
-"""Hypothesis strategies for triangles: on lattices, thin, far away, behind the eye; as clip-space arrays."""
+"""Hypothesis strategies for triangles: on grids, thin, far away, behind the eye; as clip-space arrays."""
 
 import numpy as np
 from hypothesis import strategies as st
@@ -18,14 +18,14 @@ def clip_of_window(points, size: tuple[int, int], w=1.0, z=0.0) -> np.ndarray:
 
 
 def window_points(size: tuple[int, int], steps: int, margin: int = 4):
-    """Points of the lattice of 1/steps pixel, in the window and a little around it."""
+    """Points of the grid of 1/steps pixel, in the window and a little around it."""
     columns = st.integers(-margin * steps, (size[0] + margin) * steps)
     rows = st.integers(-margin * steps, (size[1] + margin) * steps)
     return st.tuples(columns, rows).map(lambda point: (point[0] / steps, point[1] / steps))
 
 
 @st.composite
-def lattice_triangles(draw, count: int = 3):
+def grid_triangles(draw, count: int = 3):
     """Draw (clip (T, 3, 4), size): corners on pixel centres, half pixels, 1/256 or 1/512 pixel."""
     # Half a subpixel must come out exactly half: only where the window is a power of two.
     steps = draw(st.sampled_from([1, 2, 16, 256, 512]))
@@ -77,4 +77,4 @@ def perspective_triangles(draw, count: int = 3):
 
 REGIONS = st.tuples(st.integers(0, 8), st.integers(0, 8), st.integers(0, 9), st.integers(0, 9))
 BLOCK_SIZES = st.sampled_from([1, 2, 3, 4, 5, 7, 8, 13, 16, 64, 255, 256])
-ANY_TRIANGLES = st.one_of(lattice_triangles(), slivers(), homogeneous_triangles(), perspective_triangles())
+ANY_TRIANGLES = st.one_of(grid_triangles(), slivers(), homogeneous_triangles(), perspective_triangles())

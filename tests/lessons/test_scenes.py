@@ -29,16 +29,16 @@ def window_corners(clip, size):
     return (x + 1) * (size[0] / 2), (y + 1) * (size[1] / 2), (z + 1) / 2, w
 
 
-def lattice(limit):
-    """Three pixels on the lattice of 1/256."""
+def grid(limit):
+    """Three pixels on the 1/256-pixel grid."""
     return st.lists(st.integers(-limit * SUBPIXELS, limit * SUBPIXELS), min_size=3, max_size=3).map(
         lambda steps: np.array(steps) / SUBPIXELS
     )
 
 
-@given(lattice(8192), lattice(8192), st.lists(st.floats(0, 1), min_size=3, max_size=3),
+@given(grid(8192), grid(8192), st.lists(st.floats(0, 1), min_size=3, max_size=3),
        st.lists(weights, min_size=3, max_size=3), sizes)  # fmt: skip
-def test_window_to_clip_and_back_is_exact_on_the_lattice(x, y, depth, w, size):
+def test_window_to_clip_and_back_is_exact_on_the_grid(x, y, depth, w, size):
     clip = window_triangle(x, y, depth, w, size)
     back_x, back_y, back_depth, back_w = window_corners(clip, size)
     assert (np.rint(back_x * SUBPIXELS) / SUBPIXELS == x).all()
@@ -47,7 +47,7 @@ def test_window_to_clip_and_back_is_exact_on_the_lattice(x, y, depth, w, size):
     assert (back_w == w).all()
 
 
-@given(lattice(4096), lattice(4096), st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3), sizes)
+@given(grid(4096), grid(4096), st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3), sizes)
 def test_the_pipeline_snaps_a_typed_corner_to_where_it_was_typed(x, y, w, size):
     scene = ClipScene(window_triangle(x, y, np.full(3, 0.5), w, size)[None], size=size)
     snapped, is_projected = snap(transform_vertices(scene).window[None, :, :2])
@@ -98,7 +98,7 @@ def test_a_scene_is_made_anew_and_fills_a_good_part_of_its_picture(name):
 
 
 @pytest.mark.parametrize("name", ["single-triangle", "shared-edge", "intersecting"])
-def test_typed_triangles_face_the_viewer_on_the_lattice(name):
+def test_typed_triangles_face_the_viewer_on_the_grid(name):
     scene = make_scene(name)
     for clip in scene.clip:
         x, y, depth, w = window_corners(clip, scene.size)

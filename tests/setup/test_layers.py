@@ -9,6 +9,17 @@ from pathlib import Path
 import bootstrap
 
 STAGES = ("core/fragments", "core/framebuffer", "core/geometry", "core/raster", "core/visibility")
+OTHERS = (
+    "core/antialiasing",
+    "core/explain",
+    "core/fast_path",
+    "core/pixel_history",
+    "core/raster/edges",
+    "core/records",
+    "core/stages",
+    "core/study",
+    "core/trace",
+)
 CONTRACTS = dict(bootstrap.checks(bootstrap.ROOT, []))["import contracts"][1:]
 
 
@@ -27,6 +38,8 @@ FORBIDDEN = [
     ("widgets", "from app import module"),
     ("widgets", "import trimesh"),
     ("widgets", "from core.pipeline import render"),
+    ("widgets", "from core.trace import case"),
+    ("widgets", "from core.raster.edges import case"),
     ("core/geometry", "import core.raster"),
     ("core/raster", "import core.framebuffer"),
     ("core/raster", "from core.explain import rows"),
@@ -37,7 +50,7 @@ ALLOWED = [
     ("widgets", "import core, PySide6, pyqtgraph"),
     ("core", "import core.geometry, core.raster, core.fragments"),
     ("core/explain", "import numpy, core.raster"),
-    ("widgets", "import core.explain"),
+    ("widgets", "import core.explain, core.records, core.framebuffer"),
     ("app", "import core, lessons, widgets, PySide6, trimesh, PIL"),
 ]
 
@@ -45,7 +58,7 @@ ALLOWED = [
 def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess.CompletedProcess[str]":
     """Check a copy of the layers in which each statement stands in a module of its own."""
     shutil.copy(bootstrap.ROOT / "pyproject.toml", folder)
-    for name in ("app", "core", "lessons", "widgets", "core/explain", *STAGES):
+    for name in ("app", "core", "lessons", "widgets", *STAGES, *OTHERS):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
     for name in ("core/pipeline.py", "core/explain/rows.py", "app/module.py"):

@@ -6,7 +6,7 @@ import pytest
 from core import ClipScene, Settings
 from core.records.arrays import Integers
 from core.study.accuracy.family import settings_of
-from core.study.accuracy.workloads import on_lattice, random_source
+from core.study.accuracy.workloads import on_grid, random_source
 from core.study.stability import Outcome, experiments
 from core.study.stability.coverage.covered_pixels import count_cover
 from core.study.stability.coverage.meshes import SIDE, through_the_eye, uneven_grid
@@ -20,7 +20,7 @@ def fan(spokes: int, steps: int, seed: int) -> ClipScene:
     """Return triangles around one corner in the middle, on a pixel centre if ``steps`` is even."""
     turn = (np.arange(spokes) + random_source(seed).uniform(-0.3, 0.3, spokes)) * (2 * np.pi / spokes)
     middle = np.array([SIDE / 2, SIDE / 2]) + np.floor(steps / 2) / steps
-    rim = on_lattice(middle + 2 * SIDE * np.stack([np.cos(turn), np.sin(turn)], axis=1), steps)
+    rim = on_grid(middle + 2 * SIDE * np.stack([np.cos(turn), np.sin(turn)], axis=1), steps)
     corners = np.stack([np.broadcast_to(middle, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
     return scene_of_window(corners, (SIDE, SIDE))
 

@@ -96,7 +96,7 @@ def test_layers_have_one_colour() -> None:
 
 def test_triangles_that_no_truth_is_known_for_are_refused() -> None:
     white = needle(0.5, 0.25)
-    with pytest.raises(ValueError, match="one triangle is wanted, got 2"):
+    with pytest.raises(ValueError, match="expected one triangle, got 2"):
         ThinCase(ClipScene(np.repeat(white.clip, 2, axis=0), size=white.size))
     behind = white.clip.copy()
     behind[0, 1, 3] = -1.0

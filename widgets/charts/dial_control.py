@@ -12,7 +12,7 @@ from widgets.basics.typed_value import TypedValue
 
 @dataclass(frozen=True)
 class DialChoice:
-    """One dial and where it stands."""
+    """One dial with its present value."""
 
     name: str
     title: str

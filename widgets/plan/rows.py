@@ -30,7 +30,7 @@ class PlanRow:
     stage: str
     chosen: str
     instead: str
-    """What it replaces, or that nothing cheaper would do."""
+    """What it replaces, or that no cheaper method is guaranteed."""
     reason: str
     numbers: str
     """Predicted and measured error and time; empty: nothing was predicted."""

@@ -214,7 +214,7 @@ def _method(settings: Settings, base: Settings) -> str:
 
 
 def chosen_points(study: Study, plan: Plan | None) -> tuple[str, ...]:
-    """Return the methods of a study that draw with the very settings that a plan chose."""
+    """Return the methods of a study that draw with exactly the planned settings."""
     if plan is None:
         return ()
     return tuple(

@@ -12,7 +12,7 @@ from core.explain.equation import (
     digits_that_add_up,
     equation,
     fraction,
-    lattice_latex,
+    grid_latex,
     number_latex,
     signed_latex,
 )
@@ -58,7 +58,7 @@ def snapped(step: StepValues) -> Said:
         text = f"stays at {place}, which is on the 1/256-pixel grid."
     rounded: list[list[Part]] = [
         [
-            (rf"\vertex{{{k}}}{{{axis}_{k}}}", lattice_latex(after)),
+            (rf"\vertex{{{k}}}{{{axis}_{k}}}", grid_latex(after)),
             "=",
             (
                 rf"\frac{{\mathrm{{round}}(256 \cdot \vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}})}}{{256}}",

@@ -82,7 +82,7 @@ def divided(step: StepValues) -> Said:
     is_lower = minor <= step.number("decision")
     below = minor if is_lower else minor - 1
     law = f"1 − {spoken(part)}" if is_lower else spoken(part)
-    scaled = "" if of_column == 1 else f" times the share {spoken(of_column)}"
+    scaled = "" if of_column == 1 else f" times the weight {spoken(of_column)}"
     result = "" if not is_lower and not scaled else f" = {spoken(intensity)}"
     text = (
         f"The line passes {spoken(part)} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}, "

@@ -186,7 +186,7 @@ class BandWorkers:
         if not self._end.alive:
             return "the workers are closed"
         if self.processes < 2:
-            return "one process is all there is to be"
+            return "only one process is allowed"
         if current_process().daemon:
             return "this is a worker process itself"
         if not self._workers and self._start_count >= START_LIMIT:
@@ -200,7 +200,7 @@ class BandWorkers:
         if self._always:
             return ""
         if self._load is None:
-            return "nothing is known of the first picture"
+            return "the first picture has not been timed"
         return "" if self._load.is_worth(self.processes) else "a picture like the last one is not worth it"
 
     def _why_not_now(self) -> str:
@@ -291,7 +291,7 @@ def _why_not_divided(order: Order) -> str:
     ):
         return "the memory does not fit the picture"
     if depth_at is not None and not order.is_in(0, order.shape[0]).all():
-        return "depth is asked for outside of the picture"
+        return "depth is requested outside the picture"
     return ""
 
 

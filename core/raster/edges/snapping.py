@@ -2,7 +2,7 @@
 
 Notes
 -----
-GPUs decide coverage on a lattice of 1/256 pixel, and so do we: every product and sum of an edge function then
+GPUs decide coverage on a 1/256-pixel grid, and so do we: every product and sum of an edge function then
 fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is drawn once. Which corners are snapped, and
 in which numbers the edges are computed, is up to the number format (``number_format``).
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from core.raster.number_formats.number_format import NumberFormat
 
 SUBPIXELS = 256
-"""Steps of the snapping lattice in one pixel."""
+"""Steps of the 1/256-pixel grid in one pixel."""
 SNAP_LIMIT = 2.0**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
 
@@ -83,7 +83,7 @@ class WindowVertices:
 
 
 def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerPositions:
-    """Put corners on the lattice of a coverage method.
+    """Put corners on the grid of a coverage method.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
 
 
 def place_corners_in(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> CornerPositions:
-    """Put corners (P, 3, 4) on the lattice of a number format; see `place_corners`."""
+    """Put corners (P, 3, 4) on the grid of a number format; see `place_corners`."""
     x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
     homogeneous = _component_rows(w.shape, 3)
     homogeneous[..., 0] = (x + w) * (size[0] / 2)
@@ -108,7 +108,7 @@ def place_corners_in(clip: Floats, size: tuple[int, int], numbers: "NumberFormat
 
 
 def place_vertices(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> WindowVertices:
-    """Put vertices (M, 4) on the lattice of a number format, as ``place_corners`` does with corners."""
+    """Put vertices (M, 4) on the grid of a number format, as ``place_corners`` does with corners."""
     decided, is_projected = numbers.place(window_position(clip, size))
     return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
 

@@ -84,7 +84,7 @@ def draw_top(
 @method(
     "fill",
     "scanline-lecture",
-    "Scanline as printed (LMU)",
+    "Scanline, as printed (LMU)",
     source="LMU 2020, Scan line algorithm for triangles",
     exact_for="nothing: rounded corners",
     breaks_where="shared edges (both drawn), flat sides (lost), level first and last corner (division by zero)",

@@ -43,7 +43,7 @@ _EXIT = (
 
 @dataclass(frozen=True, eq=False)
 class _Course:
-    """L segments, major axis first, in coordinates where pixel centres are whole multiples of the lattice."""
+    """L segments, major axis first, in coordinates where pixel centres are whole multiples of the grid."""
 
     is_steep: Flags
     step: Integers
@@ -74,17 +74,17 @@ class _Verdict:
     exit_end: Floats
 
 
-def _lattice(segments: Segments, subpixels: int) -> Integers:
+def _grid(segments: Segments, subpixels: int) -> Integers:
     """(L, 2, 2) int64 ends in 1/subpixels, half to even, with pixel centres on whole pixels."""
     return np.rint(segments.ends * subpixels).astype(np.int64) - int(segments.center * subpixels)
 
 
 def _course(segments: Segments) -> _Course:
-    ends = _lattice(segments, END_SUBPIXELS)
+    ends = _grid(segments, END_SUBPIXELS)
     length = np.abs(ends[:, 1] - ends[:, 0])
     is_steep = length[:, 1] > length[:, 0]
     ends = major_first(ends, is_steep)
-    snapped = major_first(_lattice(segments, SUBPIXELS), is_steep)
+    snapped = major_first(_grid(segments, SUBPIXELS), is_steep)
     step = np.where(ends[:, 1, 0] < ends[:, 0, 0], -1, 1)
 
     # Columns whose diamonds reach to the segment.

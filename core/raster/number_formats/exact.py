@@ -2,7 +2,7 @@
 
 Every float64 is a whole number times a power of two, so a triangle's corners are whole numbers of a small enough unit,
 and so are its edge functions: nothing is rounded, for any signs of w. It is the referee of all formats that do not snap
-(those that do have a lattice of their own, where ``snapped`` is exact).
+(those that do have a grid of their own, where ``snapped`` is exact).
 
 Whole numbers of this length cost about a hundred times as much as floats. So a float64 value is looked at first, with
 a bound on its error; only where the bound leaves the sign open, the whole numbers decide (`decide_filtered`). The
@@ -24,8 +24,8 @@ from core.raster.number_formats.number_format import Coefficients, FormatValue, 
 from core.records.arrays import Flags, Floats, Integers
 
 MANTISSA_BITS = 53
-LATTICE_BITS = 7
-"""Bits of half a pixel on the snapping lattice."""
+HALF_STEP_BITS = 7
+"""Bits of half a pixel in steps of 1/256 pixel."""
 ERROR_BOUND = 2.0**-50
 """Error of a value over the sum of its terms' sizes: of coefficients and three operations, with room to spare."""
 SMALLEST = 2.0**-960
@@ -38,7 +38,7 @@ class ExactFormat(NumberFormat):
 
     def set_up(self, corners: CornerPositions) -> Coefficients:
         """Return the edge functions of P triangles, (P, 3) whole numbers each, in units that suit all corners."""
-        shift = unit_shift(corners.clip) + (LATTICE_BITS if any(corners.shift) else 0)
+        shift = unit_shift(corners.clip) + (HALF_STEP_BITS if any(corners.shift) else 0)
         fitted = self.scaled(-2 * shift - 1, -2 * shift - 2, -3 * shift - 2)
         return NumberFormat.set_up(fitted, corners)
 
@@ -55,7 +55,11 @@ class ExactFormat(NumberFormat):
             return x, y, w
         # Twice the position in 1/256 pixel, times w, is a whole number of the unit divided by 2^7.
         moved_x, moved_y = (int(SUBPIXELS * way) for way in corners.shift)
-        x, y, unit = (x << LATTICE_BITS) + moved_x * w, (y << LATTICE_BITS) + moved_y * w, w << LATTICE_BITS
+        x, y, unit = (
+            (x << HALF_STEP_BITS) + moved_x * w,
+            (y << HALF_STEP_BITS) + moved_y * w,
+            w << HALF_STEP_BITS,
+        )
         return x, y, unit
 
     def of_pixels(self, position: Floats) -> FormatValue:

@@ -21,7 +21,7 @@ class Float64Format(NumberFormat):
     """float64; each edge by its ends: both snapped, one, or none."""
 
     def place(self, window: Floats) -> tuple[Floats, Flags]:
-        """Return positions (P, 3, 2) on the lattice of 1/256 pixel, if the format snaps, and where (P, 3) bool."""
+        """Return positions (P, 3, 2) on the 1/256-pixel grid, if the format snaps, and where (P, 3) bool."""
         return snap(window) if self.corner_kind == "snapped" else super().place(window)
 
     def set_up(self, corners: CornerPositions) -> Coefficients:

@@ -28,7 +28,7 @@ class FixedFormat(NumberFormat):
     """Pixels that a coordinate may be away from the origin."""
 
     def place(self, window: Floats) -> tuple[Floats, Flags]:
-        """Return positions (P, 3, 2) on the lattice of 1/256 pixel, and where (P, 3) bool the format has them."""
+        """Return positions (P, 3, 2) on the 1/256-pixel grid, and where (P, 3) bool the format has them."""
         return snap(window, self.limit)
 
     def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:

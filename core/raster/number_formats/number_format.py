@@ -1,6 +1,6 @@
 """The numbers that edge functions are computed in: what one number can be, and what every operation does to it.
 
-A number format is a method of the family ``coverage``. It puts corners on its lattice or leaves them where they are,
+A number format is a method of the family ``coverage``. It puts corners on its grid or leaves them where they are,
 sets the edge functions up, and turns pixel centres into its own numbers. From there on the rules are the same for all
 of them (``edge_functions``): `a x + (b y + c)`, larger than 0, or 0 and owned. The arrays of coefficients and values
 are of the format's own type (float16, int32, whole numbers of any length ...), so every product and every sum is
@@ -60,7 +60,7 @@ class NumberFormat:
     suits_spans: bool = False
     """Whether closed-form spans give its pixels: values are monotone along rows and computed in float64."""
     bounds_outward: bool = False
-    """Whether the box of a triangle is rounded outward to whole pixels, since its corners are not on a lattice."""
+    """Whether the box of a triangle is rounded outward to whole pixels, since its corners are not on a grid."""
     divides: bool = False
     """Whether edges are rows of an inverse matrix, divided by a determinant."""
     is_whole: bool = False
@@ -72,7 +72,7 @@ class NumberFormat:
     area_exponent: int = 0
 
     def place(self, window: Floats) -> tuple[Floats, Flags]:
-        """Return positions (P, 3, 2) on the format's lattice, and where (P, 3) bool there are any."""
+        """Return positions (P, 3, 2) on the format's grid, and where (P, 3) bool there are any."""
         return keep(window)
 
     def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
@@ -81,7 +81,7 @@ class NumberFormat:
         return x.astype(self.held_as), y.astype(self.held_as), w.astype(self.held_as)
 
     def shown_ends(self, corners: CornerPositions) -> Floats:
-        """Return (P, 3, 3) float64 the corners as edges see them: (x, y, 1) on the lattice, else (x, y, w)."""
+        """Return (P, 3, 3) float64 the corners as edges see them: (x, y, 1) on the grid, else (x, y, w)."""
         snapped = np.concatenate([corners.decided, np.ones((*corners.decided.shape[:2], 1))], axis=2)
         return np.where(corners.is_projected[..., None], snapped, corners.homogeneous)
 

@@ -102,7 +102,7 @@ def lanes_of_edges(
 
 
 def is_in_lane(edges: EdgeFunctions) -> Flags:
-    """Return (P,) bool, whose corners are all projected: exact fractions need them on the lattice."""
+    """Return (P,) bool, whose corners are all projected: exact fractions need them on the grid."""
     return np.asarray(edges.corners.is_projected.all(axis=1))
 
 

@@ -105,7 +105,7 @@ def window_triangles(assignment: Assignment) -> Floats:
 
 
 def make_fill(assignment: Assignment) -> CoverageTask:
-    """Make the work of the fills: they decide on corners that are on the lattice, and so does the referee."""
+    """Make the work of the fills: they decide on corners that are on the grid, and so does the referee."""
     return CoverageTask(assignment, ("bin", "raster"), is_snapped=True)
 
 

@@ -20,8 +20,8 @@ from core.study.exact.lines import clipped_ends
 
 SIZE = (64, 48)
 WINDOW = (0.0, 0.0, 64.0, 48.0)
-LATTICE = 4.0
-"""Steps of the lattice of ties in one pixel."""
+GRID_STEPS = 4.0
+"""Steps of the grid of ties in one pixel."""
 
 LARGEST = ErrorMeasure("largest-ulp", "Largest error of an end", "ulp")
 MEAN = ErrorMeasure("mean-ulp", "Mean error of the ends", "ulp")
@@ -45,8 +45,8 @@ def random_segments(work: str, count: int, seed: int) -> Floats:
         corner = size * generator.integers(0, 2, (count, 2))
         ends[:, 1] = 2 * corner - ends[:, 0]
     elif work == "ties":
-        step = size / LATTICE
-        ends = np.rint(generator.uniform(-1, LATTICE + 1, (count, 2, 2))) * step
+        step = size / GRID_STEPS
+        ends = np.rint(generator.uniform(-1, GRID_STEPS + 1, (count, 2, 2))) * step
     return ends
 
 

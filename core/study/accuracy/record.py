@@ -130,7 +130,7 @@ class Study:
     """The chosen value of every dial of the work."""
     seed: int
     measures: tuple[ErrorMeasure, ...]
-    """The first is the one that the chart opens with."""
+    """The chart opens with the first."""
     points: tuple[Point, ...]
     growth: Mapping[float, tuple[Point, ...]] = field(default_factory=dict)
     """Value of the cost dial to the points there."""

@@ -1,11 +1,11 @@
-"""What methods are measured on: triangles, meshes and lines made from a seed, on a lattice that is exact in float64."""
+"""What methods are measured on: triangles, meshes and lines made from a seed, on a grid that is exact in float64."""
 
 import numpy as np
 
 from core.records.arrays import Flags, Floats, Integers
 from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 
-LATTICE = 1024
+GRID_STEPS = 1024
 """Positions are whole multiples of 1/1024 pixel: between the places that snapping knows."""
 COLORS = np.array(
     [
@@ -25,7 +25,7 @@ def random_source(seed: int) -> np.random.Generator:
     return np.random.default_rng(seed)
 
 
-def on_lattice(positions: Floats, steps: int = LATTICE) -> Floats:
+def on_grid(positions: Floats, steps: int = GRID_STEPS) -> Floats:
     """Return positions, of any shape, moved to whole multiples of 1/steps pixel."""
     return np.asarray(np.rint(positions * steps) / steps)
 
@@ -55,7 +55,7 @@ def random_triangles(size: tuple[int, int], count: int, reach: float, seed: int)
     # Two corners of each lie on opposite sides of its box, so that the box is as large as was asked for.
     corners[:, 0, 0], corners[:, 1, 0], corners[:, 2, 1] = 0, 1, 1
     corners[:, 0, 1] = 0
-    return on_lattice(place + reach * corners)
+    return on_grid(place + reach * corners)
 
 
 def sliver_triangles(size: tuple[int, int], count: int, angle: float, seed: int) -> Floats:
@@ -69,10 +69,10 @@ def sliver_triangles(size: tuple[int, int], count: int, angle: float, seed: int)
         middle + length * np.stack([np.cos(direction + turn), np.sin(direction + turn)], axis=1)
         for turn in (0.0, spread)
     ]
-    return on_lattice(np.stack([middle, *ends], axis=1))
+    return on_grid(np.stack([middle, *ends], axis=1))
 
 
-def window_mesh(size: tuple[int, int], cells: int, seed: int, steps: int = LATTICE) -> Floats:
+def window_mesh(size: tuple[int, int], cells: int, seed: int, steps: int = GRID_STEPS) -> Floats:
     """Return window corners (T, 3, 2) of a mesh of ``cells`` x ``cells`` uneven cells that reaches beyond the window.
 
     Every pixel belongs to exactly one triangle. Corners are multiples of 1/steps pixel: with 2 steps many lie on pixel
@@ -83,7 +83,7 @@ def window_mesh(size: tuple[int, int], cells: int, seed: int, steps: int = LATTI
         np.meshgrid(np.linspace(-0.1, 1.1, cells + 1), np.linspace(-0.1, 1.1, cells + 1)), axis=-1
     )
     jitter = source.uniform(-0.3, 0.3, grid.shape) * (1.2 / cells)
-    points = on_lattice((grid + jitter) * np.array(size), steps)
+    points = on_grid((grid + jitter) * np.array(size), steps)
     first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
     fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
     pairs = np.stack([first, second, third, first, third, fourth], axis=1)
@@ -100,7 +100,7 @@ def random_lines(size: tuple[int, int], count: int, length: float, seed: int, is
     low, high = np.maximum(-step, 0) + 1, np.array(size) - np.maximum(step, 0) - 1
     start = low + source.uniform(0, 1, (count, 2)) * np.maximum(high - low, 0)
     ends = np.stack([start, start + step], axis=1)
-    return np.floor(ends) + 0.5 if is_on_centers else on_lattice(ends)
+    return np.floor(ends) + 0.5 if is_on_centers else on_grid(ends)
 
 
 def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = None) -> ClipScene:
@@ -111,7 +111,7 @@ def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = No
     if third is None:
         along = ends[1] - ends[0]
         third = ends.mean(axis=0) + np.array([-along[1], along[0]]) / 2 + np.array([0.25, 0.25])
-        third = on_lattice(third, 4)
+        third = on_grid(third, 4)
     window = np.concatenate([ends, third[None]])[None]
     level = np.ones((1, 3))
     clip = clip_of_window(window, size, 0.5 * level, level)
@@ -121,7 +121,7 @@ def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = No
 def overlapping_triangles(size: tuple[int, int], count: int, seed: int) -> Floats:
     """Return clip corners (count, 3, 4) of large triangles at all depths, which pass through each other."""
     source = random_source(seed)
-    window = on_lattice(source.uniform(0.02, 0.98, (count, 3, 2)) * np.array(size))
+    window = on_grid(source.uniform(0.02, 0.98, (count, 3, 2)) * np.array(size))
     return clip_of_window(
         window, size, source.uniform(0.1, 0.9, (count, 3)), source.uniform(1, 4, (count, 3))
     )
@@ -135,7 +135,7 @@ def cyclic_triangles(size: tuple[int, int]) -> Floats:
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     start = middle - reach * along - 0.35 * reach * across
     tip = middle + reach * along - 0.35 * reach * across
-    window = on_lattice(np.stack([start, tip - 0.12 * reach * across, tip + 0.12 * reach * across], axis=1))
+    window = on_grid(np.stack([start, tip - 0.12 * reach * across, tip + 0.12 * reach * across], axis=1))
     depth = np.tile([0.2, 0.8, 0.8], (3, 1))
     return clip_of_window(window, size, depth, np.ones((3, 3)))
 

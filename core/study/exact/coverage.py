@@ -19,7 +19,7 @@ import numpy as np
 from core.records.arrays import Flags, Floats, Integers
 
 STEPS = 256
-"""Steps of the snapping lattice in one pixel."""
+"""Steps of the 1/256-pixel grid in one pixel."""
 FARTHEST = 2**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
 
@@ -68,7 +68,7 @@ def exact_spans(
         Clip positions, taken as the rational numbers that they are.
     size : (width, height)
     is_snapped : bool
-        Move corners to the lattice of 1/256 pixel first (half to even), as GPUs and ``coverage=snapped`` do.
+        Move corners to the 1/256-pixel grid first (half to even), as GPUs and ``coverage=snapped`` do.
     rule : {"shared-edge", "inclusive", "exclusive"}
         Who owns a centre that lies exactly on an edge.
     pixel_center : {"half", "integer"}
@@ -107,7 +107,7 @@ def may_hold_a_center(clip: Floats, size: tuple[int, int], center: float) -> Fla
     Notes
     -----
     A triangle with all w > 0 lies in the box of its corners. The box is found in float64 and widened by far more than
-    that rounds, a few units in the last place, and by a step of the lattice, twice what snapping moves a corner.
+    that rounds, a few units in the last place, and by a step of the grid, twice what snapping moves a corner.
     """
     is_in_front = (clip[..., 3] > 0).all(axis=1)
     may_touch: Flags = np.logical_not(is_in_front)

@@ -129,7 +129,7 @@ def exact_fragments(
     Parameters
     ----------
     spans : ExactSpans, optional
-        Which pixels are covered; by default those of corners on the lattice.
+        Which pixels are covered; by default those of corners on the grid.
 
     Notes
     -----

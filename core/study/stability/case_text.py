@@ -113,10 +113,10 @@ def _texture_text(texture: Texture) -> str:
 
 def _mesh_text(scene: Scene) -> str:
     if len(scene.meshes) != 1 or len(scene.lights) != 1:
-        raise ValueError("one mesh under one light is wanted, got another scene")
+        raise ValueError("expected one mesh under one light, got another scene")
     (mesh,), (light,) = scene.meshes, scene.lights
     if mesh.normals is None or not isinstance(light, DirectionalLight):
-        raise ValueError("a mesh with normals under a distant light is wanted, got another one")
+        raise ValueError("expected a mesh with normals under a distant light, got another one")
     material = ", ".join(f"{name}={value}" for name, value in asdict(mesh.material).items())
     is_round = np.array_equal(mesh.normals, mesh.positions)
     normals = "positions" if is_round else f"np.array({mesh.normals.tolist()})"

@@ -190,13 +190,13 @@ SEGMENTS = Kind(
 def lit_mesh_of(scene: AnyScene) -> Parts:
     """Take a scene of one mesh under one distant light apart; normals that are the positions stay so."""
     if not isinstance(scene, Scene) or len(scene.meshes) != 1 or len(scene.lights) != 1:
-        raise ValueError("one mesh under one light is wanted, got another scene")
+        raise ValueError("expected one mesh under one light, got another scene")
     (mesh,), (light,), camera = scene.meshes, scene.lights, scene.camera
     if mesh.normals is None or not isinstance(light, DirectionalLight):
-        raise ValueError("a mesh with normals under a distant light is wanted, got another one")
+        raise ValueError("expected a mesh with normals under a distant light, got another one")
     is_placed = not np.array_equal(mesh.transform, np.eye(4))
     if is_placed or mesh.colors is not None or mesh.texture is not None:
-        raise ValueError("a mesh in its own place and of one material is wanted, got another one")
+        raise ValueError("expected a mesh in its own place and of one material, got another one")
     is_perspective = camera.projection == "perspective"
     numbers = {
         "positions": mesh.positions,

@@ -215,7 +215,7 @@ def minimize(
     parts = kind.take_apart(scene)
     verdict = verdict_of(parts)
     if verdict is None or verdict.outcome in (Outcome.RIGHT, Outcome.REFUSED):
-        raise ValueError("a scene that fails is wanted, got one that is right or refused")
+        raise ValueError("expected a scene that fails, got one that is right or refused")
     outcome, is_changed = verdict.outcome, True
     while is_changed and run_count < most_runs:
         is_changed = False

@@ -9,7 +9,7 @@ from core.study.accuracy.workloads import flat_scene
 from core.study.stability.coverage.covered_pixels import (
     CoverageExperiment,
     coverage_experiment,
-    on_its_lattice,
+    on_its_grid,
 )
 from core.study.stability.record import Axis, ExperimentInfo
 
@@ -84,5 +84,5 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
             "whole numbers of any length are right for every scene.",
         ),
         moved,
-        on_its_lattice,
+        on_its_grid,
     )

@@ -84,7 +84,7 @@ class Retrace(TraceSource):
         return pieces_of(earlier.fragments.primitive, self.changed.fragments.primitive, self.number_before)
 
     def _joined(self, name: str) -> Any:
-        """Return a result for all fragments where that of before can be taken over, else ``None``."""
+        """Return a result for all fragments where the previous one can be reused, else ``None``."""
         earlier = self._source_before()
         known = None if earlier is None else vars(earlier).get(name)
         return None if known is None else self._fragment_pieces.join_all(known, getattr(self.changed, name))

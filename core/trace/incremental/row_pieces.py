@@ -1,4 +1,4 @@
-"""Rows put together from those of before and new ones, one stretch of equal origin after another.
+"""Rows put together from previous and new ones, one stretch of equal origin after another.
 
 Rows belong to primitives and stand in drawing order, so the rows of a primitive are neighbours. Those of neighbouring
 primitives that were neighbours before are copied in one go, and where nothing is new, not at all.
@@ -21,7 +21,7 @@ class Stretch:
     """Neighbouring rows of one origin."""
 
     is_kept: bool
-    """Whether they are rows of before, or new ones."""
+    """Whether they are previous rows, not new ones."""
     start: int
     """First row, among those of its origin."""
     stop: int
@@ -52,7 +52,7 @@ class RowPieces:
         Parameters
         ----------
         before : (B, ...) array
-            Rows of before.
+            Previous rows.
         new : (N, ...) array
             Rows of the primitives that changed.
         """
@@ -62,7 +62,7 @@ class RowPieces:
         return np.concatenate(parts) if parts else new
 
     def _agree(self, before: NDArray[Any], new: NDArray[Any]) -> bool:
-        """Return whether the new rows (N, ...) are those of before (B, ...), bit for bit."""
+        """Return whether the new rows (N, ...) equal the previous ones (B, ...), bit for bit."""
         return all(
             bool(same_rows(new[of.start : of.stop], before[of.place : of.place + of.stop - of.start]).all())
             for of in self.stretches
@@ -101,7 +101,7 @@ def pieces_of(before: Integers, new: Integers, number_before: Integers) -> RowPi
     Parameters
     ----------
     before : (B,) int64
-        The primitive of every row of before, not decreasing, as it was numbered then.
+        The primitive of every previous row, not decreasing, as it was numbered then.
     new : (N,) int64
         The primitive of every new row, not decreasing.
     number_before : (P,) int64

@@ -77,7 +77,7 @@ def _pairs(now: TraceSource, before: TraceSource) -> tuple[Integers, Integers]:
 
 
 def _place_in_triangle(triangle: Integers) -> Integers:
-    """Return for triangles (P,), pieces of one being neighbours, the how manieth piece each is: (P,) int64."""
+    """Return (P,) int64, the index of each piece within its triangle (P,); pieces of a triangle are neighbours."""
     index = np.arange(len(triangle))
     is_first = np.append(True, triangle[1:] != triangle[:-1])[: len(triangle)]
     place: Integers = index - np.maximum.accumulate(np.where(is_first, index, 0))

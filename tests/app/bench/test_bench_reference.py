@@ -76,7 +76,7 @@ def test_differences_are_counted_and_small_ones_of_colour_forgiven() -> None:
         compare(pixels[:2], False, reference)
 
 
-def test_workloads_are_the_same_every_time_and_lie_on_the_lattice() -> None:
+def test_workloads_are_the_same_every_time_and_lie_on_the_grid() -> None:
     first, second = small_triangles(), small_triangles()
     np.testing.assert_array_equal(first.corners, second.corners)
     np.testing.assert_array_equal(first.colors, second.colors)

@@ -83,10 +83,11 @@ def test_a_bad_mesh(tmp_path, name, content, wanted):
 def test_what_is_not_there_or_cannot_be_read(tmp_path):
     line = refused(1, "render", "gone.obj", "-o", "out.png", cwd=tmp_path)
     assert line == f"{SOLID}there is no file gone.obj"
-    assert "no built-in scene of that name: single-triangle" in refused(
-        1, "trace", "cubes", "--stage", "raster", cwd=tmp_path
+    assert (
+        "there is no file and no built-in scene named 'cubes'; the built-in scenes are single-triangle"
+        in refused(1, "trace", "cubes", "--stage", "raster", cwd=tmp_path)
     )
-    assert "there is no file of an empty name" in refused(1, "render", "", "-o", "out.png", cwd=tmp_path)
+    assert "no built-in scene named ''" in refused(1, "render", "", "-o", "out.png", cwd=tmp_path)
     (tmp_path / "folder.obj").mkdir()
     assert "is a folder" in refused(1, "render", "folder.obj", "-o", "out.png", cwd=tmp_path)
     assert "gone.rasterscope" in refused(1, "render", "gone.rasterscope", "-o", "out.png", cwd=tmp_path)

@@ -292,7 +292,7 @@ def test_how_a_frame_was_drawn_as_text():
 @pytest.mark.parametrize("name", ["single-triangle", "torus", "textured-floor", "intersecting", "cube"])
 def test_every_way_of_drawing_has_words(name):
     figures = draw_scene(shot_of(name, (64, 48)), BandWorkers(1), HiddenBacks()).figures
-    assert drawing_text(figures).startswith("Drawn by one process: one process is all there is to be.")
+    assert drawing_text(figures).startswith("Drawn by one process: only one process is allowed.")
 
 
 def test_every_route_has_words():

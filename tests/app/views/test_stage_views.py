@@ -306,7 +306,7 @@ def test_no_process_is_started_by_itself(show, qtbot):
     for _ in range(3):
         drag(widget, QPoint(30, 30), QPoint(60, 40))
         rested(qtbot, views)
-    assert views.scene_presenter.drawn.figures.sharing.reason == "one process is all there is to be"
+    assert views.scene_presenter.drawn.figures.sharing.reason == "only one process is allowed"
 
 
 def test_a_chosen_size_is_drawn_whatever_the_size_of_the_view(show, qtbot):

@@ -32,7 +32,7 @@ RARE_CLIP = {
     "through-eye": [[-1, -1, 0, 1], [1, -1, 0, 1], [0, 0.5, -1.5, -1]],
     "w-is-zero": [[-1, -1, 0, 1], [1, -1, 0, 1], [0, 1, 0, 0]],
     "far-away": [[-1, -1, 0, 1], [1e6, -1, 0, 1], [-1, 1, 0, 1]],
-    "lattice-ties": [[-0.75, -0.75, 0, 1], [0.75, -0.75, 0, 1], [-0.75, 0.75, 0, 1]],
+    "grid-ties": [[-0.75, -0.75, 0, 1], [0.75, -0.75, 0, 1], [-0.75, 0.75, 0, 1]],
     "unsnapped": [[-0.7513, -0.7411, 0, 1], [0.7507, -0.6222, 0, 2], [-0.7507, 0.7591, 0, 1.5]],
 }
 """Triangles in clip space on an 8 x 8 raster."""
@@ -118,10 +118,10 @@ def traces() -> dict[str, list[Trace]]:
     for number, settings in enumerate([Settings()] * len(scenes) + choices):
         scene, triangle, window = scenes[number % len(scenes)]
         windows.append(trace(scene, settings, triangle, window, before="cleared"))
-    together = ClipScene(np.array([*RARE_CLIP.values(), RARE_CLIP["lattice-ties"]], float), size=(8, 8))
+    together = ClipScene(np.array([*RARE_CLIP.values(), RARE_CLIP["grid-ties"]], float), size=(8, 8))
     # Covered by its snapped corners only: the exact determinant is 0.
     edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]
-    with_edge_on = ClipScene(np.array([RARE_CLIP["lattice-ties"], edge_on], float), size=(8, 8))
+    with_edge_on = ClipScene(np.array([RARE_CLIP["grid-ties"], edge_on], float), size=(8, 8))
     rare = [trace(together, settings) for settings in choices]
     rare.append(trace(with_edge_on, Settings(visibility="ray-casting", cull="none")))
     return {"scenes": windows, "rare": rare}

@@ -11,7 +11,7 @@ from core.explain import formula
 from core.explain.equation import (
     digits_that_add_up,
     equation,
-    lattice_latex,
+    grid_latex,
     number_latex,
     signed_latex,
 )
@@ -86,7 +86,7 @@ def test_formulas_can_be_typeset(qtbot: QtBot) -> None:
     assert {cell: problem for cell, problem in problems.items() if problem} == {}
 
 
-def only(stage: str, key: str, settings: Settings, place: int = 0, name: str = "lattice-ties") -> Formula:
+def only(stage: str, key: str, settings: Settings, place: int = 0, name: str = "grid-ties") -> Formula:
     """Return one formula of a rare triangle."""
     traced = rare_trace(name, settings).stage(stage)
     found = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key == key]
@@ -187,10 +187,10 @@ def test_small_differences_of_large_numbers_get_the_digits_they_need() -> None:
     assert number_latex(258.12890625, 8) == "258.12891"
 
 
-def test_lattice_positions_are_exact() -> None:
-    assert lattice_latex(22.5) == "22.5"
-    assert lattice_latex(258 + 33 / 256) == r"258\frac{33}{256}"
-    assert lattice_latex(-1 / 256) == r"-\frac{1}{256}"
+def test_grid_positions_are_exact() -> None:
+    assert grid_latex(22.5) == "22.5"
+    assert grid_latex(258 + 33 / 256) == r"258\frac{33}{256}"
+    assert grid_latex(-1 / 256) == r"-\frac{1}{256}"
 
 
 def test_the_view_shows_them(qtbot: QtBot) -> None:

@@ -15,7 +15,7 @@ from tests.core.explain.explained_steps import rare_trace
 
 
 @cache
-def said(stage: str, settings: Settings, name: str = "lattice-ties") -> dict[str, list[str]]:
+def said(stage: str, settings: Settings, name: str = "grid-ties") -> dict[str, list[str]]:
     """Return all sentences of a stage by key."""
     traced = rare_trace(name, settings).stage(stage)
     found: dict[str, list[str]] = {}

@@ -35,7 +35,7 @@ def test_a_card_is_complete(stage: str) -> None:
 def test_a_card_names_the_method_that_ran() -> None:
     source = stage_card("raster", "fill=scanline-lecture").source
     assert source.startswith(stage_of("raster").source)
-    assert source.endswith("Fill, Scanline as printed (LMU): LMU 2020, Scan line algorithm for triangles")
+    assert source.endswith("Fill, Scanline, as printed (LMU): LMU 2020, Scan line algorithm for triangles")
 
 
 def test_a_stage_that_is_not_there_is_refused() -> None:

@@ -20,7 +20,7 @@ from widgets.inspector.variables import VariablesView, value_text
 
 def at(stage: str, key: str, place: int = 0, settings: Settings | None = None) -> dict[str, Variable]:
     """Return the rows of one step of a rare triangle by name."""
-    traced = rare_trace("lattice-ties", settings or Settings(fill="brute-force")).stage(stage)
+    traced = rare_trace("grid-ties", settings or Settings(fill="brute-force")).stage(stage)
     found = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key == key]
     return {variable.name: variable for variable in variables(found[place])}
 

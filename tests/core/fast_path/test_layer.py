@@ -77,7 +77,7 @@ def test_what_is_as_far_as_the_cleared_buffer_is_not_drawn(depth: str, visibilit
 def test_thin_triangles_near_the_far_plane(
     seed: int, count: int, is_tiny: bool, nearness: float, depth: str
 ) -> None:
-    # Corners a little off the lattice: the unsnapped plane, extrapolated, may reach the far plane.
+    # Corners a little off the grid: the unsnapped plane, extrapolated, may reach the far plane.
     generator = np.random.default_rng(seed)
     corners = (tiny if is_tiny else slivers)(generator, count, SIZE)
     corners = corners + generator.uniform(-0.002, 0.002, corners.shape)

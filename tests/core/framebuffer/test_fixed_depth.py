@@ -95,7 +95,7 @@ def test_error_of_triangles_of_the_least_area_stays_within_the_bound() -> None:
         side = generator.integers([800, 600], [1500, 1100]) * 256 + 128 - start
         a, b = (int(n) for n in side)
         if np.gcd(a, b) == 1:
-            # a y - b x = 1: no lattice point lies nearer to the side.
+            # a y - b x = 1: no grid point lies nearer to the side.
             x = pow(-b, -1, a)
             beside = np.array([x, (1 + x * b) // a])
             corners.append(np.array([start, start + side, start + beside]) / 256)

@@ -66,10 +66,10 @@ def test_behind_the_eye_comes_first(w) -> None:
     [
         [(1, 1), (3, 3), (6, 6)],
         [(2, 2), (2, 2), (5, 1)],
-        [(1, 1), (1 + 1 / 1024, 1), (1, 1 + 1 / 1024)],  # falls onto one lattice point
+        [(1, 1), (1 + 1 / 1024, 1), (1, 1 + 1 / 1024)],  # falls onto one grid point
     ],
 )
-def test_no_area_on_the_lattice_is_degenerate(points) -> None:
+def test_no_area_on_the_grid_is_degenerate(points) -> None:
     assert verdict_of(clip_of_window([points], SIZE)[0]) == ("degenerate", -1)
 
 

@@ -202,13 +202,13 @@ def test_any_segment(numbers: list[float], clipper: str) -> None:
 # Any convex polygon
 
 
-def convex_polygon(generator: np.random.Generator, lattice: int | None) -> np.ndarray:
-    """Return corners on an ellipse, counter-clockwise; on a lattice of 1/lattice those that stay convex."""
+def convex_polygon(generator: np.random.Generator, steps: int | None) -> np.ndarray:
+    """Return corners on an ellipse, counter-clockwise; on a grid of 1/steps those that stay convex."""
     count = int(generator.integers(3, 9))
     while True:
         angle = np.sort(generator.uniform(0, 2 * np.pi, count))
         corners = np.stack([8 + 7 * np.cos(angle), 6 + 5 * np.sin(angle)], axis=1)
-        corners = corners if lattice is None else np.rint(corners * lattice) / lattice
+        corners = corners if steps is None else np.rint(corners * steps) / steps
         try:
             clip_lines(np.zeros((1, 2, 2)), corners, "exact")
         except ValueError:
@@ -217,7 +217,7 @@ def convex_polygon(generator: np.random.Generator, lattice: int | None) -> np.nd
 
 
 @pytest.mark.parametrize("clipper", OF_POLYGONS)
-def test_random_convex_polygons_on_a_lattice(clipper: str) -> None:
+def test_random_convex_polygons_on_a_grid(clipper: str) -> None:
     # Coordinates of few bits: N . D is exact, t has one rounding.
     generator = np.random.default_rng(11)
     for _ in range(60 if is_everything() else 10):

@@ -15,7 +15,7 @@ from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import make_raster
 from tests.core.drawing import edges_of, facing_of, runs_of
 from tests.core.exact_reference import determinant, facing, homogeneous_window
-from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles, lattice_triangles
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window, grid_triangles, homogeneous_triangles
 
 DIRECTIONS = [
     (1, 0),
@@ -33,7 +33,7 @@ DIRECTIONS = [
 ]
 
 
-@given(lattice_triangles(), st.integers(0, 15), st.integers(0, 15))
+@given(grid_triangles(), st.integers(0, 15), st.integers(0, 15))
 def test_values_are_exact_for_projected_corners(case, column: int, row: int) -> None:
     clip, size = case
     edges = edges_of(clip, size)
@@ -50,7 +50,7 @@ def test_values_are_exact_for_projected_corners(case, column: int, row: int) -> 
             )
 
 
-@given(lattice_triangles())
+@given(grid_triangles())
 def test_the_three_values_add_up_to_the_doubled_area(case) -> None:
     clip, size = case
     edges = edges_of(clip, size)

@@ -18,8 +18,8 @@ from tests.core.strategies import (
     BLOCK_SIZES,
     REGIONS,
     clip_of_window,
+    grid_triangles,
     homogeneous_triangles,
-    lattice_triangles,
 )
 
 
@@ -225,7 +225,7 @@ def test_the_picture_decides_as_the_examined_pixels(case, block_size: int, fill:
         assert inside[tests.accepted].all()
 
 
-@given(case=lattice_triangles(6), fill=st.sampled_from(table.names("fill")), batch=st.integers(1, 40))
+@given(case=grid_triangles(6), fill=st.sampled_from(table.names("fill")), batch=st.integers(1, 40))
 def test_the_size_of_a_batch_changes_nothing(case, fill: str, batch: int) -> None:
     clip, size = case
     expected = cover_each(clip, size, fill)
@@ -237,7 +237,7 @@ def test_the_size_of_a_batch_changes_nothing(case, fill: str, batch: int) -> Non
         coverage.BATCH = usual
 
 
-@given(lattice_triangles(6), st.sampled_from(TESTING_FILLS))
+@given(grid_triangles(6), st.sampled_from(TESTING_FILLS))
 def test_a_triangle_is_drawn_alike_alone_and_among_others(case, fill: str) -> None:
     clip, size = case
     together = cover_each(clip, size, fill)

@@ -99,7 +99,7 @@ def test_clipping_is_restriction(line, ends, last_pixel, size):
 )
 @given(ends=SEGMENTS, last_pixel=st.booleans())
 def test_what_lies_left_and_below_is_cut_off_too(line, ends, last_pixel):
-    # Moved by whole pixels, ends on the lattice are decided the same: the whole line can be seen.
+    # Moved by whole pixels, ends on the grid are decided the same: the whole line can be seen.
     segments = np.rint(as_segments(ends) * 256) / 256
     pixels, complete = whole(segments, line=line, last_pixel=last_pixel)
     clipped = draw_lines(segments, 17, 13, line=line, last_pixel=last_pixel)
@@ -226,7 +226,7 @@ def exits(segment, last_pixel) -> list[tuple[int, int]]:
     (x0, y0), (x1, y1) = [[Fraction(c) for c in point] for point in segment.tolist()]
     columns = range(int(min(x0, x1)) - 2, int(max(x0, x1)) + 2)
     rows = range(int(min(y0, y1)) - 2, int(max(y0, y1)) + 2)
-    # eps as a number so small that no tie of 1/256 lattices over 64 pixels is decided wrongly.
+    # eps as a number so small that no tie of 1/256-pixel grids over 64 pixels is decided wrongly.
     eps = Fraction(1, 2**80)
     a, b = (x0 - eps, y0 - eps**2), (x1 - eps, y1 - eps**2)
     found = []

@@ -1,4 +1,4 @@
-"""Coverage in other numbers: the referee is exact, the lattice formats agree, and each weak one fails where it says."""
+"""Coverage in other numbers: the referee is exact, the grid formats agree, and each weak one fails where it says."""
 
 from fractions import Fraction
 
@@ -20,8 +20,8 @@ from tests.core.exact_reference import determinant, exact_coverage, homogeneous_
 from tests.core.strategies import (
     ANY_TRIANGLES,
     clip_of_window,
+    grid_triangles,
     homogeneous_triangles,
-    lattice_triangles,
     perspective_triangles,
     slivers,
 )
@@ -149,7 +149,7 @@ def test_int64_is_snapped_where_all_corners_are(case, rule: str, fill: str) -> N
         assert np.array_equal(drawn, cover_each(clip, size, fill, fill_rule=rule))
 
 
-@given(lattice_triangles(), st.sampled_from(RULES))
+@given(grid_triangles(), st.sampled_from(RULES))
 def test_fixed_point_is_snapped_as_long_as_values_fit(case, rule: str) -> None:
     clip, size = case
     edges = edges_of(clip, size)

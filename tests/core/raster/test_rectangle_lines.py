@@ -13,7 +13,7 @@ from core.raster.lines.records import COORDINATE_LIMIT
 from core.raster.lines.rectangle import half_width
 from tests.core.raster.test_lines_pictures import centers, picture
 
-LATTICE = st.integers(-5120, 5120).map(lambda n: n / 256)
+ON_GRID = st.integers(-5120, 5120).map(lambda n: n / 256)
 SHIFT, SIZE = 32, 64
 
 
@@ -63,7 +63,7 @@ def test_all_octants_draw_the_same_line_where_there_is_no_tie(mirror, swaps):
     assert sorted(rectangle_pixels(move(segment))) == sorted(move(rectangle_pixels(segment)).tolist())
 
 
-@given(st.tuples(*[LATTICE] * 4), st.booleans())
+@given(st.tuples(*[ON_GRID] * 4), st.booleans())
 def test_pixels_are_those_whose_centre_lies_inside(ends, last_pixel):
     # Squares instead of roots, in exact fractions, for all pixels around.
     x0, y0, x1, y1 = (Fraction(end) for end in ends)
@@ -90,7 +90,7 @@ def test_pixels_are_those_whose_centre_lies_inside(ends, last_pixel):
 
 @given(st.integers(-40, 40), st.integers(-40, 40), st.integers(1, 5))
 def test_lines_side_by_side_share_no_pixel_and_leave_none_out(dx, dy, scale):
-    # Pythagorean directions: one pixel aside is on the lattice, and centres lie on the long sides.
+    # Pythagorean directions: one pixel aside is on the grid, and centres lie on the long sides.
     way = scale * np.array([dx * dx - dy * dy, 2 * dx * dy])
     length = scale * (dx * dx + dy * dy)
     if length == 0 or length > 25:

@@ -1,4 +1,4 @@
-"""Corners on the lattice of 1/256 pixel: half to even, up to 2^16 pixels away, in front of the eye only."""
+"""Corners on the 1/256-pixel grid: half to even, up to 2^16 pixels away, in front of the eye only."""
 
 import numpy as np
 import pytest

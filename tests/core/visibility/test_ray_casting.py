@@ -14,7 +14,7 @@ from core.visibility.ray_planes import exact_plane, set_up_ray_planes
 from tests.core.drawing import text
 from tests.core.exact_reference import exact, exact_coverage
 from tests.core.meshes import random_rotation
-from tests.core.strategies import ANY_TRIANGLES, clip_of_window, lattice_triangles, perspective_triangles
+from tests.core.strategies import ANY_TRIANGLES, clip_of_window, grid_triangles, perspective_triangles
 
 RAYS = Settings(visibility="ray-casting")
 BIG = [(0, 0), (20, 0), (0, 20)]
@@ -71,7 +71,7 @@ def in_range(clip: np.ndarray) -> np.ndarray:
     return clip[((w > 0) & (np.abs(z) <= w)).all(axis=1)]
 
 
-@given(st.one_of(perspective_triangles(4), lattice_triangles(4)))
+@given(st.one_of(perspective_triangles(4), grid_triangles(4)))
 def test_pictures_are_those_of_rational_arithmetic(case) -> None:
     clip, size = case
     clip = in_range(clip)

@@ -124,7 +124,7 @@ def test_bad_text_shows_why_and_escape_restores(qtbot, field) -> None:
     field.value_committed.connect(seen.append)
     replace_text(qtbot, field, "abc")
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
-    assert "a number is wanted" in field.error_text()
+    assert "expected a number" in field.error_text()
     assert field.error.isVisible()
     qtbot.keyClick(field.edit, Qt.Key.Key_Escape)
     assert field.edit.text() == "0.25"

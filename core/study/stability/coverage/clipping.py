@@ -10,7 +10,7 @@ from core.study.stability.record import Axis, ExperimentInfo
 
 SIZE = (32, 32)
 NOT_SNAPPED = Settings(fill="bounding-box", coverage="exact")
-"""The corners that clipping makes are not on the lattice, and edges are not to blame: only the clipping may err."""
+"""The corners that clipping makes are not on the grid, and edges are not to blame: only the clipping may err."""
 CLIPPINGS = (
     "clipping=project-first",
     "clipping=after-divide",
@@ -50,7 +50,7 @@ def pair_over_the_border(place: tuple[float, ...], seed: int) -> ClipScene:
     Notes
     -----
     The edge passes through a pixel centre beside the right border and meets the border half-way between two steps of
-    the snapping lattice: the last bit of the new corner decides where it is snapped to, and so the pixel. ``place``
+    the 1/256-pixel grid: the last bit of the new corner decides where it is snapped to, and so the pixel. ``place``
     is the slope in 1/256 and the w of B over that of A.
     """
     slope, ratio = place

@@ -32,7 +32,7 @@ def as_given(scene: ClipScene, settings: Settings) -> Integers:
     return _exact_cover(scene, False)
 
 
-def on_its_lattice(scene: ClipScene, settings: Settings) -> Integers:
+def on_its_grid(scene: ClipScene, settings: Settings) -> Integers:
     """Return the same with the corners where the number format puts them: snapped for those that snap."""
     return _exact_cover(scene, number_format(settings.coverage).corner_kind == "snapped")
 
@@ -156,12 +156,12 @@ def _number_trouble(
     Notes
     -----
     Whole numbers that wrap around cannot be told by looking at them. But their products and sums forget nothing else:
-    where pixels differ from those of exact numbers on the same lattice, a value did not fit.
+    where pixels differ from those of exact numbers on the same grid, a value did not fit.
     """
     edges = geometry.edges
     if edges.numbers.rounding == "wrapped":
-        on_lattice, _ = count_cover(scene, settings_of(settings, "coverage=snapped"))
-        return Outcome.OVERFLOW if (cover != on_lattice).any() else None
+        on_grid, _ = count_cover(scene, settings_of(settings, "coverage=snapped"))
+        return Outcome.OVERFLOW if (cover != on_grid).any() else None
     if edges.a.dtype == object:
         return None
     parts = np.concatenate([edges.a, edges.b, edges.c])

@@ -104,7 +104,7 @@ def pixel_in_formats(
     if not (0 <= pixel[0] < scene.size[0] and 0 <= pixel[1] < scene.size[1]):
         raise ValueError(f"the pixel must be within {scene.size[0]} x {scene.size[1]}, got {pixel}")
     if not len(scene.clip):
-        raise ValueError("a scene with triangles is wanted, got one without any")
+        raise ValueError("expected a scene with triangles, got one without any")
     by_format = {method.partition("=")[2]: settings_in(settings, method) for method in FORMATS}
     covering: dict[str, Integers] = {}
     for name, chosen in by_format.items():

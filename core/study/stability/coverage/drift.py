@@ -10,8 +10,8 @@ from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.record import Opening
-from core.study.accuracy.workloads import on_lattice, outline_scene
-from core.study.stability.coverage.covered_pixels import coverage_experiment, on_its_lattice
+from core.study.accuracy.workloads import on_grid, outline_scene
+from core.study.stability.coverage.covered_pixels import coverage_experiment, on_its_grid
 from core.study.stability.coverage.number_formats import powers, scene_of_window
 from core.study.stability.experiment import Case, Experiment, Judgement
 from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
@@ -26,7 +26,7 @@ def long_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
     """Return a flat triangle across a raster of ``length`` x 8 pixels; its long side climbs ``rise`` pixels."""
     length, rise = place
     window = np.array([[-1.0, 0.3], [length + 1.0, 0.3 + rise], [length / 3, 9.0]])
-    return scene_of_window(on_lattice(window, 1 << 16)[None], (int(length), 8))
+    return scene_of_window(on_grid(window, 1 << 16)[None], (int(length), 8))
 
 
 INCREMENTAL = coverage_experiment(
@@ -51,7 +51,7 @@ INCREMENTAL = coverage_experiment(
         "every pixel in float32 is still right. float64 and whole numbers do not drift.",
     ),
     long_triangle,
-    on_its_lattice,
+    on_its_grid,
 )
 
 

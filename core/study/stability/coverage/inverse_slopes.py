@@ -15,7 +15,7 @@ from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.exact.coverage import facing, whole_corner
-from core.study.stability.coverage.covered_pixels import CoverCase, count_cover, on_its_lattice
+from core.study.stability.coverage.covered_pixels import CoverCase, count_cover, on_its_grid
 from core.study.stability.coverage.number_formats import scene_of_window
 from core.study.stability.experiment import Experiment, Judgement
 from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
@@ -73,7 +73,7 @@ def printed_cover(scene: ClipScene, settings: Settings) -> Integers:
 
 RULES: dict[str, Callable[[ClipScene, Settings], Integers]] = {
     "scanline-lecture": printed_cover,
-    "scanline": on_its_lattice,
+    "scanline": on_its_grid,
 }
 """Name of a fill to how often it should cover each pixel."""
 

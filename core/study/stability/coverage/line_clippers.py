@@ -10,7 +10,7 @@ from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.accuracy.record import Opening
-from core.study.accuracy.workloads import on_lattice
+from core.study.accuracy.workloads import on_grid
 from core.study.exact.lines import Ends, clipped_ends
 from core.study.stability.experiment import Case, Experiment, Judgement
 from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
@@ -137,7 +137,7 @@ def past_the_corner(place: tuple[float, ...]) -> Floats:
     offset, slope = place
     corner = np.array([SIDE, SIDE + offset * ULP])
     ends = [corner + 24.1 * np.array([-1.0, slope]), corner + 16.7 * np.array([1.0, -slope])]
-    return on_lattice(np.array(ends), round(1 / ULP))
+    return on_grid(np.array(ends), round(1 / ULP))
 
 
 STEPS = tuple(map(float, range(-6, 7)))

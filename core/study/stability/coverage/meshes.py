@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.scene import ClipScene
-from core.study.accuracy.workloads import flat_scene, on_lattice, random_source, window_mesh
+from core.study.accuracy.workloads import flat_scene, on_grid, random_source, window_mesh
 from core.study.stability.coverage.covered_pixels import (
     coverage_experiment,
     once_everywhere,
@@ -34,7 +34,7 @@ def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
     points = np.stack([across, along], axis=-1)
     step = np.array([10.0, high - low]) / cells
     points[1:-1, 1:-1] += source.uniform(-0.24, 0.24, (cells - 1, cells - 1, 2)) * step
-    x, y = on_lattice(points).transpose(2, 0, 1)
+    x, y = on_grid(points).transpose(2, 0, 1)
     clip = np.stack([x, y, np.zeros_like(x), 1.0 - tilt * y], axis=-1)
     first, second = clip[:-1, :-1].reshape(-1, 4), clip[:-1, 1:].reshape(-1, 4)
     fourth, third = clip[1:, :-1].reshape(-1, 4), clip[1:, 1:].reshape(-1, 4)

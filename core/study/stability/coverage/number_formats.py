@@ -4,7 +4,7 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import ClipScene
-from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
+from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
 from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
 from core.study.stability.record import Axis, ExperimentInfo
 
@@ -56,13 +56,13 @@ def far_corners(place: tuple[float, ...], seed: int) -> ClipScene:
     Notes
     -----
     The edge passes ``offset`` steps of 1/256 pixel below pixel centres, about in the diagonal. All corners are on the
-    lattice of 1/256 pixel, so that snapping changes nothing.
+    1/256-pixel grid, so that snapping changes nothing.
     """
     distance, steps = place
     below = np.array([32.5, 32.5 - steps / 256])
     far = distance * np.array([1.0, 0.75])
     window = np.array([below - far, below + far, below + distance * np.array([-0.5, 1.0])])
-    return scene_of_window(on_lattice(window, 256)[None])
+    return scene_of_window(on_grid(window, 256)[None])
 
 
 def edge_on(place: tuple[float, ...], seed: int) -> ClipScene:
@@ -95,7 +95,7 @@ def crowded_mesh(place: tuple[float, ...], seed: int) -> ClipScene:
     around = cell * (np.arange(-reach, reach + 1) + shift)
     lines = np.concatenate([[-1.0], (0.5 + np.arange(side)[:, None] + around).ravel(), [side + 1.0]])
     points = np.stack(np.meshgrid(lines, lines), axis=-1)
-    points[1:-1, 1:-1] += cell * on_lattice(source.uniform(-0.24, 0.24, (len(lines) - 2, len(lines) - 2, 2)))
+    points[1:-1, 1:-1] += cell * on_grid(source.uniform(-0.24, 0.24, (len(lines) - 2, len(lines) - 2, 2)))
     first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
     fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
     pairs = np.stack([first, second, third, first, third, fourth], axis=1)

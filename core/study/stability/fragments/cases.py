@@ -132,5 +132,5 @@ def mesh_and_normals(scene: Scene) -> tuple[Mesh, Floats]:
         If it has several, or no normals.
     """
     if len(scene.meshes) != 1 or scene.meshes[0].normals is None:
-        raise ValueError("one mesh with normals is wanted, got another scene")
+        raise ValueError("expected one mesh with normals, got another scene")
     return scene.meshes[0], scene.meshes[0].normals

@@ -9,13 +9,13 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import ClipScene
-from core.study.accuracy.workloads import clip_of_window, flat_scene, on_lattice, random_source
+from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
 from core.study.stability.experiment import Experiment
 from core.study.stability.fragments.cases import NearestCase
 from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 64
-"""Pixels on a side of the picture: a power of two, so that places on the lattice are exact in clip space."""
+"""Pixels on a side of the picture: a power of two, so that places on the grid are exact in clip space."""
 CROSSING = 0.35 * np.sqrt(3)
 """Where a bar's axis meets those of the others, from its middle, in half sides of the picture times 0.9."""
 
@@ -39,7 +39,7 @@ def circle_of_bars(overlap: float, lift: float) -> Floats:
     start = middle - length * along - 0.35 * reach * across
     tip = middle + length * along - 0.35 * reach * across
     half = 0.2 * reach * across
-    window = on_lattice(np.stack([start, tip - half, tip + half], axis=1))
+    window = on_grid(np.stack([start, tip - half, tip + half], axis=1))
     slant = 0.12
     depth = 0.3 + slant * (np.array([0.0, 1.0, 1.0]) + lift * np.arange(3)[:, None])
     return clip_of_window(window, (SIDE, SIDE), depth, np.ones((3, 3)))
@@ -63,7 +63,7 @@ def shuffled_layers(count: int, swaps: int, seed: int) -> Floats:
         order[[first, first + 1]] = order[[first + 1, first]]
     depth = 0.9 - 0.8 * (order + 0.5) / count
     return clip_of_window(
-        on_lattice(window), (SIDE, SIDE), np.repeat(depth[:, None], 3, axis=1), np.ones((count, 3))
+        on_grid(window), (SIDE, SIDE), np.repeat(depth[:, None], 3, axis=1), np.ones((count, 3))
     )
 
 

@@ -27,7 +27,7 @@ TOLERANCE = 1 / 4
 
 
 class ThinCase(Case):
-    """One white triangle; right is the exact area of it in every pixel, with its corners on the lattice.
+    """One white triangle; right is the exact area of it in every pixel, with its corners on the grid.
 
     Raises
     ------
@@ -39,7 +39,7 @@ class ThinCase(Case):
 
     def __init__(self, scene: ClipScene) -> None:
         if len(scene.clip) != 1:
-            raise ValueError(f"one triangle is wanted, got {len(scene.clip)}")
+            raise ValueError(f"expected one triangle, got {len(scene.clip)}")
         check_in_view_volume(scene)
         self.scene = scene
         width, height = scene.size
@@ -73,7 +73,7 @@ class ThinCase(Case):
 
 
 def counter_clockwise_window(scene: ClipScene) -> Floats:
-    """Return the corners (3, 2) of the first triangle in pixels, on the lattice of 1/256, counter-clockwise."""
+    """Return the corners (3, 2) of the first triangle in pixels, on the 1/256-pixel grid, counter-clockwise."""
     clip = scene.clip[0]
     window = (clip[:, :2] / clip[:, 3:] + 1) / 2 * scene.size
     window = np.rint(256 * window) / 256
@@ -83,7 +83,7 @@ def counter_clockwise_window(scene: ClipScene) -> Floats:
 
 def needle(width: float, offset: float) -> ClipScene:
     """Return a white needle, almost upright, from below the picture to a tip far above it: hardly wider below."""
-    # All on the lattice of 1/256 pixel, so that snapping moves nothing.
+    # All on the 1/256-pixel grid, so that snapping moves nothing.
     left = 7.0 + offset
     tip = left + width / 2 + SLANT * (TIP + FOOT)
     window = np.array([[left, -FOOT], [left + width, -FOOT], [tip, TIP]])

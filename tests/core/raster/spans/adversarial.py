@@ -14,7 +14,7 @@ SUBPIXELS = 256
 SIZES = [(1, 1), (1, 4096), (4096, 1), (3, 257), (100, 63), (61, 97), (128, 128)]
 
 
-def lattice(generator: np.random.Generator, count: int, size: tuple[int, int]) -> np.ndarray:
+def grid(generator: np.random.Generator, count: int, size: tuple[int, int]) -> np.ndarray:
     """Return window triangles (count, 3, 2) on pixel centres, half pixels, or any 1/256, in and around the window."""
     steps = generator.choice([1, 2, 2, 16, 256], (count, 1, 1))
     low, high = -4, np.array(size) + 4
@@ -72,7 +72,7 @@ def tiny(generator: np.random.Generator, count: int, size: tuple[int, int]) -> n
 
 
 PROJECTED = {
-    "lattice": lattice,
+    "grid": grid,
     "slivers": slivers,
     "level slivers": level_slivers,
     "fans": fans,
