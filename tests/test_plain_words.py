@@ -16,7 +16,7 @@ PLACES = ("app", "core", "lessons", "widgets")
 BANNED = re.compile(
     r"\b(the one that|lets? go of|for what it is owed|in the place of|by what|goes? no further than|many a|told|says so"
     r"|as (it|they) (is|was|are|were)(?= (seen|given)|[.,;)]|$)|where it stands|what there is|a little more|may stay"
-    r"|looked at|by now|of before|handed on|with the shares|is no number|gets, gives)\b",
+    r"|how manieth|very settings|is wanted|looked at|by now|of before|handed on|with the shares|is no number|gets, gives)\b",
     re.IGNORECASE,
 )
 """What no text says where it is not meant literally."""
@@ -30,6 +30,20 @@ def literals() -> Iterator[tuple[str, str]]:
         for node in ast.walk(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
                 yield f"{path.relative_to(ROOT)}:{node.lineno}", node.value
+
+
+def documents() -> Iterator[tuple[str, str]]:
+    """Yield the place and the text of every line of the documents outside their diffs."""
+    for path in (ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))):
+        text = re.sub(
+            r"^```diff$.*?^```$", lambda diff: "\n" * diff[0].count("\n"), path.read_text(), flags=re.M | re.S
+        )
+        for number, line in enumerate(text.splitlines(), 1):
+            yield f"{path.relative_to(ROOT)}:{number}", line
+
+
+def test_no_document_has_a_banned_phrase() -> None:
+    assert {place: line for place, line in documents() if BANNED.search(line)} == {}
 
 
 def test_no_literal_has_a_banned_phrase() -> None:
