@@ -102,7 +102,7 @@ def plan(
     """
     tolerance = tolerance or Tolerance()
     everything = everything_on(scene, base)
-    step = (0.0, "Looking at the scene")
+    step = (0.0, "Analysing the scene")
 
     def pause() -> None:
         watch(*step)
