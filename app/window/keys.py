@@ -171,7 +171,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("analyse", ("F5",), "Analyse the scene", PLANNING, "Plan"),
         KeyAction("cancel_analysis", ("Shift+F5",), "Cancel the analysis", PLANNING, "Plan"),
         KeyAction("apply_plan", ("Ctrl+Return",), "Apply these settings", PLANNING, "Plan"),
-        KeyAction("plan_difference", ("D",), "Difference from everything on", PLANNING, "Plan"),
+        KeyAction("plan_difference", ("D",), "Difference from the reference settings", PLANNING, "Plan"),
         KeyAction("plan_chart", ("Ctrl+M",), "Show the plan on the scene’s chart", PLANNING, "Plan"),
         KeyAction("plan_findings", ("I",), "Show or hide the findings", PLANNING, "Plan"),
     ),

@@ -19,11 +19,11 @@ from core.study.planner import (
     PlanReport,
     Tolerance,
     check_plan,
-    everything_on,
     look_at,
     measure_plan,
     plan,
     plan_and_check,
+    reference_settings,
 )
 
 __all__ = [
@@ -40,7 +40,6 @@ __all__ = [
     "Tolerance",
     "WorkKind",
     "check_plan",
-    "everything_on",
     "look_at",
     "machine",
     "measure",
@@ -50,6 +49,7 @@ __all__ = [
     "pictures",
     "plan",
     "plan_and_check",
+    "reference_settings",
     "study_families",
     "study_family",
 ]

@@ -28,7 +28,7 @@ class PlanControls(RunPanel):
         )
         self.kind_box = self.box(
             "Tolerance",
-            "How much the picture may differ from the one with everything on. Exact: every byte is equal",
+            "How much the picture may differ from the one with the reference settings. Exact: every byte is equal",
         )
         self.kind_box.addItem("Within", WITHIN)
         self.kind_box.addItem("Exact", EXACT)

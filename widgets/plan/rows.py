@@ -54,7 +54,7 @@ class PlanRowView(QWidget):
         self.reason, self.numbers, self.verdict = QLabel(self), QLabel(self), QLabel(self)
         self.mark = QLabel(self)
         self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip("Draw this choice alone, everything on, and the difference")
+        self.picture_button.setToolTip("Draw this choice alone, the reference settings, and the difference")
         self.picture_button.clicked.connect(self._ask)
         policy = self.picture_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)  # The columns of all rows stand under one another.

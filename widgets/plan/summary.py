@@ -36,7 +36,7 @@ class PlanSummary(QWidget):
     """Shows a `SummaryRecord`; takes no room without one."""
 
     picture_requested = Signal()
-    """The user wants to see where the whole choice differs from everything on."""
+    """The user wants to see where the whole choice differs from the reference settings."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -53,7 +53,9 @@ class PlanSummary(QWidget):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip("Draw all choices together, everything on, and the difference (D)")
+        self.picture_button.setToolTip(
+            "Draw all choices together, the reference settings, and the difference (D)"
+        )
         self.picture_button.clicked.connect(self.picture_requested)
         top = QHBoxLayout()
         top.setSpacing(8)

@@ -189,11 +189,11 @@ def first_difference(first: Pictures, second: Pictures) -> tuple[int, int] | Non
     return (int(places[0][1]), int(places[0][0])) if len(places) else None
 
 
-CHOICE, EVERYTHING = "What the scene needs", "Everything on"
+CHOICE, EVERYTHING = "What the scene needs", "Reference settings"
 
 
 def plan_candidates(plan: Plan, base: Settings, others: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-    """Return what a plan chose, and everything on, as points of a study, unless they are among the ``others`` already.
+    """Return a plan's settings and the reference settings as points of a study, unless ``others`` has them already.
 
     The other points change ``base`` in one setting, or not at all: once a plan is applied it is the scene as it is.
     """

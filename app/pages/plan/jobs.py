@@ -31,13 +31,13 @@ class PlanOrder:
 
 @dataclass(frozen=True, eq=False)
 class PlanPictures:
-    """What some choices of a plan draw, and what everything on draws."""
+    """What some choices of a plan draw, and what the reference settings draw."""
 
     setting: str
     """The stage whose choice is drawn alone; empty: all choices together."""
     settings: Settings
     before: Settings
-    """Everything on, but for what the choice rests on."""
+    """The reference settings, but for what the choice rests on."""
     result: NDArray[np.uint8]
     """(H, W, 3), bytes of a screen."""
     reference: NDArray[np.uint8]

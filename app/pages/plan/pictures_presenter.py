@@ -1,4 +1,4 @@
-"""What the difference buttons of a plan open: the chosen picture, everything on, and where they differ."""
+"""What the difference buttons of a plan open: the chosen picture, the reference settings, and where they differ."""
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
@@ -39,12 +39,12 @@ class PlanPicturesPresenter(QObject):
 
     @Slot(str)
     def open(self, setting: str) -> None:
-        """Draw the choice at one stage alone, beside everything on."""
+        """Draw the choice at one stage alone, beside the reference settings."""
         self._draw(setting)
 
     @Slot()
     def open_all(self) -> None:
-        """Draw all that was chosen, beside everything on."""
+        """Draw all that was chosen, beside the reference settings."""
         self._draw("")
 
     def _draw(self, setting: str) -> None:
@@ -54,7 +54,7 @@ class PlanPicturesPresenter(QObject):
             return
         self._drawn = None
         self._view.show()
-        self._view.show_waiting("Drawing the choice and everything on …")
+        self._view.show_waiting("Drawing the choice and the reference settings …")
         self._jobs.draw(shown.order.scene, shown.plan, setting)
 
     @Slot()
@@ -86,7 +86,7 @@ class PlanPicturesPresenter(QObject):
                 f"{title}: {amount}",
                 (
                     GridBuffer("chosen", drawn.result, "color"),
-                    GridBuffer("everything on", drawn.reference, "color"),
+                    GridBuffer("reference settings", drawn.reference, "color"),
                     # White is no difference at any size of it.
                     GridBuffer("difference", drawn.difference, "signed", unit="/255"),
                 ),
@@ -104,7 +104,7 @@ class PlanPicturesPresenter(QObject):
     def _before(self, drawn: PlanPictures) -> str:
         shown = self._plans.shown
         is_everything = shown is not None and drawn.before == shown.plan.everything
-        return "Everything on" if is_everything else "Everything on, except what this choice needs"
+        return "Reference settings" if is_everything else "Reference settings, except what this choice needs"
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:
@@ -114,7 +114,7 @@ class PlanPicturesPresenter(QObject):
 
     @Slot()
     def step(self) -> None:
-        """Open the choice beside everything on, A | B, at the pinned pixel or where they differ most."""
+        """Open the choice beside the reference settings, A | B, at the pinned pixel or where they differ most."""
         shown, drawn = self._plans.shown, self._drawn
         if shown is None or drawn is None:
             return

@@ -8,7 +8,7 @@ from app.background.background_task import BackgroundTask, WorkWords
 from app.pages.plan.jobs import PlanJobs, PlanOrder
 from app.pages.plan.words import EMPTY, about, advice_html, details, findings_html, headline, rows_of
 from app.session.session import Session
-from core.study import Plan, PlanReport, Tolerance, everything_on
+from core.study import Plan, PlanReport, Tolerance, reference_settings
 from widgets.basics.message_bar import Progress
 from widgets.plan.controls import PlanControls
 from widgets.plan.rows import PlanRows
@@ -67,7 +67,8 @@ class PlanPresenter(BackgroundTask):
             return True
         is_applied = document.settings == self.shown.plan.settings
         return (
-            not is_applied and everything_on(document.scene, document.settings) != self.shown.plan.everything
+            not is_applied
+            and reference_settings(document.scene, document.settings) != self.shown.plan.everything
         )
 
     # Analysing.

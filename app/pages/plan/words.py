@@ -17,7 +17,7 @@ EMPTY = (
     "What does this scene need? Analyse (F5) tries cheaper methods stage by stage and chooses the "
     "cheapest whose error stays within the tolerance: clipping or none, a perspective divide or none, a depth buffer "
     "or none, how many samples. Each choice has its reason and a predicted error. Then all of them are drawn and timed "
-    "against the picture with everything on, and wrong predictions are flagged. Apply uses these settings."
+    "against the picture with the reference settings, and wrong predictions are flagged. Apply uses these settings."
 )
 
 
@@ -89,7 +89,7 @@ def headline(plan: Plan, report: PlanReport | None) -> str:
     within = "Within the tolerance" if report.is_within else "Beyond the tolerance"
     ratio = everything / chosen
     speed = f"{digits(ratio)} times as fast as" if ratio >= 1 else f"{digits(1 / ratio)} times as slow as"
-    return f"{within}, {speed} everything on: {time_text(chosen)} instead of {time_text(everything)}"
+    return f"{within}, {speed} the reference settings: {time_text(chosen)} instead of {time_text(everything)}"
 
 
 def predicted_time(plan: Plan, start: str) -> str:

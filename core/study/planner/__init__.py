@@ -16,7 +16,7 @@ from core.study.planner.records import (
     Tessellation,
     Tolerance,
 )
-from core.study.planner.reference_settings import everything_on
+from core.study.planner.reference_settings import reference_settings
 
 __all__ = [
     "Decision",
@@ -28,9 +28,9 @@ __all__ = [
     "Tessellation",
     "Tolerance",
     "check_plan",
-    "everything_on",
     "look_at",
     "measure_plan",
     "plan",
     "plan_and_check",
+    "reference_settings",
 ]

@@ -22,7 +22,7 @@ ROUNDS = 5
 def measure_plan(
     scene: AnyScene, chosen: Plan, rounds: int = ROUNDS, watch: Watch = unwatched, times_each: bool = False
 ) -> PlanReport:
-    """Draw a scene with everything on, with a plan's settings, and with each of its decisions alone.
+    """Draw a scene with the reference settings, with a plan's settings, and with each of its decisions alone.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def check_plan(
 
     Notes
     -----
-    The decision whose own measured error is largest goes back first; everything on is within any tolerance.
+    The decision whose own measured error is largest goes back first; the reference settings are within any tolerance.
     """
     steps = _Steps(watch, _comparisons(chosen) + _timings(chosen, rounds, times_each))
     pictures: dict[Settings, Integers] = {}
@@ -77,7 +77,7 @@ def check_plan(
 def _compare(
     scene: AnyScene, chosen: Plan, pictures: dict[Settings, Integers], steps: "_Steps"
 ) -> tuple[list[Outcome], Integers]:
-    """Return how each decision turned out, and how far (H, W) the chosen settings are from everything on.
+    """Return how each decision turned out, and how far (H, W) the chosen settings are from the reference settings.
 
     What is drawn is kept in ``pictures``.
     """
@@ -89,7 +89,7 @@ def _compare(
         return pictures[settings]
 
     differences = difference(
-        drawn(chosen.everything, "everything on"), drawn(chosen.settings, "the whole choice")
+        drawn(chosen.everything, "the reference settings"), drawn(chosen.settings, "the whole choice")
     )
     outcomes = []
     for decision in _cheaper(chosen):
@@ -135,7 +135,7 @@ def _report(
     text = (
         f"{'Within' if is_within else 'Beyond'} the tolerance: measured {largest}/255 at most, {beyond:,} pixels "
         f"beyond {chosen.tolerance.bytes}/255, {chosen.tolerance.pixels:,} allowed; {ratio:.3g} times as fast as "
-        "everything on."
+        "the reference settings."
     )
     return PlanReport(
         scene, chosen, tuple(outcomes), largest, beyond, is_within, times[0], times[1], text, fallen_back
@@ -156,7 +156,7 @@ class _Steps:
 
 
 def with_choices(chosen: Plan, names: tuple[str, ...]) -> Settings:
-    """Return everything on but for a plan's choices of the settings ``names``."""
+    """Return the reference settings but for a plan's choices of the settings ``names``."""
     return replace(chosen.everything, **{name: getattr(chosen.settings, name) for name in names})
 
 

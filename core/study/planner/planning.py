@@ -1,7 +1,7 @@
 """The plan: try cheaper methods family by family, keep the cheapest within the tolerance, and say why.
 
-Measured, not bounded: on 56 scenes of ``corpus``, chosen settings take 0.43 of the time of everything on (geometric
-mean). Bounds of light, texels, depth and coverage took 3,000 lines and as long to plan, and left 0.56: they
+Measured, not bounded: on 56 scenes of ``corpus``, chosen settings take 0.43 of the time of the reference
+settings (geometric mean). Bounds of light, texels, depth and coverage took 3,000 lines and as long to plan, and left 0.56: they
 reject whatever they cannot prove.
 """
 
@@ -16,7 +16,7 @@ from core.study.planner.findings import Seen, facts_of, look
 from core.study.planner.phrases import phrase
 from core.study.planner.reasons import ALL_SLOWER, reason
 from core.study.planner.records import Decision, Fact, Findings, Plan, Tolerance, Watch, unwatched
-from core.study.planner.reference_settings import everything_on
+from core.study.planner.reference_settings import reference_settings
 from core.study.planner.tessellation import tessellations
 from core.study.planner.trials import Trial, Trials
 
@@ -31,7 +31,7 @@ CHEAPER = {
     "texture_filter": ("nearest", "bilinear"),
     "interpolation": ("flat", "affine", "affine-n"),
 }
-"""Methods that are tried instead of those of everything on, the cheaper first; families in the order of choosing.
+"""Methods that are tried instead of the reference method, the cheaper first; families in the order of choosing.
 
 Samples come first, as everything after them is drawn that much faster. Not tried: exact areas, which take 0.8 to 60
 times as long as 4 x 4 samples, and 3 x 3 samples, which are within 8/255 on 25 of 70 scenes of ``corpus`` where 2 x 2
@@ -60,14 +60,14 @@ class Choice:
     trial: Trial | None = None
     """How far the choice is from what was chosen before it; ``None``: nothing was chosen, or it has no effect."""
     rejected: tuple[tuple[str, Trial], ...] = ()
-    """Cheaper methods that are too far from everything on, and how far."""
+    """Cheaper methods that are too far from the reference settings, and how far."""
     slower: tuple[str, ...] = ()
     """Cheaper methods that would do but take longer."""
 
 
 def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:
     """Look at a scene, and return what a plan would be made of: an unantialiased picture in the places of `Trials`."""
-    return _look(scene, everything_on(scene, base), Trials(scene, Tolerance()))[1]
+    return _look(scene, reference_settings(scene, base), Trials(scene, Tolerance()))[1]
 
 
 def plan(
@@ -84,7 +84,7 @@ def plan(
     scene : Scene or ClipScene
     tolerance : Tolerance, optional
     base : Settings, optional
-        What to draw, not how well, see `everything_on`.
+        What to draw, not how well, see `reference_settings`.
     watch : callable, optional
         Called with what is done, see `Watch`.
     costs : Costs, optional
@@ -96,12 +96,12 @@ def plan(
 
     Notes
     -----
-    Each cheaper method is compared with everything on together with all choices before it: errors are measured, not
-    added. Small pictures are tried whole, so their predictions are what `measure_plan` measures; of larger ones only
+    Each cheaper method, together with all choices before it, is compared with the reference settings: errors are
+    measured, not added. Small pictures are tried whole, so their predictions are what `measure_plan` measures; of larger ones only
     bands of rows, see ``trials``.
     """
     tolerance = tolerance or Tolerance()
-    everything = everything_on(scene, base)
+    everything = reference_settings(scene, base)
     step = (0.0, "Analysing the scene")
 
     def pause() -> None:

@@ -10,7 +10,7 @@ from core.study.planner.trials import Trial
 if TYPE_CHECKING:
     from core.study.planner.planning import Choice
 
-ALL_SLOWER = "All choices together take longer here than everything on, so none is made."
+ALL_SLOWER = "All choices together take longer here than the reference settings, so none is made."
 EVEN = 1e-9
 """Ratios of w no farther from 1 are 1, but for rounding."""
 CROSS = "cross a plane of the view volume or lie"

@@ -22,7 +22,7 @@ def unwatched(done: float, doing: str) -> None:
 class Tolerance:
     """At most ``pixels`` pixels may differ from the reference picture by more than ``color``.
 
-    The reference is the picture of `everything_on`. Colours are compared as a screen shows them: sRGB bytes, the
+    The reference is the picture of `reference_settings`. Colours are compared as a screen shows them: sRGB bytes, the
     channel that differs most. Bytes are whole, so a ``color`` of 2.5 allows no more than 2.
     """
 
@@ -79,7 +79,7 @@ class Decision:
     chosen: str
     """Name of the method chosen."""
     dearest: str
-    """Name of the method of everything on."""
+    """Name of the method of the reference settings."""
     reason: str
     """One sentence with the numbers."""
     predicted_error: float
@@ -126,14 +126,14 @@ class Plan:
     predicted_pixels: int = 0
     """Pixels that may differ by more."""
     predicted_everything: float | None = None
-    """Seconds of a picture with everything on, from smaller ones; ``None``: nothing was timed."""
+    """Seconds of a picture with the reference settings, from smaller ones; ``None``: nothing was timed."""
     predicted_seconds: float | None = None
     """Seconds of a picture with the chosen settings."""
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """One decision's prediction against what was measured: everything on but for this choice, and what it rests on."""
+    """One decision's prediction against its measurement: the reference settings with this choice and what it rests on."""
 
     decision: Decision
     measured_error: float
@@ -145,7 +145,7 @@ class Outcome:
     text: str
     """As ``predicted 0.8/255, measured 1.4/255: the prediction was wrong``."""
     seconds: Floats = field(default_factory=lambda: np.empty(0))
-    """(R,) float64, drawings with everything on but for this choice; empty: not timed."""
+    """(R,) float64, drawings with the reference settings but for this choice; empty: not timed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +163,7 @@ class PlanReport:
     is_within: bool
     """Whether the tolerance holds."""
     seconds_everything: Floats
-    """(R,) float64, drawings of everything on."""
+    """(R,) float64, drawings of the reference settings."""
     seconds_chosen: Floats
     """(R,) float64, drawings with the chosen settings, taken in turn with the others."""
     text: str
@@ -173,5 +173,5 @@ class PlanReport:
 
     @property
     def time_saved(self) -> float:
-        """Part of the time of everything on that is saved, by the medians: 0.9 is ten times as fast."""
+        """Part of the time of the reference settings that is saved, by the medians: 0.9 is ten times as fast."""
         return 1 - float(np.median(self.seconds_chosen)) / float(np.median(self.seconds_everything))

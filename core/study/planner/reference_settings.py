@@ -1,4 +1,4 @@
-"""Everything on: the dearest and most accurate method at every stage, the reference of the planner."""
+"""The reference settings of a plan: the most accurate and most expensive method at every stage."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ from core.scene import AnyScene, Scene
 from core.settings import Settings
 
 
-def everything_on(scene: AnyScene, base: Settings | None = None) -> Settings:
+def reference_settings(scene: AnyScene, base: Settings | None = None) -> Settings:
     """Return the settings of the reference picture.
 
     Parameters

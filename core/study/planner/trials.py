@@ -1,4 +1,4 @@
-"""Trying settings: parts of the picture are drawn with them, and their pixels compared with those of everything on.
+"""Trying settings: parts of the picture are drawn with them and compared with those of the reference settings.
 
 Drawn in parts, a pixel is the very pixel of the whole picture, bit for bit. Small pictures are tried whole; of larger
 ones bands of rows at equal distances, `PIXELS` in all. What lies between the bands is not seen. Of more pixels the

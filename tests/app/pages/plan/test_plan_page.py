@@ -87,7 +87,7 @@ def test_a_look_shows_every_stage_with_reason_and_numbers(page: PlanPage, qtbot:
         assert (view.property("role") == "kept") == decision.is_needed
     assert "kept" in page.rows.rows["antialiasing"].instead.text()
     assert "Within the tolerance" in page.summary.headline.text()
-    assert "everything on" in page.summary.headline.text()
+    assert "the reference settings" in page.summary.headline.text()
     assert "0 pixels beyond 2/255, 0 allowed" in page.summary.details.text()
     assert page.controls.apply_button.isEnabled()
 
@@ -251,7 +251,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert settings_of(study.settings, ringed) == report.plan.settings
     titles = {series.key: series.title for series in picture.series}
     assert titles[ringed] == "What the scene needs"
-    assert "Everything on" in titles.values()
+    assert "Reference settings" in titles.values()
     another_scene(window)
     compare.results.refresh()
     assert compare.scatter.picture is not None
@@ -292,7 +292,7 @@ def test_a_plan_that_is_applied_is_the_scene_as_it_is() -> None:
         points=tuple(Point(each.method, each.title, np.ones(1), 1) for each in (*others, everything)),
     )
     assert chosen_points(study, chosen) == (f"fill={chosen.settings.fill}",)
-    assert title_of(study.points[-1], [point.method for point in study.points]) == "Everything on"
+    assert title_of(study.points[-1], [point.method for point in study.points]) == "Reference settings"
     one_away = replace(chosen.everything, antialiasing="none")
     (choice,) = plan_candidates(chosen, one_away, (Candidate("antialiasing=ssaa-16", ""),))
     assert settings_of(one_away, choice.method) == chosen.settings

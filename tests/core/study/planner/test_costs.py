@@ -1,11 +1,11 @@
-"""Costs of settings: predicted from small pictures; what is known to be slower than everything on is not chosen."""
+"""Costs of settings: predicted from small pictures; what is slower than the reference settings is not chosen."""
 
 from dataclasses import replace
 
 import pytest
 
 from core.settings import Settings, with_method
-from core.study import Tolerance, everything_on, plan
+from core.study import Tolerance, plan, reference_settings
 from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.costs import PIXELS, Costs, TriedCosts
 from core.study.planner.planning import STAGES
@@ -26,7 +26,7 @@ class Opposite(Costs):
 def test_sixteen_samples_take_longer_than_one() -> None:
     scene = sphere_scene(8, 300)
     assert scene.size[0] * scene.size[1] > PIXELS
-    costs, everything = TriedCosts(scene), everything_on(scene)
+    costs, everything = TriedCosts(scene), reference_settings(scene)
     one = replace(everything, antialiasing="none")
     assert costs.is_slower(everything, one)
     assert not costs.is_slower(one, everything)
@@ -36,7 +36,7 @@ def test_sixteen_samples_take_longer_than_one() -> None:
 
 def test_a_larger_picture_is_predicted_to_take_longer() -> None:
     small, large = (sphere_scene(6, side) for side in (64, 640))
-    times = [TriedCosts(scene).seconds((everything_on(scene),))[0] for scene in (small, large)]
+    times = [TriedCosts(scene).seconds((reference_settings(scene),))[0] for scene in (small, large)]
     assert times[1] > times[0]
 
 
@@ -56,11 +56,11 @@ def test_what_is_slower_is_not_chosen_and_told(family: str) -> None:
 
 def test_choices_that_take_longer_together_are_not_made() -> None:
     scene = highlight()
-    everything = everything_on(scene)
+    everything = reference_settings(scene)
 
     class SlowTogether(Costs):
         def is_slower(self, settings: Settings, others: Settings) -> bool:
-            """Tell whether the second has everything on but the first several things less."""
+            """Tell whether the second are the reference settings but the first several things less."""
             changed = sum(getattr(settings, name) != getattr(others, name) for name in STAGES)
             return others == everything and changed > 1
 

@@ -7,7 +7,7 @@ import pytest
 
 import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
-from core.study import Tolerance, everything_on, measure_plan, plan
+from core.study import Tolerance, measure_plan, plan, reference_settings
 from core.study.planner.costs import Costs
 from core.study.planner.trials import difference, shown
 
@@ -63,7 +63,7 @@ def test_without_it_the_picture_is_beyond_the_tolerance(
 ) -> None:
     cheapest = {"clipping": "project-first", "depth": "z-16", "interpolation": "affine", "shading": "gouraud"}
     scene = make()
-    everything = everything_on(scene)
+    everything = reference_settings(scene)
     name = cheapest.get(needed, "nearest" if make is scenes.magnified else CHEAP[needed][-1])
     poorer = replace(everything, **{needed: name})
     assert difference(shown(scene, poorer), shown(scene, everything)).max() > 2

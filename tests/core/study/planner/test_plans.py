@@ -11,7 +11,7 @@ from core.records.arrays import Floats
 from core.scene import ClipScene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
-from core.study import Plan, Tolerance, everything_on, look_at, plan
+from core.study import Plan, Tolerance, look_at, plan, reference_settings
 from core.study.accuracy.workloads import sphere_mesh, sphere_scene, textured_quad
 from core.study.planner.costs import Costs
 from core.study.planner.measuring import check_plan, measure_plan
@@ -64,7 +64,7 @@ def test_a_choice_that_is_measured_to_be_wrong_is_put_back() -> None:
 
 def test_a_wireframe_is_planned_as_any_picture() -> None:
     scene = sphere_scene(4, 24)
-    chosen = plan(scene, base=replace(everything_on(scene), polygon_mode="wireframe"), costs=Costs())
+    chosen = plan(scene, base=replace(reference_settings(scene), polygon_mode="wireframe"), costs=Costs())
     assert chosen.everything.polygon_mode == chosen.settings.polygon_mode == "wireframe"
     assert measure_plan(scene, chosen, 1).is_within
 
@@ -107,8 +107,8 @@ def test_alpha_that_varies_is_not_interpolated_any_cheaper() -> None:
     colors[0, :, 3] = 0.1, 0.9, 0.4
     scene = ClipScene(clip, colors, (24, 24))
     assert plan(scene, Tolerance(2.0), costs=Costs()).settings.interpolation == "perspective"
-    worse = shown(scene, replace(everything_on(scene), interpolation="affine"))
-    assert difference(worse, shown(scene, everything_on(scene))).max() > 2
+    worse = shown(scene, replace(reference_settings(scene), interpolation="affine"))
+    assert difference(worse, shown(scene, reference_settings(scene))).max() > 2
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.study import Tolerance, everything_on
+from core.study import Tolerance, reference_settings
 from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.trials import PIXELS, Trials, bands, difference, shown
 
@@ -23,7 +23,7 @@ def test_bands_lie_in_the_picture_and_are_few(size: tuple[int, int]) -> None:
 
 def test_what_is_tried_are_pixels_of_the_whole_picture() -> None:
     scene, tolerance = replace(sphere_scene(6, 64), size=(200, 150)), Tolerance(2, 900)
-    everything = everything_on(scene)
+    everything = reference_settings(scene)
     one = replace(everything, antialiasing="none")
     trials = Trials(scene, tolerance)
     trial = trials.compare(one, everything)
