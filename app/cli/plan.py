@@ -22,8 +22,9 @@ from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
 
-DESCRIPTION = """Try cheaper methods at every stage and choose the cheapest whose error stays within a tolerance. The error is the
-difference from the reference settings (16 samples a pixel, each lit and textured). The plan is then measured."""
+DESCRIPTION = """Try cheaper methods at every stage and choose the cheapest whose error stays within a tolerance.
+The error is the difference from the reference settings (16 samples a pixel, each lit and textured). The plan is
+then measured."""
 EXAMPLES = """examples:
   rasterscope plan teapot.obj
   rasterscope plan cube --tolerance 8 --pixels 500 --size 640x480
@@ -165,8 +166,8 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
         parts = [f"{100 * value:.0f} %" for value in np.quantile(values, QUANTILES)]
         rows.append([name, f"{len(values):,}", *parts])
     return [
-        f"{len(every) - fallen_back:,} of {len(every):,} plans were within the tolerance of {tolerance.color:g}/255 "
-        f"and {tolerance.pixels:,} pixels at once; {fallen_back:,} had to withdraw a choice.",
+        f"{len(every) - fallen_back:,} of {len(every):,} plans stayed within the tolerance of {tolerance.color:g}/255 "
+        f"and {tolerance.pixels:,} pixels; {fallen_back:,} had to withdraw a choice.",
         f"{wrong:,} predictions were wrong.",
         "Time saved against the reference settings, quantiles over the scenes (below 0: it took longer):",
         *aligned(rows),

@@ -1,8 +1,8 @@
 """The plan: try cheaper methods family by family, keep the cheapest within the tolerance, and say why.
 
 Measured, not bounded: on 56 scenes of ``corpus``, chosen settings take 0.43 of the time of the reference
-settings (geometric mean). Bounds of light, texels, depth and coverage took 3,000 lines and as long to plan, and left 0.56: they
-reject whatever they cannot prove.
+settings (geometric mean). Bounds of light, texels, depth and coverage took 3,000 lines and as long to plan, and
+left 0.56: they reject whatever they cannot prove.
 """
 
 from collections.abc import Callable
@@ -97,8 +97,8 @@ def plan(
     Notes
     -----
     Each cheaper method, together with all choices before it, is compared with the reference settings: errors are
-    measured, not added. Small pictures are tried whole, so their predictions are what `measure_plan` measures; of larger ones only
-    bands of rows, see ``trials``.
+    measured, not added. Small pictures are tried whole, so their predictions are what `measure_plan`
+    measures; of larger ones only bands of rows, see ``trials``.
     """
     tolerance = tolerance or Tolerance()
     everything = reference_settings(scene, base)

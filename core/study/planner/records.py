@@ -133,7 +133,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """One decision's prediction against its measurement: the reference settings with this choice and what it rests on."""
+    """One decision, predicted and measured: the reference settings with this choice and what it rests on."""
 
     decision: Decision
     measured_error: float
