@@ -76,7 +76,7 @@ def grid_positions(side: int) -> Floats:
     "None (one sample a pixel)",
     source="Zwicker 2016, Pixel inside/outside test; LMU 2020, Aliasing",
     exact_for="edges along pixel borders",
-    breaks_where="every other edge: stairs, and details between the pixel centres are lost",
+    breaks_where="every other edge: staircases. Details between pixel centres are lost",
 )
 def one_sample(samples_across: int) -> Sampling:
     """Take one sample, the pixel's centre."""
@@ -88,8 +88,8 @@ def one_sample(samples_across: int) -> Sampling:
     "ssaa-4",
     "Supersampling, 2 x 2 samples",
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
-    exact_for="areas in quarters of a pixel, shading included",
-    breaks_where="edges that are nearly level or upright: two steps a pixel; four times the work",
+    exact_for="area in steps of 1/4 pixel, shading included",
+    breaks_where="nearly horizontal or vertical edges: only two steps a pixel. Four times the work",
     takes=("resolve_filter",),
 )
 def supersample_by_2(samples_across: int) -> Sampling:
@@ -102,8 +102,8 @@ def supersample_by_2(samples_across: int) -> Sampling:
     "ssaa-16",
     "Supersampling, 4 x 4 samples",
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
-    exact_for="areas in sixteenths of a pixel, shading included",
-    breaks_where="edges that are nearly level or upright: four steps a pixel; sixteen times the work",
+    exact_for="area in steps of 1/16 pixel, shading included",
+    breaks_where="nearly horizontal or vertical edges: only four steps a pixel. Sixteen times the work",
     takes=("resolve_filter",),
 )
 def supersample_by_4(samples_across: int) -> Sampling:
@@ -116,8 +116,8 @@ def supersample_by_4(samples_across: int) -> Sampling:
     "ssaa-n",
     "Supersampling, n x n samples",
     source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
-    exact_for="areas in n * n parts of a pixel, shading included; n is samples_across",
-    breaks_where="edges that are nearly level or upright: n steps a pixel; n * n times the work",
+    exact_for="area in steps of 1/n^2 pixel, shading included (n is samples_across)",
+    breaks_where="nearly horizontal or vertical edges: only n steps a pixel. n^2 times the work",
     takes=("resolve_filter", "samples_across"),
 )
 def supersample_by_n(samples_across: int) -> Sampling:
@@ -130,8 +130,8 @@ def supersample_by_n(samples_across: int) -> Sampling:
     "area",
     "Exact area",
     source="Catmull 1978; Carpenter 1984, The A-buffer",
-    exact_for="edges, overlaps and crossings of opaque triangles, and colours that change linearly",
-    breaks_where="textures, highlights and perspective within a piece: one colour stands for it",
+    exact_for="edges, overlaps and intersections of opaque triangles, and colours that change linearly",
+    breaks_where="textures, highlights and perspective within a piece: each piece has one colour",
 )
 def exact_area(samples_across: int) -> Sampling:
     """Cut pixels into pieces (`core.antialiasing.exact_area`)."""
@@ -143,8 +143,8 @@ def exact_area(samples_across: int) -> Sampling:
     "msaa-4",
     "Multisampling, 4 samples",
     source="OpenGL 4.6, 14.3.1 Multisampling; LMU 2020, Multisampling (MSAA)",
-    exact_for="edges, in quarters of a pixel",
-    breaks_where="what lies inside triangles (textures, highlights), and colours that extrapolate beyond an edge",
+    exact_for="edges, with area in steps of 1/4 pixel",
+    breaks_where="details inside triangles (textures, highlights), and colours extrapolated beyond an edge",
     takes=("resolve_filter",),
 )
 def multisample(samples_across: int) -> Sampling:

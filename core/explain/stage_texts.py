@@ -87,7 +87,7 @@ class MethodText:
     def tooltip(self) -> str:
         """All of it, a line each."""
         lines = [self.title, f"Source: {self.source}", f"Exact for: {self.exact_for}"]
-        return "\n".join(lines + ([f"Breaks where: {self.breaks_where}"] if self.breaks_where else []))
+        return "\n".join(lines + ([f"Breaks: {self.breaks_where}"] if self.breaks_where else []))
 
 
 class DepthText(NamedTuple):

@@ -183,8 +183,9 @@ def interpolate_affine_at(
     "affine",
     "Affine (screen-linear)",
     source="Jubair, Barycentric interpolation; Zwicker 2016, Observation",
-    exact_for="triangles of one w",
-    breaks_where="w differs between corners: the error grows to (sqrt r - 1)/(sqrt r + 1) of the edge",
+    exact_for="triangles with the same w at all corners",
+    breaks_where="corners with different w: for a ratio r, the error grows to (sqrt r - 1)/(sqrt r + 1) of the "
+    "edge",
     needs=("positive-w",),
     listing=interpolate_affine_at,
     operations={"affine": _SUMMED},
@@ -211,7 +212,7 @@ def take_provoking_value(provoking: int, values: Floats) -> tuple[list[float], f
     "flat",
     "Flat (one corner's value)",
     source="OpenGL 4.6, 13.4 Flatshading",
-    exact_for="values of one corner",
+    exact_for="attributes that are constant over a triangle",
     takes=("provoking",),
     listing=take_provoking_value,
     operations={"flat": (Operation("weights", "weights", ("weights",)),)},
@@ -230,7 +231,9 @@ def last_corner() -> int:
     return 2
 
 
-@method("provoking", "first", "First", source="OpenGL 4.6, 13.4; Vulkan's default", exact_for="Vulkan")
+@method(
+    "provoking", "first", "First", source="OpenGL 4.6, 13.4; Vulkan's default", exact_for="Vulkan's default"
+)
 def first_corner() -> int:
     """Return the corner whose value a flat triangle takes."""
     return 0

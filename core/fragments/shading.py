@@ -57,7 +57,7 @@ LightRule = Callable[[Floats, Floats, Integers], tuple[Floats, Floats]]
     "Phong (per fragment)",
     source="Phong 1975; Pellacini, Phong shading",
     exact_for="surfaces whose normals are the interpolated ones",
-    breaks_where="the outline stays a polygon, and light can come from below the surface",
+    breaks_where="silhouettes: they stay polygons. Light can come from below the surface",
     traits="fragments",
 )
 def phong(
@@ -90,7 +90,7 @@ def phong(
     "Gouraud (per vertex)",
     source="Gouraud 1971; Pellacini, Gouraud shading; Jubair, Per-vertex shading",
     exact_for="matte surfaces of small triangles",
-    breaks_where="a highlight smaller than a triangle: it is lost, or jumps from vertex to vertex",
+    breaks_where="highlights smaller than a triangle: they are lost, or jump from vertex to vertex",
     traits="vertices",
 )
 def gouraud(
@@ -112,7 +112,7 @@ def gouraud(
     "Flat (per face)",
     source="Pellacini, flat shading",
     exact_for="polyhedra under distant light",
-    breaks_where="curved surfaces look faceted",
+    breaks_where="curved surfaces: they look faceted",
     traits="faces",
 )
 def flat(
@@ -136,7 +136,7 @@ def flat(
     "unlit",
     "Unlit",
     source="colour as given",
-    exact_for="pictures that contain their light",
+    exact_for="colours that include their light",
     traits="nothing",
 )
 def unlit(

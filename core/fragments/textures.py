@@ -32,7 +32,11 @@ Wrap = Callable[[Integers, int], Integers]
 
 
 @method(
-    "wrap", "repeat", "Repeat", source="OpenGL 4.6, GL_REPEAT", exact_for="textures whose sides fit together"
+    "wrap",
+    "repeat",
+    "Repeat",
+    source="OpenGL 4.6, GL_REPEAT",
+    exact_for="textures whose opposite sides match",
 )
 def repeat(index: Integers, size: int) -> Integers:
     """Start again at the other side: ``index`` modulo ``size``, never negative."""
@@ -48,7 +52,7 @@ def repeat(index: Integers, size: int) -> Integers:
     "Clamp to edge",
     source="OpenGL 4.6, GL_CLAMP_TO_EDGE",
     exact_for="coordinates from 0 to 1",
-    breaks_where="the border texel is smeared over everything outside",
+    breaks_where="coordinates outside 0 to 1: the border texel is repeated",
 )
 def clamp(index: Integers, size: int) -> Integers:
     """Go on with the border texel."""
@@ -127,7 +131,7 @@ def bilinear_color(
     "Bilinear",
     source="Zwicker 2016, Bilinear interpolation",
     exact_for="textures that are linear between texel centres",
-    breaks_where="a pixel covers many texels: aliasing; much magnified: creases at texel centres",
+    breaks_where="minification: aliasing. Strong magnification: creases at texel centres",
     listing=bilinear_color,
     operations=texel_operations("columns"),
 )
@@ -168,7 +172,7 @@ def nearest_color(
     "Nearest texel",
     source="Zwicker 2016, Nearest-neighbor interpolation",
     exact_for="textures that are constant over each texel",
-    breaks_where="a pixel covers many texels: aliasing; magnified: blocks",
+    breaks_where="minification: aliasing. Magnification: blocks",
     listing=nearest_color,
     operations=texel_operations("column"),
 )

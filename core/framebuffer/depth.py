@@ -112,8 +112,8 @@ def not_behind_eye(inverse_w: Floats) -> Singles:
     "z-float32",
     "z in [0, 1], float32",
     source="OpenGL 4.6, DEPTH_COMPONENT32F; Pellacini, which z distance",
-    exact_for="order, to the spacing of float32",
-    breaks_where="near the far plane: the values crowd towards 1",
+    exact_for="depth order, to the spacing of float32",
+    breaks_where="surfaces near the far plane: values crowd towards 1",
 )
 def z_float32() -> DepthFormat:
     """Store the window depth."""
@@ -126,8 +126,8 @@ def z_float32() -> DepthFormat:
     "inverse-w",
     "1/w, float32",
     source="Zwicker 2016, Z-buffering",
-    exact_for="order, to the spacing of float32",
-    breaks_where="orthographic cameras: it is constant",
+    exact_for="depth order, to the spacing of float32",
+    breaks_where="orthographic cameras: 1/w is constant",
     needs=("perspective",),
 )
 def inverse_w() -> DepthFormat:

@@ -64,8 +64,8 @@ def unsigned_format(bits: int) -> DepthFormat:
     "z-24",
     "z in 24 bits",
     source="OpenGL 4.6, DEPTH_COMPONENT24: round(z (2^24 - 1)), half to even",
-    exact_for="order, to 2^-24 of z, at every z alike",
-    breaks_where="far from the eye: z crowds towards 1, and most of the steps lie near the near plane",
+    exact_for="depth order, to 2^-24 of z, the same at every z",
+    breaks_where="surfaces far from the eye: z crowds towards 1, and most of the steps lie near the near plane",
     listing=unsigned_depth,
 )
 def z_24() -> DepthFormat:
@@ -78,8 +78,8 @@ def z_24() -> DepthFormat:
     "z-16",
     "z in 16 bits",
     source="OpenGL 4.6, DEPTH_COMPONENT16: round(z (2^16 - 1)), half to even",
-    exact_for="order, to 2^-16 of z, at every z alike",
-    breaks_where="surfaces close to each other, at a few hundred times the near distance already",
+    exact_for="depth order, to 2^-16 of z, the same at every z",
+    breaks_where="surfaces close to each other, already at a few hundred times the near distance",
     listing=unsigned_depth,
 )
 def z_16() -> DepthFormat:
@@ -102,8 +102,8 @@ def reversed_depth_along(t: float, start: float, end: float) -> float:
     "reversed-z",
     "Reversed z, float32",
     source="Lapidous and Jiao 1999; Reed, Depth precision visualized, 2015",
-    exact_for="order, to 2^-24 of the distance, at every distance alike",
-    breaks_where="cameras without perspective, and clip positions whose z is rounded already: no more than z-float32",
+    exact_for="depth order, to 2^-24 of the distance, the same at every distance",
+    breaks_where="cameras without perspective, and clip positions with rounded z: no better than z-float32",
     listing=share_of_depth,
 )
 def reversed_z() -> DepthFormat:
@@ -144,8 +144,8 @@ def logarithm_of_w(inverse_w: float, near: float, far: float) -> float:
     "logarithmic",
     "Logarithm of w, float32",
     source="Kemen (Outerra), Logarithmic depth buffer, 2009: log2(w/near) / log2(far/near), here at every pixel",
-    exact_for="order, to 2^-24 log2(far/near) octaves of the distance, at every distance alike",
-    breaks_where="orthographic cameras: w is constant; clip positions beyond w = 2^-16 to 2^16",
+    exact_for="depth order, to 2^-24 log2(far/near) octaves of the distance, the same at every distance",
+    breaks_where="orthographic cameras: w is constant. Clip positions with w below 2^-16 or above 2^16",
     needs=("perspective",),
     listing=share_of_depth,
 )

@@ -111,9 +111,9 @@ def in_units(depth: Floats) -> Floats:
     "fixed-38",
     "z on integer planes, 38 bits",
     source="OpenGL 4.6, DEPTH_COMPONENT32; planes through snapped corners as in Mesa's rasterizers",
-    exact_for="order, to 2^-27 of z in triangles of up to 2,048 pixels, at every z alike",
-    breaks_where="more than 16 million triangles; surfaces nearer to each other than that: far from the eye, where z "
-    "crowds towards 1, though farther than with 24 bits",
+    exact_for="depth order, to 2^-27 of z in triangles of up to 2,048 pixels, the same at every z",
+    breaks_where="more than 16 million triangles. Surfaces closer to each other than 2^-27 of z: far from the eye "
+    "z crowds towards 1, though farther away than with 24 bits",
 )
 def fixed_38() -> DepthFormat:
     """Store the window depth in units of 2^-38."""

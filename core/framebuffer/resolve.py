@@ -32,7 +32,7 @@ AROUND = (-1, 0, 1)
     "Box (mean of the pixel's samples)",
     source="LMU 2020, Supersampling; OpenGL 4.6, 18.3.1 (resolving by BlitFramebuffer)",
     exact_for="the mean over the pixel's square, as the number of samples grows",
-    breaks_where="fine regular patterns: beats stay visible",
+    breaks_where="fine regular patterns: moiré stays visible",
 )
 def box(distance: Floats) -> Floats:
     """Return the weights (S,) of samples at distances along one axis from the pixel's centre, in pixels."""
@@ -44,8 +44,8 @@ def box(distance: Floats) -> Floats:
     "tent",
     "Tent (samples of the neighbours too)",
     source="Glassner 1995, 10.6; Jubair, Antialiasing, weighted masks",
-    exact_for="pictures that change linearly, and one colour at the border",
-    breaks_where="it blurs: details of one pixel spread over three",
+    exact_for="linear gradients, and a constant colour at the border",
+    breaks_where="sharp details: one pixel spreads over three",
 )
 def tent(distance: Floats) -> Floats:
     """Return 1 at the centre, falling to 0 one pixel away. Arguments as in `box`."""

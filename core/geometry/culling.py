@@ -105,7 +105,7 @@ def cull_none(facing: Floats) -> Flags:
     "Back faces",
     source="LMU 2020, Culling; Jubair, Backface culling",
     exact_for="closed surfaces seen from outside",
-    breaks_where="open surfaces: their backs vanish",
+    breaks_where="open surfaces: their back faces vanish",
 )
 def cull_back(facing: Floats) -> Flags:
     """Drop clockwise triangles. (T,) facing to (T,) bool."""
@@ -117,8 +117,8 @@ def cull_back(facing: Floats) -> Flags:
     "front",
     "Front faces",
     source="OpenGL 4.6, 14.6.1",
-    exact_for="insides of closed surfaces",
-    breaks_where="everything that is meant to be seen from the front",
+    exact_for="closed surfaces seen from inside",
+    breaks_where="surfaces seen from outside: their front faces vanish",
 )
 def cull_front(facing: Floats) -> Flags:
     """Drop counter-clockwise triangles. (T,) facing to (T,) bool."""

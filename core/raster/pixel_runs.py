@@ -76,7 +76,7 @@ class Raster:
     "half",
     "At (i + 1/2, j + 1/2)",
     source="Zwicker 2016, Where is the center of a pixel?",
-    exact_for="OpenGL",
+    exact_for="OpenGL's convention",
 )
 def half() -> float:
     """Return the offset of a pixel's centre."""
@@ -89,7 +89,7 @@ def half() -> float:
     "At (i, j)",
     source="Pellacini, rasterization: pixel centered at integer coordinates",
     exact_for="its own convention",
-    breaks_where="moves the picture by half a pixel against OpenGL",
+    breaks_where="pictures compared with OpenGL: everything moves by half a pixel",
 )
 def integer() -> float:
     """Return the offset of a pixel's centre."""

@@ -25,7 +25,7 @@ def filled() -> bool:
     "Wireframe",
     source="OpenGL 4.6, 14.6.4 (POLYGON_MODE LINE); Pellacini, Interactive Graphics, lines",
     exact_for="outlines of triangles in front of the eye, as exact as the line method",
-    breaks_where="edges seen end-on and triangles seen edge-on vanish; edges that two triangles share are drawn twice",
+    breaks_where="edges seen end-on and triangles seen edge-on: they vanish. Shared edges: they are drawn twice",
     needs=("projected",),
     takes=(
         "line",

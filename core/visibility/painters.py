@@ -18,7 +18,7 @@ from core.records.primitives import DrawingOrder
     "z-buffer",
     "Z-buffer",
     source="Catmull 1974; Zwicker 2016, Z-buffering",
-    exact_for="opaque triangles, to the spacing of the depth format",
+    exact_for="opaque triangles, to the resolution of the depth format",
 )
 def z_buffer(clip: Floats) -> DrawingOrder:
     """Draw as given; a fragment is kept where it is nearer than what is there."""
@@ -30,7 +30,7 @@ def z_buffer(clip: Floats) -> DrawingOrder:
     "last-drawn",
     "Depth test off (last drawn wins)",
     source="OpenGL 4.6, DEPTH_TEST disabled",
-    exact_for="triangles given from back to front",
+    exact_for="triangles drawn from back to front",
     breaks_where="any other order",
 )
 def last_drawn(clip: Floats) -> DrawingOrder:
@@ -44,7 +44,7 @@ def last_drawn(clip: Floats) -> DrawingOrder:
     "Painter's algorithm",
     source="Newell, Newell and Sancha 1972 (without splitting); Zwicker 2016",
     exact_for="triangles that do not overlap in depth",
-    breaks_where="intersecting triangles, cycles, a large triangle beside a small one",
+    breaks_where="intersecting triangles, cyclic overlaps, a large triangle beside a small one",
 )
 def painters(clip: Floats) -> DrawingOrder:
     """Draw from far to near by the mean depth of the corners; level ones stay in drawing order.

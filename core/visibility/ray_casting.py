@@ -33,8 +33,8 @@ FIRST, BY_FLOATS, EXACTLY = 0, 1, 2
     "ray-casting",
     "Ray casting (exact)",
     source="Appel 1968; Pellacini, Raytracing",
-    exact_for="opaque triangles in any order: compared exactly, without a depth buffer",
-    breaks_where="triangles in one plane: a tie keeps the first one drawn",
+    exact_for="opaque triangles in any order: depths are compared exactly, without a depth buffer",
+    breaks_where="coplanar triangles: a tie keeps the first one drawn",
 )
 def ray_casting(clip: Floats) -> DrawingOrder:
     """Take the triangles as given; a hit is kept where it is nearer than the nearest so far."""

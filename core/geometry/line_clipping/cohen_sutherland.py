@@ -66,9 +66,10 @@ def cohen_sutherland_listing(
     "cohen-sutherland",
     "Cohen-Sutherland",
     source="Newman and Sproull 1973 (Cohen, Sutherland 1967); LMU 2020, Clipping",
-    exact_for="segments wholly inside, or outside one edge; elsewhere ends within 4 ulp of the largest coordinate",
-    breaks_where="segments that cross an edge within rounding of a corner: the rounded new end decides; a clipped "
-    "Bresenham line starts at another pixel and may choose others than the unclipped one",
+    exact_for="segments entirely inside, or outside one edge; otherwise new ends are within 4 ulp of the "
+    "largest coordinate",
+    breaks_where="segments that cross an edge within rounding of a corner: the rounded new end decides. A clipped "
+    "Bresenham line starts at another pixel and may choose other pixels",
     needs=("rectangle",),
     listing=cohen_sutherland_listing,
 )

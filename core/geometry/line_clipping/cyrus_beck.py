@@ -61,10 +61,10 @@ def cyrus_beck_listing(
     "cyrus-beck",
     "Cyrus-Beck",
     source="Cyrus and Beck 1978; Jubair, Cyrus-Beck Parametric Line Clipping Algorithm",
-    exact_for="segments well inside or outside any convex window; elsewhere ends within 4 ulp of the largest "
-    "coordinate unless the segment is nearly parallel to the edge",
-    breaks_where="new ends may lie beside the edge by rounding; segments nearly parallel to a slanted edge; a clipped "
-    "Bresenham line may choose other pixels than the unclipped one",
+    exact_for="segments well inside or outside any convex window; otherwise new ends are within 4 ulp of the "
+    "largest coordinate, unless the segment is nearly parallel to the edge",
+    breaks_where="segments nearly parallel to a slanted edge. Rounding may put a new end beside the edge. A "
+    "clipped Bresenham line may choose other pixels",
     listing=cyrus_beck_listing,
 )
 def cyrus_beck(segments: Floats, window: ClipWindow) -> ClippedLines:
@@ -77,8 +77,8 @@ def cyrus_beck(segments: Floats, window: ClipWindow) -> ClippedLines:
     "cyrus-beck-lecture",
     "Cyrus-Beck, as printed (Jubair)",
     source="Jubair, Cyrus-Beck Algorithm",
-    exact_for="segments that are parallel to no edge",
-    breaks_where="a segment parallel to an edge and outside of it is kept",
+    exact_for="segments parallel to no edge",
+    breaks_where="segments parallel to an edge and outside it: they are kept",
     listing=cyrus_beck_listing,
 )
 def cyrus_beck_lecture(segments: Floats, window: ClipWindow) -> ClippedLines:

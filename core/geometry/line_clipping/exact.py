@@ -74,8 +74,9 @@ def exact_listing(
     "exact",
     "Exact signs",
     source="Yap 1997, exact geometric computation; Cyrus and Beck 1978",
-    exact_for="every segment and every convex window, ties and corners too; new ends are correctly rounded",
-    breaks_where="a clipped Bresenham line starts at another pixel and may choose others than the unclipped one",
+    exact_for="every segment and every convex window, including ties and corners; new ends are correctly "
+    "rounded",
+    breaks_where="clipped Bresenham lines: they start at another pixel and may choose other pixels",
     listing=exact_listing,
 )
 def exact_clipping(segments: Floats, window: ClipWindow) -> ClippedLines:

@@ -56,9 +56,10 @@ def liang_barsky_listing(
     "liang-barsky",
     "Liang-Barsky",
     source="Liang and Barsky 1984; LMU 2020, Liang-Barsky Algorithm",
-    exact_for="segments wholly inside or outside; elsewhere ends within 4 ulp of the largest coordinate",
-    breaks_where="segments that pass a corner within rounding; a clipped Bresenham line starts at another pixel and "
-    "may choose others than the unclipped one",
+    exact_for="segments entirely inside or outside; otherwise new ends are within 4 ulp of the largest "
+    "coordinate",
+    breaks_where="segments that pass a corner within rounding. A clipped Bresenham line starts at another pixel "
+    "and may choose other pixels",
     needs=("rectangle",),
     listing=liang_barsky_listing,
 )

@@ -167,7 +167,7 @@ def need_rectangle(window: ClipWindow, name: str) -> None:
     "None: pixels outside are dropped",
     source="Pellacini, Interactive Graphics, line clipping: or test every pixel",
     exact_for="every segment: the pixels are those of the whole line",
-    breaks_where="work is spent on pixels that nobody sees",
+    breaks_where="long lines: time is spent on pixels outside the window",
 )
 def no_line_clipping(segments: Floats, window: ClipWindow) -> ClippedLines:
     """Leave segments (L, 2, 2) as they are."""

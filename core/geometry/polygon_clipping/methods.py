@@ -61,7 +61,7 @@ def no_clipping() -> PolygonClipping:
     "Sutherland-Hodgman, six planes",
     source="Sutherland and Hodgman 1974; Pellacini, polygon clipping",
     exact_for="any signs of w",
-    breaks_where="new corners are snapped again: edges turn by up to 1/256 pixel",
+    breaks_where="new corners, which are snapped again: edges turn by up to 1/256 pixel",
 )
 def six_planes() -> PolygonClipping:
     """Return how polygons are clipped: against all six planes, new corners from the inside end."""
@@ -74,8 +74,8 @@ def six_planes() -> PolygonClipping:
     "Sutherland-Hodgman, in sequence",
     source="Sutherland and Hodgman 1974; Pellacini, polygon clipping: clip each point in sequence",
     exact_for="any signs of w, up to rounding",
-    breaks_where="two triangles go along their common edge in opposite directions and get new corners that differ by "
-    "rounding: a crack or a double hit where one lies on a snapping step's border",
+    breaks_where="shared edges: two triangles clip them in opposite directions, so their new corners differ by "
+    "rounding. At the border between two snapping steps, this makes a crack or a double hit",
 )
 def in_sequence() -> PolygonClipping:
     """Return how polygons are clipped: against all six planes, new corners from the edge's start."""
@@ -88,8 +88,8 @@ def in_sequence() -> PolygonClipping:
     "After the division by w",
     source="the naive order; Blinn and Newell, Clipping using homogeneous coordinates, 1978, on why not",
     exact_for="triangles with all w > 0",
-    breaks_where="w < 0: the division mirrors the corner through the eye and the wrong part of the triangle is drawn; "
-    "w = 0: the triangle is left out",
+    breaks_where="w < 0: the division mirrors the corner through the eye, and the wrong part of the triangle is "
+    "drawn. w = 0: the triangle is dropped",
     needs=("positive-w",),
 )
 def after_division() -> PolygonClipping:
@@ -103,7 +103,8 @@ def after_division() -> PolygonClipping:
     "Project first, no clipping",
     source="the naive order without clipping; Zwicker 2016, on w through 0",
     exact_for="triangles with all w > 0",
-    breaks_where="w < 0: the corner is mirrored through the eye and the wrong triangle is drawn; w = 0: it is left out",
+    breaks_where="w < 0: the corner is mirrored through the eye, and the wrong triangle is drawn. w = 0: the "
+    "triangle is dropped",
     needs=("positive-w",),
 )
 def project_first() -> PolygonClipping:

@@ -20,7 +20,7 @@ from core.records.arrays import Flags, Floats
     "shared-edge",
     "Left and bottom edges (top-left rule, y up)",
     source="Zwicker 2016, Shared edges; OpenGL 4.6, 14.6.1",
-    exact_for="meshes: every pixel of a shared edge once",
+    exact_for="meshes: every pixel on a shared edge is drawn once",
 )
 def shared_edge(a: Floats, b: Floats) -> Flags:
     """Own the left edges and the level bottom edges. (P, 3) coefficients to (P, 3) bool."""
@@ -33,7 +33,7 @@ def shared_edge(a: Floats, b: Floats) -> Flags:
     "Inclusive (>= 0)",
     source="Jubair, Triangle Rasterization 3/7: weights in [0, 1]",
     exact_for="triangles that share no edge",
-    breaks_where="a pixel centre on a shared edge is drawn twice",
+    breaks_where="pixel centres on a shared edge: they are drawn twice",
 )
 def inclusive(a: Floats, b: Floats) -> Flags:
     """Own every edge."""
@@ -46,7 +46,7 @@ def inclusive(a: Floats, b: Floats) -> Flags:
     "Exclusive (> 0)",
     source="Jubair, Triangle Rasterization 4/7: weights above 0",
     exact_for="triangles without a pixel centre on an edge",
-    breaks_where="a pixel centre on a shared edge is a hole",
+    breaks_where="pixel centres on a shared edge: they are holes",
 )
 def exclusive(a: Floats, b: Floats) -> Flags:
     """Own no edge."""

@@ -86,8 +86,9 @@ def draw_top(
     "scanline-lecture",
     "Scanline, as printed (LMU)",
     source="LMU 2020, Scan line algorithm for triangles",
-    exact_for="nothing: rounded corners",
-    breaks_where="shared edges (both drawn), flat sides (lost), level first and last corner (division by zero)",
+    exact_for="no triangle in general: corners are rounded",
+    breaks_where="shared edges (drawn twice), flat sides (lost), first and last corner at the same height "
+    "(division by zero)",
     needs=("projected",),
     listing=draw_triangle,
     traits=FillTraits(group_label="Span", span_row="line"),

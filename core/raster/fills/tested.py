@@ -85,8 +85,10 @@ def brute_force(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: 
     "incremental",
     "Bounding box, by additions",
     source="J. Pineda, A parallel algorithm for polygon rasterization, 1988",
-    exact_for="numbers whose sums are exact: int64, exact, and snapped where an end of every edge is before the eye",
-    breaks_where="sums that are rounded (float64 not snapped, float32, float16, inverse) drift along rows and columns",
+    exact_for="numbers with exact sums: int64, exact, and snapped where every edge has an end in front of the "
+    "eye",
+    breaks_where="rounded sums (float64 not snapped, float32, float16, inverse): values drift along rows and "
+    "columns",
 )
 def incremental(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Test every pixel of the box around the triangle, from the values of its neighbour."""

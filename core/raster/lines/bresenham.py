@@ -125,8 +125,8 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     "bresenham",
     "Bresenham, integers",
     source="J. E. Bresenham, Algorithm for computer control of a digital plotter, 1965",
-    exact_for="ends on pixel centres: always the nearest pixel; a tie steps",
-    breaks_where="other ends are moved to the pixel they lie in; drawn backwards, a tie takes the other one",
+    exact_for="ends on pixel centres: always the nearest pixel. A tie takes the diagonal step",
+    breaks_where="other ends: they move to the centre of their pixel. Drawn backwards, a tie takes the other pixel",
     listing=bresenham_listing,
     operations=line_rows("bresenham", (OCTANT, _LENGTHS, PLOT), _TESTED),
     traits=LineTraits(takes_pixels=True, coefficients=no_coefficients, find_pixels=find_line_pixels),
@@ -168,9 +168,9 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     "Bresenham, as printed (LMU)",
     source="LMU, Computer Graphics 1, Task 1 g) Bresenham (complete version)",
     exact_for="ends on pixel centres: always a nearest pixel, the same in both directions",
-    breaks_where="not symmetric: ends are swapped to run left to right or bottom to top and a tie stays "
-    "(D > 0), so a mirrored line is not the mirror image; the last pixel is always drawn, so lines that "
-    "share an end draw it twice",
+    breaks_where="mirrored lines: ends are swapped to run left to right or bottom to top, and a tie takes the "
+    "straight step (D > 0), so the line is not the mirror image. Lines that share an end: the last "
+    "pixel is always drawn, so both draw it",
     listing=bresenham_lecture_listing,
     operations=line_rows("bresenham-lecture", (OCTANT, _LENGTHS, PLOT), _TESTED),
     traits=LineTraits(takes_pixels=True, is_diagonal_steep=True, coefficients=no_coefficients),
@@ -215,9 +215,9 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     "bresenham-float",
     "Bresenham, float error",
     source="LMU, Computer Graphics 1, Bresenham Algorithm: error e and slope m",
-    exact_for="ends on pixel centres: a nearest pixel, up to the rounding of e; a tie stays",
-    breaks_where="e gathers rounding errors, so at ties it may fall either way; other ends are moved to the "
-    f"pixel they lie in; more than {STEP_LIMIT} steps are refused",
+    exact_for="ends on pixel centres: a nearest pixel, up to the rounding of e. A tie takes the straight step",
+    breaks_where="ties: e accumulates rounding errors, so a tie may go either way. Other ends move to the centre "
+    f"of their pixel. More than {STEP_LIMIT} steps are refused",
     listing=bresenham_float_listing,
     operations=line_rows(
         "bresenham-float", (OCTANT, Operation("slope", "slope", ("run", "rise", "slope")), PLOT), _TESTED

@@ -160,8 +160,8 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
     "Midpoint, line equation per column",
     source="Pellacini, Interactive Graphics, Midpoint line rasterization",
     exact_for="any ends: the pixel nearest to the line in every column, up to the rounding of m x + b",
-    breaks_where="a tie always goes up (steep: right), so a mirrored line is not the mirror image; far from "
-    "the origin m x + b loses digits",
+    breaks_where="ties: they always go up (steep lines: right), so a mirrored line is not the mirror image. Far "
+    "from the origin, m x + b loses digits",
     listing=midpoint_listing,
     operations=line_rows("midpoint", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), (EVALUATE, ROUND, PLOT)),
 )
@@ -194,9 +194,9 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
     "dda",
     "DDA, slope added per column",
     source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization",
-    exact_for="any ends whose slope is a short binary fraction: then equal to midpoint",
-    breaks_where="the rounding errors of the sums grow along the line: at ties, and on long lines near them, "
-    "the neighbour is drawn",
+    exact_for="slopes that are short binary fractions, with any ends: the same pixels as midpoint",
+    breaks_where="ties, and near ties on long lines: the rounding errors of the sums grow along the line, and the "
+    "neighbouring pixel is drawn",
     listing=dda_listing,
     operations=line_rows("dda", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
 )
@@ -249,9 +249,10 @@ def float32_coefficients(ends: Floats) -> Coefficients:
     "dda-float32",
     "DDA, slope added in float32",
     source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization, in 32 bits",
-    exact_for="short lines near the origin, but for ties",
-    breaks_where="long lines: all sums of one binade are rounded alike, so the line drifts by whole pixels over "
-    f"thousands of columns, and the more the farther it is from the origin; more than {STEP_LIMIT} steps are refused",
+    exact_for="short lines near the origin, except at ties",
+    breaks_where="long lines: all sums between two powers of two are rounded alike, so the line drifts by whole "
+    f"pixels over thousands of columns, more so far from the origin. More than {STEP_LIMIT} steps are "
+    "refused",
     listing=dda_float32_listing,
     operations=line_rows("dda-float32", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
     traits=LineTraits(coefficients=float32_coefficients),

@@ -200,10 +200,10 @@ def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel:
     "diamond-exit",
     "Diamond exit (OpenGL)",
     source="OpenGL 4.6, 14.5.1 Basic Line Segment Rasterization",
-    exact_for="any ends: OpenGL's rule for the line through the ends snapped to 1/256 pixel; both directions "
+    exact_for="any ends: OpenGL's rule for the line through the ends snapped to 1/256 pixel. Both directions "
     "take the same pixel at a tie",
-    breaks_where="ties follow the window's axes, so a mirrored line is not the mirror image; segments of "
-    "a few 1/256 pixel may be turned by the snapping and lost",
+    breaks_where="ties: they follow the window's axes, so a mirrored line is not the mirror image. Snapping may "
+    "turn segments of a few 1/256 pixel, and they are lost",
     listing=diamond_exit_listing,
     operations=line_rows("diamond-exit", (OCTANT, *_EXIT), _EXIT),
 )

@@ -238,10 +238,10 @@ def _ends_in_pixels(segments: Segments) -> Floats:
     "rectangle",
     "Rectangle, point-sampled",
     source="Pellacini, Interactive Graphics, Point-sampled line rasterization",
-    exact_for="the rectangle one pixel wide around the segment, its ends snapped to 1/256 pixel: exactly the pixels "
-    "whose centre it contains",
-    breaks_where="its thickness changes with the angle: sloping lines have two pixels in some columns; lines that meet "
-    "at a corner leave a notch; many inside tests",
+    exact_for="the one-pixel-wide rectangle around the segment, with ends snapped to 1/256 pixel: exactly the "
+    "pixels whose centre it contains",
+    breaks_where="sloping lines: some columns have two pixels. Lines that meet at a corner leave a notch. Many "
+    "inside tests",
     listing=rectangle_listing,
     operations=line_rows(
         "rectangle", (OCTANT, Operation("length", "width", ("run", "rise", "length")), *_INSIDE), _INSIDE

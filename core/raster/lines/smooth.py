@@ -237,10 +237,10 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     "wu",
     "Xiaolin Wu, two intensities",
     source="X. Wu, An efficient antialiasing technique, 1991; LMU, Computer Graphics 1, Task 1 h)",
-    exact_for="the sum: 1 in every column, and in part of a column as much as the segment spans of it; level, upright "
-    "and diagonal lines between pixel centres are crisp",
-    breaks_where="the sum is 1 at every angle, so diagonals, longer for each column, look paler and thinner; level "
-    "lines look sharp or blurred by where they lie between the pixels",
+    exact_for="the sum of intensities: 1 in a full column, and the spanned part of a column at the ends. "
+    "Horizontal, vertical and diagonal lines from pixel centre to pixel centre are crisp",
+    breaks_where="brightness: the sum is 1 at every angle, so diagonals, which are longer per column, look paler "
+    "and thinner. Horizontal lines look sharp or blurred, depending on their position between pixels",
     needs=(BLENDING,),
     listing=wu_listing,
     operations=line_rows("wu", (OCTANT, SLOPE, *_DIVIDED), _DIVIDED),
@@ -308,10 +308,10 @@ def _filter_columns(steps: LineSteps) -> dict[str, Floats | Integers]:
     "gupta-sproull",
     "Gupta-Sproull, cone filter",
     source="S. Gupta and R. F. Sproull, Filtering edges for gray-scale displays, 1981",
-    exact_for="the cone filter of a line one pixel wide, at distances that are whole sixteenths of a pixel; at every "
-    "angle equally bright within 3 %",
-    breaks_where="distances between are moved to the nearest sixteenth; sloping lines have a fourth pixel within reach "
-    "that is left out; ends are cut along the axis",
+    exact_for="the cone filter of a one-pixel-wide line, at distances in whole sixteenths of a pixel. "
+    "Brightness is equal at every angle within 3 %",
+    breaks_where="other distances: they are rounded to the nearest sixteenth. Sloping lines: a fourth pixel within"
+    " reach is left out. Ends are cut along the axis",
     needs=(BLENDING,),
     listing=gupta_sproull_listing,
     operations=line_rows(

@@ -149,7 +149,7 @@ EXACT = ExactFormat("exact", object, "homogeneous", "exact", "", bounds_outward=
     "exact",
     "Not snapped, exact",
     source="J. R. Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997",
-    exact_for="every triangle in clip space; every shared edge",
+    exact_for="every triangle in clip space, and every shared edge",
 )
 def exact() -> NumberFormat:
     """Return whole numbers of any length on the corners as they are."""

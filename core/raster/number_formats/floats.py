@@ -66,7 +66,7 @@ FLOAT16 = RoundedFormat("float16", np.float16, "rounded", "rounded", "float16", 
     "snapped",
     "Snapped to 1/256 pixel",
     source="OpenGL 4.6, 14.6.1 and GPU practice; F. Giesen, Triangle rasterization in practice, 2013",
-    exact_for="corners within 65,536 pixels; every shared edge",
+    exact_for="corners within 65,536 pixels, and every shared edge",
 )
 def snapped() -> NumberFormat:
     """Return float64 on corners snapped to 1/256 pixel, which holds every number exactly."""
@@ -78,8 +78,8 @@ def snapped() -> NumberFormat:
     "float64",
     "Not snapped, float64",
     source="M. Olano, T. Greer, Triangle scan conversion using 2D homogeneous coordinates, 1997",
-    exact_for="no promise: each edge is rounded by itself",
-    breaks_where="a pixel centre within rounding of an edge",
+    exact_for="no guaranteed case: each edge is rounded separately",
+    breaks_where="pixel centres within rounding of an edge",
 )
 def float64() -> NumberFormat:
     """Return float64 on the corners as they are."""
@@ -91,8 +91,8 @@ def float64() -> NumberFormat:
     "float32",
     "Not snapped, float32",
     source="IEEE 754-2019, binary32; Goldberg 1991",
-    exact_for="no promise: 24 bits for every product and sum",
-    breaks_where="a pixel centre near an edge that is long or far away: holes and double hits on shared edges",
+    exact_for="no guaranteed case: every product and sum has 24 bits",
+    breaks_where="pixel centres near a long or distant edge: holes and double hits on shared edges",
 )
 def float32() -> NumberFormat:
     """Return float32 on the corners as they are."""
@@ -105,7 +105,7 @@ def float32() -> NumberFormat:
     "Not snapped, float16",
     source="IEEE 754-2019, binary16; Goldberg 1991",
     exact_for="small whole numbers: products up to 2,048",
-    breaks_where="images of more than a few dozen pixels; products above 65,504 are infinite",
+    breaks_where="pictures of more than a few dozen pixels. Products above 65,504 become infinite",
 )
 def float16() -> NumberFormat:
     """Return float16 on the corners as they are."""

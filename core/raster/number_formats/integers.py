@@ -56,8 +56,9 @@ INT64 = FixedFormat(
     "fixed-24.8",
     "Fixed point 24.8, int32",
     source="F. Giesen, Triangle rasterization in practice, 2013; fixed-point rasterizers of the 1990s",
-    exact_for="triangles and pixels less than 128 pixels from each other",
-    breaks_where="a value of 32,768 square pixels or more wraps around: pixels are lost, others drawn outside",
+    exact_for="triangles and pixels less than 128 pixels apart",
+    breaks_where="values of 32,768 square pixels or more: they wrap around, so pixels are lost and others are "
+    "drawn outside",
     needs=("projected",),
 )
 def fixed_24_8() -> NumberFormat:
@@ -70,8 +71,8 @@ def fixed_24_8() -> NumberFormat:
     "int64",
     "Whole 1/256 pixels, int64",
     source="F. Giesen, Triangle rasterization in practice, 2013; softpipe and llvmpipe",
-    exact_for="triangles and pixels less than 8,388,608 pixels from each other",
-    breaks_where="a value of 2^47 square pixels or more wraps around",
+    exact_for="triangles and pixels less than 8,388,608 pixels apart",
+    breaks_where="values of 2^47 square pixels or more: they wrap around",
     needs=("projected",),
 )
 def int64() -> NumberFormat:

@@ -95,7 +95,7 @@ INVERSE = InverseFormat(
     "inverse",
     "3x3 inverse, float64",
     source="Olano and Greer 1997, as often programmed: with the inverse in place of the adjugate",
-    exact_for="no promise: each triangle divides its edges by a determinant of its own",
+    exact_for="no guaranteed case: each triangle divides its edges by its own determinant",
     breaks_where="shared edges (holes and double hits), slivers and triangles seen edge-on",
 )
 def inverse() -> NumberFormat:

@@ -53,7 +53,7 @@ def test_methods_have_texts(family: str) -> None:
         method = table.get(family, name)
         assert text.title == method.title
         assert f"Source: {method.source}" in text.tooltip
-        assert ("Breaks where" in text.tooltip) == bool(method.breaks_where)
+        assert ("Breaks: " in text.tooltip) == bool(method.breaks_where)
 
 
 def test_a_new_family_goes_by_its_own_name() -> None:
