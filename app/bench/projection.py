@@ -13,7 +13,7 @@ from app.bench.records import SUBPIXELS, Bytes, Floats, Integers, ViewedMesh, Wi
 
 @dataclass(frozen=True, eq=False)
 class Projected:
-    """The triangles of a mesh that face the eye; all of it must lie before the eye."""
+    """The triangles of a mesh that face the eye; all of it must lie in front of the eye."""
 
     triangle: Integers
     """(P,) int64 numbers in the mesh."""
@@ -34,7 +34,7 @@ def project(mesh: ViewedMesh) -> Projected:
     points = np.concatenate([mesh.positions, np.ones((len(mesh.positions), 1))], axis=1)
     clip = points @ (mesh.projection @ mesh.view).T
     if (clip[:, 3] <= 0).any():
-        raise ValueError("the mesh must lie before the eye")
+        raise ValueError("the mesh must lie in front of the eye")
     ndc = clip[:, :3] / clip[:, 3:]
     window = np.rint((ndc[:, :2] + 1) * np.array(mesh.size) / 2 * SUBPIXELS) / SUBPIXELS
     corners = window[mesh.triangles]

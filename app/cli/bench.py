@@ -16,7 +16,7 @@ EXAMPLES = """examples:
   rasterscope bench --quick --workload B C
   rasterscope bench -o docs         (writes benchmark.csv, benchmark.svg and benchmark.png there)
 
-Exit code: 0 measured, 1 the core did not draw what it should, or something could not be done, 2 wrong usage.
+Exit code: 0 measured, 1 a picture of the core was wrong, or something failed, 2 wrong usage.
 """
 ROUNDS, QUICK_ROUNDS = 9, 2
 
@@ -27,9 +27,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--workload", metavar="NAME", nargs="+", default=[], help="only these: A1 A2 B C D E F G H I"
     )
     parser.add_argument(
-        "--rounds", metavar="N", type=rounds_from_text, help=f"turns of every contender ({ROUNDS})"
+        "--rounds", metavar="N", type=rounds_from_text, help=f"rounds of measurement ({ROUNDS})"
     )
-    parser.add_argument("--quick", action="store_true", help=f"{QUICK_ROUNDS} rounds, to see whether it runs")
+    parser.add_argument("--quick", action="store_true", help=f"{QUICK_ROUNDS} rounds: a short trial run")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for table and chart; default: none")
 
 

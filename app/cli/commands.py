@@ -43,9 +43,9 @@ COMMANDS = (
 )
 
 EXAMPLES = """examples:
-  rasterscope                         open the window where it was left
+  rasterscope                         open the window with the last scene
   rasterscope teapot.obj              open a mesh
-  rasterscope lesson.rasterscope      open a state that was saved
+  rasterscope lesson.rasterscope      open a saved state
   rasterscope shared-edge             open a built-in scene
   rasterscope render cube -o cube.png --size 640x480 --set shading=gouraud
   rasterscope trace cube --triangle 3 --stage raster --format csv
@@ -57,7 +57,7 @@ scene; a file with the name of a command or scene opens as ./name.
 
 
 class UsageError(ValueError):
-    """The command line is not as it should be; the message is one line."""
+    """The command line is wrong; the message is one line."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -129,7 +129,7 @@ def _run_window(arguments: Sequence[str]) -> int:
         usage=f"{PROGRAM} [FILE]\n       {PROGRAM} COMMAND ...",
         description="Step through the rasterization pipeline, pixel by pixel, forwards and backwards.",
         epilog=f"commands ({PROGRAM} COMMAND --help explains each):\n{rows}\n{EXAMPLES}\n{FILES}\n"
-        "Exit code: 0 done, 1 something could not be done (one line on stderr says what), 2 wrong usage.",
+        "Exit code: 0 done, 1 failed (stderr has the reason in one line), 2 wrong usage.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )

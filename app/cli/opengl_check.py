@@ -10,7 +10,7 @@ EXAMPLES = """examples:
   rasterscope opengl-check
   rasterscope opengl-check single shared --count 100 --seed 7
 
-Exit code: 0 all families agree, 1 one does not, 2 there is no OpenGL to compare with, or wrong usage.
+Exit code: 0 all families agree, 1 a family differs, 2 OpenGL is not available, or wrong usage.
 """
 
 
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     parser.add_argument("families", metavar="FAMILY", nargs="*", help="kinds of cases; default: all")
     parser.add_argument("--count", metavar="N", type=int, default=25, help="cases of each family (25)")
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="other cases for another number (0)")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the random cases (0)")
 
 
 def run(options: argparse.Namespace) -> int:

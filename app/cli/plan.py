@@ -60,9 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rounds", metavar="N", type=rounds_from_text, default=ROUNDS, help=f"timed drawings ({ROUNDS})"
     )
-    add_settings(
-        parser, "what is to be drawn, not how well: wrap, polygon_mode, pixel_center, shading=unlit ..."
-    )
+    add_settings(parser, "what to draw, not its quality: wrap, polygon_mode, pixel_center, shading=unlit ...")
     parser.add_argument(
         "--corpus",
         metavar="N",

@@ -9,7 +9,7 @@ from app.cli.commands import UsageError
 from app.cli.window import load_qt
 from core import STAGES
 
-DESCRIPTION = """Save a picture of the window, as it shows FILE, without showing it."""
+DESCRIPTION = """Save a picture of the window with FILE open, without showing the window."""
 EXAMPLES = """examples:
   rasterscope screenshot shared-edge -o edge.png
   rasterscope screenshot teapot.obj -o teapot.png --theme dark --size 1600x1000
@@ -20,7 +20,7 @@ EXAMPLES = """examples:
   rasterscope screenshot teapot.obj -o plan.png --page plan
   rasterscope screenshot study-line-any-ends.json -o study.png
 
-A page other than step measures or runs its content, in fewer rounds than the window. A saved study or atlas is shown
+The other pages first measure or run their content, in fewer rounds than in the window. A saved study or atlas is shown
 unchanged.
 """
 PAGES = ("step", "compare", "stability", "plan")
@@ -69,16 +69,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--theme", choices=("light", "dark"), default="light", help="theme of the window (light)"
     )
+    parser.add_argument("--stage", choices=STAGES, metavar="NAME", help=f"stage to show: {', '.join(STAGES)}")
     parser.add_argument(
-        "--stage", choices=STAGES, metavar="NAME", help=f"stage that is shown: {', '.join(STAGES)}"
-    )
-    parser.add_argument(
-        "--step", metavar="N", type=step_from_text, help="operations of the stage that are done; default: all"
+        "--step",
+        metavar="N",
+        type=step_from_text,
+        help="number of operations done in the stage; default: all",
     )
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
-    parser.add_argument("--page", choices=PAGES, help="page that is shown (step)")
+    parser.add_argument("--page", choices=PAGES, help="page to show (step)")
     parser.add_argument(
-        "--show", metavar="NAME", help="family that page compare measures, or experiment that stability runs"
+        "--show", metavar="NAME", help="family (page compare) or experiment (page stability) to run"
     )
     parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
     parser.add_argument(

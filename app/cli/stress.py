@@ -17,7 +17,7 @@ from core.study.stability import Experiment, Outcome, experiments, stress
 from core.study.stability.shrink import shrink_cell
 
 DESCRIPTION = (
-    """Run every method of an experiment over a grid of parameters, and print what came of every run."""
+    """Run every method of an experiment over a grid of parameters, and print the outcome of every run."""
 )
 EXAMPLES = """examples:
   rasterscope stress --list
@@ -25,9 +25,9 @@ EXAMPLES = """examples:
   rasterscope stress shared-edges -o results
   rasterscope stress slivers --shrink coverage=float32 -o results
 
--o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink takes the first cell that fails, makes
-its triangles (its segment, its lit mesh) as few, short and small as they can be and still fail, and prints a test; with
--o the test (.py) and the scene (.rasterscope) are written too.
+-o writes stress-EXPERIMENT .csv, .json, .svg and .png into a folder. --shrink reduces the first
+failing cell to the smallest case that still fails (few triangles, short numbers) and prints it as a test. With -o it
+also writes the test (.py) and the scene (.rasterscope).
 """
 
 
@@ -40,7 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--list", action="store_true", help="list the experiments with their axes, methods and claims"
     )
     parser.add_argument("--shrink", metavar="METHOD", help="shrink the first failing cell of this method")
-    parser.add_argument("--seed", metavar="N", type=seed_from_text, default=0, help="of what is random (0)")
+    parser.add_argument(
+        "--seed", metavar="N", type=seed_from_text, default=0, help="seed of the random cases (0)"
+    )
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and maps; default: none")
 
 

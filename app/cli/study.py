@@ -16,7 +16,7 @@ from core.study.accuracy.family import chosen_dials
 from core.study.accuracy.speed_accuracy import ROUNDS
 
 DESCRIPTION = """Measure every method of a family on the same work: time, work counts and errors against an exact
-reference. A method that cannot do the work says why."""
+reference. If a method cannot do the work, the reason is printed."""
 EXAMPLES = """FAMILY is a setting such as fill or depth, or pipeline: a whole scene with one setting changed at a time.
 
 examples:
@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--no-growth", action="store_true", help="leave out how time grows with the work")
     parser.add_argument(
-        "--error", metavar="NAME", help="the error of the chart; default: the first of the family"
+        "--error", metavar="NAME", help="error on the chart; default: the first of the family"
     )
     parser.add_argument("--scene", metavar="FILE", help=f"for pipeline: {FILE_HELP}")
     add_settings(parser, "for pipeline: base settings; one is changed at a time")

@@ -44,7 +44,7 @@ class NearestFragments:
         self.primitive_bits = 63 - depth_format.nearness_bits
         if primitive_count >= 1 << self.primitive_bits:
             raise ValueError(
-                f"this depth method tells {(1 << self.primitive_bits) - 1} triangles apart, got {primitive_count}"
+                f"this depth method takes at most {(1 << self.primitive_bits) - 1} triangles, got {primitive_count}"
             )
         cleared = _cleared_key(depth_format)
         if uses_depth_test:

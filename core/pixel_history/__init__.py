@@ -73,7 +73,7 @@ def _check_sample(sample: int, settings: Settings) -> None:
     count = resolve(settings).sampling.count
     if count == 1:
         raise ValueError(
-            f"a pixel must have several samples to be asked of one, got antialiasing {settings.antialiasing}"
+            f"sample needs an antialiasing method with several samples, got {settings.antialiasing}"
         )
     if not 0 <= sample < count:
         raise ValueError(f"sample must be 0 to {count - 1}, got {sample}")

@@ -167,7 +167,7 @@ def _numbers(node: ast.expr, trace: StageTrace) -> Any:
     """Return numbers to calculate with; yes counts as 1."""
     value = np.asarray(_evaluate(node, trace))
     if value.dtype.kind not in "fiub":
-        raise ValueError(f"{ast.unparse(node)} is a text, one cannot calculate with it")
+        raise ValueError(f"{ast.unparse(node)} is a text and has no arithmetic")
     return value.astype(np.float64)
 
 

@@ -34,7 +34,7 @@ def read_texture(path: Path) -> Texture:
         content = path.read_bytes()
     except OSError as problem:
         raise ImageError(
-            "is not there" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
+            "does not exist" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
         ) from problem
     return decode_texture(content, path.name)
 

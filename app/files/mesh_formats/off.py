@@ -134,7 +134,7 @@ def read_lines(path: Path, report: Report) -> OffLines:
             number, line = next(lines)
             found.face(line.split())
     except StopIteration:
-        raise MeshFileError(f"{path.name} is cut short: it ends before all that it counts") from None
+        raise MeshFileError(f"{path.name} is cut short: it has fewer lines than its header counts") from None
     except ValueError as problem:
         raise MeshFileError(f"{path.name}, line {number}: {problem}") from problem
     return found

@@ -135,7 +135,7 @@ def test_a_missing_texture_of_a_ply_is_a_warning(tmp_path):
         [f"{line} 0 0" for line in LINES], MIXED_LINES, "x y z u v", "comment TextureFile no.png\n"
     )
     loaded = load_meshes(write(tmp_path / "a.ply", text))
-    assert loaded.warnings == ("texture no.png is not there; it is left out",)
+    assert loaded.warnings == ("texture no.png does not exist; it is left out",)
     assert loaded.meshes[0].texture is None
     assert loaded.meshes[0].uvs is not None
 
