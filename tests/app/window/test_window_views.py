@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QScrollArea
 from pytestqt.qtbot import QtBot
 
 from app.session.document import focus_on, open_document
@@ -157,3 +157,13 @@ def test_fitting_to_the_triangle_magnifies_it_in_the_3d_view_that_is_shown(windo
     window.run_action("fit_region")
     assert view.orbit().extent < whole.extent / 5
     assert np.allclose(view.orbit().target, scene.space.corners(700).mean(axis=0))
+
+
+def test_every_method_fits_into_the_left_column(window: MainWindow, qtbot: QtBot) -> None:
+    """A family's title is not so long that the choices beside it are cut off or must be scrolled."""
+    tabs = window.page.left_tabs
+    tabs.setCurrentIndex(1)
+    qtbot.waitUntil(window.page.settings_panel.isVisible)
+    area = tabs.currentWidget()
+    assert isinstance(area, QScrollArea)
+    assert area.horizontalScrollBar().maximum() == 0
