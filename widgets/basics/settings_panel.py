@@ -118,6 +118,7 @@ class SettingsPanel(QWidget):
             combo.setObjectName(setting.family)
             combo.activated.connect(self._choose)
             label = QLabel(setting.label, body)
+            label.setWordWrap(True)
             label.setBuddy(combo)
             grid.addWidget(label, row, 0)
             grid.addWidget(combo, row, 1)
