@@ -2,16 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from core.methods import table
-from core.scene import AnyScene, ClipScene
+from core.scene import AnyScene
 
-if TYPE_CHECKING:
-    from core.settings import Settings
-
-Reason = Callable[["Settings", AnyScene | None], str]
-"""Why a setting changes nothing with these settings and this scene, as a sentence; empty: it does."""
+Reason = Callable[[Any, AnyScene | None], str]
+"""Of settings and a scene: why a setting changes nothing with them, as a sentence; empty: it does."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -65,22 +61,3 @@ def number_field(
     """Declare a field of settings that is a number; ``applies`` are further fields of `WholeNumber`."""
     number = WholeNumber(title=title, limit=limit, offered=offered, label=label, **applies)
     return field(default=default, metadata={"field": number})
-
-
-def has_no_texture(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why textures do not matter."""
-    if scene is None:
-        return ""
-    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
-    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
-
-
-def has_no_light(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why light does not matter."""
-    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
-
-
-def draws_lines(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why an interval between corrections does not matter."""
-    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""

@@ -4,18 +4,28 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from core.families import (
-    Family,
-    SettingField,
-    WholeNumber,
-    choice,
-    draws_lines,
-    has_no_light,
-    has_no_texture,
-    number_field,
-)
+from core.families import Family, SettingField, WholeNumber, choice, number_field
 from core.methods import Method, ReplacedName, table
-from core.scene import AnyScene
+from core.scene import AnyScene, ClipScene
+
+
+def has_no_texture(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why textures do not matter."""
+    if scene is None:
+        return ""
+    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
+
+
+def has_no_light(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why light does not matter."""
+    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
+
+
+def draws_lines(settings: "Settings", scene: AnyScene | None) -> str:
+    """Return why an interval between corrections does not matter."""
+    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
+    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,9 @@ from app.views.scene_picture import (
 )
 from app.views.scene_worker import SceneWorker
 from app.views.view_space import ViewSpace, make_space, move_corner_to, thinned
-from core.explain.number_text import counted
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
+from core.records.words import counted
 from core.scene import AnyScene, Scene
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.frame_corner import FrameRate

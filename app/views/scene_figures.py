@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from core.explain.number_text import counted
 from core.fast_path import Route
 from core.fast_path.record import Coloring, Visibility
 from core.fast_path.workers import Sharing
 from core.records.frame import StageCount
+from core.records.words import counted
 from widgets.space.frame_corner import SizeChoice
 
 VISIBILITIES: dict[Visibility, str] = {

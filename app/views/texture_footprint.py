@@ -6,12 +6,12 @@ import numpy as np
 
 from app.session.session import Session
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
-from core.explain.number_text import counted
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import TextureSamples, sample_texture
 from core.records.arrays import Floats
+from core.records.words import counted
 from core.scene import ClipScene, Texture
 from core.trace import TraceSource
 from widgets.grid.buffer import number_text

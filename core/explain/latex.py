@@ -9,9 +9,6 @@ cache.
 import re
 from collections.abc import Sequence
 
-VERTEX_COUNT = 3
-"""Vertices, edges and weights are numbered 0, 1, 2; each number has its colour."""
-
 _TOKEN = re.compile(r"\\(?:[A-Za-z]+|.)|\s+|.", re.DOTALL)
 _OPENING = {"{", "(", "[", r"\{", r"\left", r"\begin", r"\lfloor", r"\lceil", r"\langle"}
 _CLOSING = {"}", ")", "]", r"\}", r"\right", r"\end", r"\rfloor", r"\rceil", r"\rangle"}

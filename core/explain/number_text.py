@@ -145,15 +145,3 @@ def pair_text(first: float, second: float) -> tuple[str, str]:
             break
         texts = number_text(first, digits), number_text(second, digits)
     return texts
-
-
-def joined(words: Sequence[str]) -> str:
-    """Join words as speech does: ``a``, ``a and b``, ``a, b and c``."""
-    if len(words) < 2:
-        return "".join(words)
-    return f"{', '.join(words[:-1])} and {words[-1]}"
-
-
-def counted(count: int, noun: str, plural: str = "") -> str:
-    """Write a count and its noun: ``1 pixel``, ``2 pixels``."""
-    return f"{count:,} {noun if count == 1 else plural or f'{noun}s'}"

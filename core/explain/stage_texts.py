@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from core.explain.number_text import counted
 from core.explain.records import StageCard
 from core.methods import table
 from core.records.steps import Level
+from core.records.words import counted
 from core.settings import FIELDS
 from core.stages.declared import stage_of
 from core.trace.stage_trace import MARKS

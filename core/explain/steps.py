@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from core.explain.number_text import joined, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
 from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText
+from core.records.words import joined
 from core.trace import Explanation, StageTrace
 
 SUBJECTS = (

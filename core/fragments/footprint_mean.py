@@ -12,7 +12,7 @@ Only rounding: 2^-52 times the number of pieces and the columns that F sums over
 footprints of a texel's area and more. The mean is taken evenly over the footprint, as if the pixel were mapped there
 by an affine map. Under perspective equal parts of the pixel do not cover equal parts of the footprint: the pixel's own
 mean differs by at most (sqrt R - 1)/(sqrt R + 1) of the colour's range, where R is the cube of the ratio of the
-greatest to the least 1/w in the pixel (the map's determinant goes with 1/w to the third): `perspective_bound`.
+greatest to the least 1/w in the pixel (the map's determinant goes with 1/w to the third).
 
 References
 ----------
@@ -66,45 +66,6 @@ def footprint_means(texture: Texture, corners: Floats, wrap: str = "repeat") -> 
     for part in np.split(wanted, np.flatnonzero(np.diff(batch)) + 1):
         means[part] = _means(plane, quads[part])
     return means
-
-
-def perspective_bound(inverse_w: Floats) -> Floats:
-    """Return how far a pixel's own mean may be from that of its footprint, as a part of the colour's range.
-
-    Parameters
-    ----------
-    inverse_w : (F, 4) float64 array
-        1/w at the corners of each pixel.
-
-    Returns
-    -------
-    (F,) float64
-        1 where 1/w is not above 0 everywhere.
-    """
-    low, high = inverse_w.min(axis=1), inverse_w.max(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        root = (high / low) ** 1.5
-        bound = (root - 1) / (root + 1)
-    return np.where(low > 0, bound, 1.0)
-
-
-def slope_footprint(position: Floats, slopes: Floats) -> Floats:
-    """Return the parallelograms that pixels cover by their slopes.
-
-    Parameters
-    ----------
-    position : (F, 2) float64 array
-        x and y in texels.
-    slopes : (4, F) float64 array
-        In texels: of x and y with a pixel to the right, and with one up.
-
-    Returns
-    -------
-    (F, 4, 2) float64
-    """
-    right, up = slopes[:2].T, slopes[2:].T
-    ways = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
-    return np.stack([position + a * right + b * up for a, b in ways], axis=1)
 
 
 class _Plane:

@@ -17,8 +17,8 @@ How exact it is
 ---------------
 Let c be the largest difference between neighbouring texels around a position. The position is rounded to 1/256 of
 a texel (an error of c/256 at most), so is the product of the two weights (c/256), and colours are rounded twice to
-1/8191 (half of it each time). So a linear value is at most ``c / 128 + 1 / 8191`` off (see `linear_error`), next to
-what single-precision coordinates cost. Where a texture is even, or nearest is chosen, a picture file's own bytes
+1/8191 (half of it each time). So a linear value is at most ``c / 128 + 1 / 8191`` off, next to what
+single-precision coordinates cost. Where a texture is even, or nearest is chosen, a picture file's own bytes
 come back unchanged. In sRGB a small linear error shows where a picture is dark: beside a step from black to white a
 byte may be off by several, elsewhere by none or one.
 
@@ -126,11 +126,6 @@ def linear_levels() -> Singles:
     """
     half_step = (_SUBTEXELS - 1) / (2 * _SUBTEXELS)
     return ((np.arange(LEVELS) + half_step) / (LEVELS - 1)).astype(np.float32)
-
-
-def linear_error(contrast: float) -> float:
-    """Return how far a linear value may be off where neighbouring texels differ by ``contrast`` at most."""
-    return contrast * 2 / _SUBTEXELS + 1 / (LEVELS - 1)
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,9 @@ from core.pipeline import schedule
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels, join_fragments
 from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
-from core.raster.edges.snapping import CornerPositions, place_corners
+from core.raster.edges.snapping import place_corners
 from core.raster.lines.wireframe import Outlines, draw_outlines
+from core.raster.number_formats.number_format import CornerPositions
 from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property

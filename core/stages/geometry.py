@@ -18,7 +18,8 @@ from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.geometry.vertex_stage import VertexStage
 from core.raster.edges.edge_functions import EdgeFunctions, edge_functions
-from core.raster.edges.snapping import CornerPositions, WindowVertices, place_corners_in
+from core.raster.edges.snapping import WindowVertices, place_corners_in
+from core.raster.number_formats.number_format import CornerPositions
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount

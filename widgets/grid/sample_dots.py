@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from core.explain.number_text import joined
+from core.records.words import numbered
 from widgets.basics.colormaps import id_table
 from widgets.grid.view import GridPlacement
 
@@ -39,16 +39,14 @@ class SampleDots:
         shown = self.shown[:, row, column]
         parts: list[str] = []
         for triangle in sorted({int(number) for number in shown}, key=lambda number: (number < 0, number)):
-            samples = [str(k) for k in np.flatnonzero(shown == triangle)]
-            is_one = len(samples) == 1
+            samples = np.flatnonzero(shown == triangle).tolist()
             if len(shown) <= MOST_NAMED:
-                subject = f"sample{'' if is_one else 's'} {joined(samples)}"
+                subject = numbered("sample", samples)
             else:
                 subject = f"{len(samples)} of {len(shown)} samples"
             what = f"triangle {triangle}" if triangle >= 0 else "none"
-            parts.append(
-                f"{subject} show{'s' if is_one else ''} {what}" if not parts else f"{subject} {what}"
-            )
+            verb = "" if parts else " shows" if len(samples) == 1 else " show"
+            parts.append(f"{subject}{verb} {what}")
         text = ", ".join(parts)
         return text[0].upper() + text[1:]
 

@@ -6,8 +6,8 @@ from math import isinf, isnan
 
 from app.pages.compare.charts import costs_of, title_of
 from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
-from core.explain.number_text import counted
 from core.methods import table
+from core.records.words import counted
 from core.study.accuracy.record import ErrorMeasure, Point, Study
 from widgets.charts.study_table import Cell, TableRecord
 

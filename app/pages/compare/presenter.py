@@ -14,7 +14,7 @@ from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult, chosen_po
 from app.pages.result_presenter import ResultPresenter, ResultWords
 from app.pages.words import work_sentence
 from app.session.session import Session
-from core.explain.number_text import counted
+from core.records.words import counted
 from core.settings import Settings
 from core.study.accuracy.record import Point, Study
 from core.study.accuracy.whole_picture import PIPELINE, SAMPLED_COLOR

@@ -7,9 +7,9 @@ from app.export.views import copy_widget
 from app.pages.page_bar import StepRequest
 from app.pages.plan.jobs import PlanJobs, PlanPictures
 from app.pages.plan.presenter import PlanPresenter
-from core.explain.number_text import counted
 from core.explain.stage_texts import family_title
 from core.methods import table
+from core.records.words import counted
 from core.study import Opening
 from widgets.charts.study_pictures import PicturesRecord, StudyPictures
 from widgets.grid.buffer import GridBuffer

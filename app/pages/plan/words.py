@@ -5,9 +5,9 @@ from html import escape
 import numpy as np
 
 from app.pages.words import digits, time_text
-from core.explain.number_text import counted, joined
 from core.explain.stage_texts import family_title
 from core.methods import table
+from core.records.words import counted, joined
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
 from core.study.planner.phrases import in_bytes

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from core.explain.number_text import counted
+from core.records.words import counted
 from core.study.stability import Atlas, Experiment, ExperimentInfo, experiments
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from core.study.stability.stress import axes_at

@@ -1,6 +1,7 @@
 """One pixel in every number format, in words: the rows of the table, and the sentence above it."""
 
-from core.explain.number_text import joined, number_text
+from core.explain.number_text import number_text
+from core.records.words import numbered
 from core.study.stability.coverage.dial_pixel import FormatAtPixel, PixelInFormats
 from core.study.stability.coverage.precision_dial import DialReading
 from widgets.atlas.format_probe import DialRow
@@ -16,13 +17,12 @@ def dial_sentence(found: PixelInFormats, run: str) -> str:
         The method of the run, ``coverage=float32``.
     """
     column, row = found.pixel
-    names = joined([str(number) for number in found.triangles])
-    noun = "triangle" if len(found.triangles) == 1 else "triangles"
+    triangles = numbered("triangle", found.triangles)
     if found.is_touched:
         more = f" and {found.left_out:,} more" if found.left_out else ""
-        who = f"{noun} {names}{more}"
+        who = f"{triangles}{more}"
     else:
-        who = f"not covered in any format, nearest {noun} {names}"
+        who = f"not covered in any format, nearest {triangles}"
     if found.run_count is None:
         said = f"{run} does not take the scene"
     else:

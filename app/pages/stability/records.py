@@ -12,9 +12,10 @@ from app.pages.stability.choices import AtlasResult, ExperimentChoice
 from app.pages.stability.jobs import CaseFound, ShrunkFound
 from app.pages.words import machine_words
 from core import Frame
-from core.explain.number_text import counted, number_text
+from core.explain.number_text import number_text
 from core.framebuffer.display import to_display
 from core.records.arrays import Floats
+from core.records.words import counted
 from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap

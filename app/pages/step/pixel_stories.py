@@ -11,11 +11,11 @@ from core.explain.history.parts import (
     samples_verdict,
 )
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
-from core.explain.number_text import counted
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import PixelHistory, PixelState, why
 from core.pixel_history.pieces import PixelPieces, pixel_pieces
 from core.records.arrays import Singles
+from core.records.words import counted
 from core.resolved import resolve
 from core.trace import TraceSource
 from widgets.basics.marks import Mark

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from math import isclose
 
-from core.explain.number_text import joined, spoken
+from core.explain.number_text import spoken
+from core.records.words import joined
 
 MOST_NAMED = 4
 """Samples, or triangles with the largest pieces, that are named one by one."""

@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any
 
-from core.explain.number_text import counted, number_text
+from core.explain.number_text import number_text
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
 from core.raster.edges.snapping import SUBPIXELS
+from core.records.words import counted
 
 Values = Mapping[str, Any]
 Sentence = str | Callable[[Values], str]
@@ -19,7 +20,7 @@ POLYGONS = {3: "a triangle", 4: "a quad", 5: "a pentagon", 6: "a hexagon"}
 
 def verdict_sentence(history: PixelHistory) -> str:
     """Return the first line of a history."""
-    return _sentence(history.verdict)
+    return link_sentence(history.verdict)
 
 
 def event_title(event: PixelEvent) -> str:
@@ -43,11 +44,6 @@ def event_reason(event: PixelEvent) -> str:
     return text[0].upper() + text[1:] + "."
 
 
-def chain_sentences(event: PixelEvent) -> tuple[tuple[str, str], ...]:
-    """Return stage and sentence of every link, from the vertices to the end."""
-    return tuple((link.stage, link_sentence(link)) for link in event.chain)
-
-
 def count_sentences(history: PixelHistory) -> tuple[str, ...]:
     """Return one line for every group of triangles that are not listed."""
     return tuple(
@@ -57,10 +53,6 @@ def count_sentences(history: PixelHistory) -> tuple[str, ...]:
 
 def link_sentence(link: Link) -> str:
     """Return the sentence of one link of a chain."""
-    return _sentence(link)
-
-
-def _sentence(link: Link) -> str:
     text = _words(link)
     return text[0].upper() + text[1:] + "."
 

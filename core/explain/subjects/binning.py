@@ -13,11 +13,12 @@ from core.explain.equation import (
     number_latex,
     vector_latex,
 )
-from core.explain.number_text import counted, joined, spoken
+from core.explain.number_text import spoken
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import COEFFICIENTS, VariableText, given, hides, shows
+from core.records.words import counted, joined, numbered
 
 
 @explains("bin.box|outer-box.low")
@@ -163,10 +164,8 @@ def block_verdict(step: StepValues) -> Said:
         text = f"The {name} is rejected by edge {edge}: even its greatest E{edge} there, {spoken(high)}, is outside."
         compared = comparison(rf"E_{edge}^{{\max}}", "<", high)
         return text, equation(*compared, *conclusion("outside", "outside"))
-    crossing = [str(k) for k in range(3) if not low[k] > 0]
-    edges = (
-        f"edge{'s' if len(crossing) > 1 else ''} {joined(crossing)} may cross it" if crossing else "unclear"
-    )
+    crossing = [k for k in range(3) if not low[k] > 0]
+    edges = f"{numbered('edge', crossing)} may cross it" if crossing else "unclear"
     text, verdict = {
         "inside": (
             f"The {name} is accepted as a whole: even the least value of every edge function is inside.",

@@ -1,10 +1,11 @@
 """Culling: the tests that drop a whole triangle."""
 
 from core.explain.equation import Part, all_of, comparison, conclusion, equation
-from core.explain.number_text import joined, spoken
+from core.explain.number_text import spoken
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
+from core.records.words import joined, numbered
 
 
 def _listed(values: list[float]) -> str:
@@ -20,14 +21,13 @@ def behind(step: StepValues) -> Said:
     """Whether all corners have w of 0 or less."""
     w = step.vector("w")
     compared = [comparison(f"w_{k}", r"\le", value) for k, value in enumerate(w)]
-    in_front = [str(k) for k in range(3) if not w[k] <= 0]
+    in_front = [k for k in range(3) if not w[k] <= 0]
     name, found = f"Triangle {step.triangle}", f"w above 0 (w = {_listed(w)})"
     if step.flag("applies"):
         text = f"{name} is behind the eye and dropped: no corner has {found}."
     else:
-        corners = "corners" if len(in_front) > 1 else "corner"
         verb = "have" if len(in_front) > 1 else "has"
-        text = f"{name} is not behind the eye: {corners} {joined(in_front)} {verb} {found}."
+        text = f"{name} is not behind the eye: {numbered('corner', in_front)} {verb} {found}."
     return text, all_of(compared, *_dropped(step))
 
 

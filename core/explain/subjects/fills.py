@@ -18,7 +18,7 @@ from core.explain.equation import (
     relation,
     signed_latex,
 )
-from core.explain.number_text import counted, joined, number_text, spoken, vector_text
+from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import AnswerKind, Asked, Question, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -28,6 +28,7 @@ from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
+from core.records.words import counted, joined
 
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""

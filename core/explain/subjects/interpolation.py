@@ -16,11 +16,12 @@ from core.explain.equation import (
     outstanding,
     signed_latex,
 )
-from core.explain.number_text import joined, number_text, spoken, vector_text
+from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import ATTRIBUTES, StepValues, component_names
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
+from core.records.words import joined
 
 ATTRIBUTE_NAMES = {
     "color": "colour",

@@ -16,12 +16,13 @@ from core.explain.equation import (
     signed_latex,
     vector_latex,
 )
-from core.explain.number_text import joined, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import PIXEL, VariableText, hides, shows
 from core.geometry.line_clipping.records import RECTANGLE_EDGES
+from core.records.words import joined
 from core.trace.line_clipping import CLIP_OPERATIONS
 
 CODE_BITS = len(RECTANGLE_EDGES)

@@ -15,12 +15,13 @@ from core.explain.equation import (
     number_latex,
     relation,
 )
-from core.explain.number_text import counted, number_text, spoken, vector_text
+from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, shows
 from core.raster.lines.traits import line_traits
+from core.records.words import counted
 
 
 def line_method(step: StepValues) -> str:

@@ -6,12 +6,13 @@ Of many samples those of equal colour are one summand; of more than `MOST` colou
 import math
 
 from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, number_latex, outstanding
-from core.explain.number_text import counted, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
 from core.framebuffer.display import SRGB_LIMIT, SRGB_OFFSET, SRGB_SCALE, SRGB_SLOPE
+from core.records.words import counted, noun_of
 
 NAMES = "abcdefghijklmnopqrstuvwxyz"
 """Names of different samples: 0, 1 and 2 are corners."""
@@ -68,9 +69,7 @@ def samples(step: StepValues) -> Said:
         f"{covered} of {counted(len(kept), 'sample')}" if covered < len(kept) else f"all {len(kept)} samples"
     )
     seen = (
-        f"{what} show triangle{'s' if len(shown) > 1 else ''} {names}"
-        if covered
-        else "no sample shows a triangle"
+        f"{what} show {noun_of(len(shown), 'triangle')} {names}" if covered else "no sample shows a triangle"
     )
     text = f"{step.pixel_name}: {seen}; their weights add up to {spoken(sum(weights))}."
     return text, _together(step, "W", "w")

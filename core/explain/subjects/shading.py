@@ -15,10 +15,11 @@ from core.explain.equation import (
     signed_latex,
     vector_latex,
 )
-from core.explain.number_text import joined, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
+from core.records.words import joined, noun_of
 
 
 @explains("shade.plain.color")
@@ -98,7 +99,7 @@ def light_sums(step: StepValues) -> Said:
     if powers:
         text = (
             f"{step.pixel_name}: over all lights the diffuse light is {vector_text(diffuse)}, ambient included, and "
-            f"the specular light {vector_text(specular)}, from highlight power{'s' if len(powers) > 1 else ''} "
+            f"the specular light {vector_text(specular)}, from {noun_of(len(powers), 'highlight power')} "
             f"{joined(powers)}."
         )
     channel = outstanding(diffuse)

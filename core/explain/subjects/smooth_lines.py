@@ -1,11 +1,12 @@
 """Lines with intensities (Wu, Gupta-Sproull), rectangles, and the blending of both."""
 
 from core.explain.equation import Part, beside, difference, equation, fraction, number_latex, signed_latex
-from core.explain.number_text import counted, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.lines import axes
 from core.explain.variable_text import VariableText, shows
+from core.records.words import counted
 
 _HALF = r"\frac{1}{2}"
 

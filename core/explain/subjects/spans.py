@@ -13,10 +13,11 @@ from core.explain.equation import (
     number_latex,
     vector_latex,
 )
-from core.explain.number_text import counted, pair_text, spoken
+from core.explain.number_text import pair_text, spoken
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, shows
+from core.records.words import counted
 
 GUARD_LATEX = "2^{-35}"
 

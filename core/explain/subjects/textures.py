@@ -19,11 +19,12 @@ from core.explain.equation import (
     outstanding,
     signed_latex,
 )
-from core.explain.number_text import joined, spoken, vector_text
+from core.explain.number_text import spoken, vector_text
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, shows
+from core.records.words import joined
 
 TEXELS = {"bl": "bottom left", "br": "bottom right", "tl": "top left", "tr": "top right"}
 """The four texels of bilinear filtering, in order."""

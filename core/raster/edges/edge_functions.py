@@ -33,8 +33,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import table
-from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import FIRST, LAST, NEXT, FormatValue, NumberFormat, cross
+from core.raster.number_formats.number_format import (
+    FIRST,
+    LAST,
+    NEXT,
+    CornerPositions,
+    FormatValue,
+    NumberFormat,
+    cross,
+)
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 

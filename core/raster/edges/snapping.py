@@ -7,67 +7,18 @@ fits float64 exactly (see ``edge_functions``), so a pixel on a shared edge is dr
 in which numbers the edges are computed, is up to the number format (``number_format``).
 """
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.methods import table
-from core.records.arrays import Flags, Floats, Integers
-
-if TYPE_CHECKING:
-    from core.raster.number_formats.number_format import NumberFormat
+from core.raster.number_formats.number_format import CornerPositions, NumberFormat
+from core.records.arrays import Flags, Floats
 
 SUBPIXELS = 256
 """Steps of the 1/256-pixel grid in one pixel."""
 SNAP_LIMIT = 2.0**16
 """Corners farther from the window's origin than this, in pixels, are not snapped."""
-
-
-@dataclass(frozen=True, eq=False)
-class CornerPositions:
-    """Corners of P triangles in the homogeneous window ``D clip``."""
-
-    homogeneous: Floats
-    """(P, 3, 3) float64 x, y, w as the vertex stage made them: attributes and depth come from these."""
-    window: Floats
-    """(P, 3, 2) float64 pixels, before snapping; NaN where w <= 0."""
-    decided: Floats
-    """(P, 3, 2) pixels that coverage is decided on (snapped); NaN where a corner cannot be projected."""
-    is_projected: Flags
-    """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
-    clip: Floats
-    """(P, 3, 4) float64, what all of these were made from: exact coverage is decided on it."""
-    size: tuple[int, int]
-    """Width and height of the image in pixels."""
-    numbers: "NumberFormat"
-    """The numbers that edges are set up in."""
-    shift: tuple[float, float] = (0.0, 0.0)
-    """By how many pixels all but ``clip`` is moved, multiples of 1/256."""
-
-    def take(self, at: Integers | slice) -> "CornerPositions":
-        """Return the corners of the triangles ``at`` (C,)."""
-        return replace(
-            self,
-            homogeneous=self.homogeneous[at],
-            window=self.window[at],
-            decided=self.decided[at],
-            is_projected=self.is_projected[at],
-            clip=self.clip[at],
-        )
-
-    def moved(self, x: float, y: float) -> "CornerPositions":
-        """Return the corners ``x`` and ``y`` pixels further; what is snapped moves exactly by multiples of 1/256."""
-        way = np.array([x, y])
-        homogeneous = self.homogeneous.copy()
-        homogeneous[..., :2] += way * self.homogeneous[..., 2:]
-        return replace(
-            self,
-            homogeneous=homogeneous,
-            window=self.window + way,
-            decided=self.decided + way,
-            shift=(self.shift[0] + x, self.shift[1] + y),
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +46,7 @@ def place_corners(clip: Floats, size: tuple[int, int], coverage: str) -> CornerP
     return place_corners_in(clip, size, table.get("coverage", coverage).function())
 
 
-def place_corners_in(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> CornerPositions:
+def place_corners_in(clip: Floats, size: tuple[int, int], numbers: NumberFormat) -> CornerPositions:
     """Put corners (P, 3, 4) on the grid of a number format; see `place_corners`."""
     x, y, w = clip[..., 0], clip[..., 1], clip[..., 3]
     homogeneous = _component_rows(w.shape, 3)
@@ -107,7 +58,7 @@ def place_corners_in(clip: Floats, size: tuple[int, int], numbers: "NumberFormat
     return CornerPositions(homogeneous, window, decided, is_projected, clip, size, numbers)
 
 
-def place_vertices(clip: Floats, size: tuple[int, int], numbers: "NumberFormat") -> WindowVertices:
+def place_vertices(clip: Floats, size: tuple[int, int], numbers: NumberFormat) -> WindowVertices:
     """Put vertices (M, 4) on the grid of a number format, as ``place_corners`` does with corners."""
     decided, is_projected = numbers.place(window_position(clip, size))
     return WindowVertices(decided[:, 0], decided[:, 1], is_projected)
@@ -147,11 +98,6 @@ def snap(window: Floats, limit: float = SNAP_LIMIT) -> tuple[Floats, Flags]:
     np.rint(snapped, out=snapped)
     snapped /= SUBPIXELS
     return snapped, is_projected
-
-
-def keep(window: Floats) -> tuple[Floats, Flags]:
-    """Leave every corner where it is: coverage uses the homogeneous positions. (P, 3, 2) to the same."""
-    return np.full(window.shape, np.nan), np.zeros(window.shape[:-1], bool)
 
 
 def snap_one(value: float) -> float:

@@ -18,11 +18,11 @@ from functools import partial
 import numpy as np
 
 from core.raster.coverage import Fragments, join_fragments
-from core.raster.edges.snapping import CornerPositions
 from core.raster.lines.cut_lines import draw_cut_lines
 from core.raster.lines.drawing import interpolate_line, segment_parameter
 from core.raster.lines.records import LinePixels, LineSteps
 from core.raster.lines.traits import has_intensities
+from core.raster.number_formats.number_format import CornerPositions
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.primitives import Primitives, interpolation_form

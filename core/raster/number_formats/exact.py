@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import method
-from core.raster.edges.snapping import SUBPIXELS, CornerPositions
-from core.raster.number_formats.number_format import Coefficients, FormatValue, NumberFormat
+from core.raster.edges.snapping import SUBPIXELS
+from core.raster.number_formats.number_format import Coefficients, CornerPositions, FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats, Integers
 
 MANTISSA_BITS = 53

@@ -11,8 +11,8 @@ import numpy as np
 
 from core.methods import method
 from core.raster.edges.edge_functions import set_up_per_edge
-from core.raster.edges.snapping import CornerPositions, snap
-from core.raster.number_formats.number_format import Coefficients, FormatValue, NumberFormat
+from core.raster.edges.snapping import snap
+from core.raster.number_formats.number_format import Coefficients, CornerPositions, FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats
 
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import method
-from core.raster.edges.snapping import SUBPIXELS, CornerPositions, snap
-from core.raster.number_formats.number_format import FormatValue, NumberFormat
+from core.raster.edges.snapping import SUBPIXELS, snap
+from core.raster.number_formats.number_format import CornerPositions, FormatValue, NumberFormat
 from core.records.arrays import Flags, Floats
 
 

@@ -16,8 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import method
-from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import Coefficients, NumberFormat
+from core.raster.number_formats.number_format import Coefficients, CornerPositions, NumberFormat
 from core.records.arrays import Floats
 
 

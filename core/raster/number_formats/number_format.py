@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.methods import table
-from core.raster.edges.snapping import CornerPositions, keep
-from core.records.arrays import Flags, Floats
+from core.records.arrays import Flags, Floats, Integers
 
 FormatValue = NDArray[Any]
 """Numbers of a format, kept in an array of its own type."""
@@ -29,6 +28,52 @@ FIRST = np.array([0, 1, 2])
 NEXT = np.array([1, 2, 0])
 LAST = np.array([2, 0, 1])
 """Corner k itself, and the two that follow it counter-clockwise: the ends of edge k."""
+
+
+@dataclass(frozen=True, eq=False)
+class CornerPositions:
+    """Corners of P triangles in the homogeneous window ``D clip``."""
+
+    homogeneous: Floats
+    """(P, 3, 3) float64 x, y, w as the vertex stage made them: attributes and depth come from these."""
+    window: Floats
+    """(P, 3, 2) float64 pixels, before snapping; NaN where w <= 0."""
+    decided: Floats
+    """(P, 3, 2) pixels that coverage is decided on (snapped); NaN where a corner cannot be projected."""
+    is_projected: Flags
+    """(P, 3) bool, where ``decided`` holds; elsewhere coverage uses the homogeneous position."""
+    clip: Floats
+    """(P, 3, 4) float64, what all of these were made from: exact coverage is decided on it."""
+    size: tuple[int, int]
+    """Width and height of the image in pixels."""
+    numbers: "NumberFormat"
+    """The numbers that edges are set up in."""
+    shift: tuple[float, float] = (0.0, 0.0)
+    """By how many pixels all but ``clip`` is moved, multiples of 1/256."""
+
+    def take(self, at: Integers | slice) -> "CornerPositions":
+        """Return the corners of the triangles ``at`` (C,)."""
+        return replace(
+            self,
+            homogeneous=self.homogeneous[at],
+            window=self.window[at],
+            decided=self.decided[at],
+            is_projected=self.is_projected[at],
+            clip=self.clip[at],
+        )
+
+    def moved(self, x: float, y: float) -> "CornerPositions":
+        """Return the corners ``x`` and ``y`` pixels further; what is snapped moves exactly by multiples of 1/256."""
+        way = np.array([x, y])
+        homogeneous = self.homogeneous.copy()
+        homogeneous[..., :2] += way * self.homogeneous[..., 2:]
+        return replace(
+            self,
+            homogeneous=homogeneous,
+            window=self.window + way,
+            decided=self.decided + way,
+            shift=(self.shift[0] + x, self.shift[1] + y),
+        )
 
 
 class Coefficients(NamedTuple):
@@ -72,8 +117,11 @@ class NumberFormat:
     area_exponent: int = 0
 
     def place(self, window: Floats) -> tuple[Floats, Flags]:
-        """Return positions (P, 3, 2) on the format's grid, and where (P, 3) bool there are any."""
-        return keep(window)
+        """Return positions (P, 3, 2) on the format's grid, and where (P, 3) bool there are any.
+
+        There are none unless the format says so: coverage uses the homogeneous positions then.
+        """
+        return np.full(window.shape, np.nan), np.zeros(window.shape[:-1], bool)
 
     def held_corners(self, corners: CornerPositions) -> tuple[FormatValue, FormatValue, FormatValue]:
         """Return x, y, w (3, P) of the corners in the format's own units."""

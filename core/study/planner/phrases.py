@@ -1,7 +1,5 @@
 """What methods and numbers are called in the sentences of a plan."""
 
-from collections.abc import Sequence
-
 PHRASES = {
     "cull": {
         "none": "drawing both faces",
@@ -59,16 +57,6 @@ def phrase(family: str, method: str) -> str:
 def capitalized(text: str) -> str:
     """Return a text that a sentence begins with."""
     return text[:1].upper() + text[1:]
-
-
-def listed(parts: Sequence[str]) -> str:
-    """Return ``a``, ``a and b`` or ``a, b and c``."""
-    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
-
-
-def counted(count: int, noun: str) -> str:
-    """Return ``1 pixel`` or ``12 pixels``."""
-    return f"{count:,} {noun}" if count == 1 else f"{count:,} {noun}s"
 
 
 def in_bytes(error: float) -> str:

@@ -6,7 +6,6 @@ left 0.56: they reject whatever they cannot prove.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from time import perf_counter
 
 from core.scene import AnyScene
@@ -18,7 +17,7 @@ from core.study.planner.reasons import ALL_SLOWER, reason
 from core.study.planner.records import Decision, Fact, Findings, Plan, Tolerance, Watch, unwatched
 from core.study.planner.reference_settings import reference_settings
 from core.study.planner.tessellation import tessellations
-from core.study.planner.trials import Trial, Trials
+from core.study.planner.trials import Choice, Trial, Trials
 
 CHEAPER = {
     "antialiasing": ("none", "msaa-4", "ssaa-4"),
@@ -48,21 +47,6 @@ STAGES = (
     "antialiasing",
 )
 """Families that a plan decides on, in pipeline order."""
-
-
-@dataclass(frozen=True)
-class Choice:
-    """What was chosen of one family, and what was tried before."""
-
-    family: str
-    chosen: str
-    dearest: str
-    trial: Trial | None = None
-    """How far the choice is from what was chosen before it; ``None``: nothing was chosen, or it has no effect."""
-    rejected: tuple[tuple[str, Trial], ...] = ()
-    """Cheaper methods that are too far from the reference settings, and how far."""
-    slower: tuple[str, ...] = ()
-    """Cheaper methods that would do but take longer."""
 
 
 def look_at(scene: AnyScene, base: Settings | None = None) -> Findings:

@@ -1,14 +1,10 @@
 """Why each method was chosen: what was seen in the scene, and what was measured of the cheaper methods."""
 
-from typing import TYPE_CHECKING
-
+from core.records.words import counted, joined
 from core.study.planner.findings import Seen
-from core.study.planner.phrases import capitalized, counted, figure, in_bytes, listed, phrase
+from core.study.planner.phrases import capitalized, figure, in_bytes, phrase
 from core.study.planner.records import Tolerance
-from core.study.planner.trials import Trial
-
-if TYPE_CHECKING:
-    from core.study.planner.planning import Choice
+from core.study.planner.trials import Choice, Trial
 
 ALL_SLOWER = "All choices together take longer here than the reference settings, so none is made."
 EVEN = 1e-9
@@ -18,7 +14,7 @@ FLAT = 1e-5
 """Degrees by which normals that are the same may differ, for rounding."""
 
 
-def reason(choice: "Choice", tolerance: Tolerance, seen: Seen, is_compared: bool) -> str:
+def reason(choice: Choice, tolerance: Tolerance, seen: Seen, is_compared: bool) -> str:
     """Return sentences with the numbers: of the scene, of every method that was tried, and what stays.
 
     Depths may be ``is_compared`` or not.
@@ -31,7 +27,7 @@ def reason(choice: "Choice", tolerance: Tolerance, seen: Seen, is_compared: bool
             f"by up to {in_bytes(trial.largest)}."
         )
     if choice.slower:
-        slower = capitalized(listed([phrase(choice.family, name) for name in choice.slower]))
+        slower = capitalized(joined([phrase(choice.family, name) for name in choice.slower]))
         parts.append(f"{slower} would do, but {'take' if len(choice.slower) > 1 else 'takes'} longer here.")
     chosen = capitalized(phrase(choice.family, choice.chosen))
     if choice.trial is not None:
@@ -50,7 +46,7 @@ def change_text(trial: Trial) -> str:
     return f"pixels change by {in_bytes(min(trial.error, trial.largest))} at most{but}{where}"
 
 
-def _fact(choice: "Choice", seen: Seen, is_compared: bool) -> str:
+def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
     """Return what of the scene bears on a family."""
     match choice.family:
         case "cull" if choice.dearest != "none":

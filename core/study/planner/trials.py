@@ -52,6 +52,21 @@ class Trial:
     """Whether the tolerance holds where it was compared."""
 
 
+@dataclass(frozen=True)
+class Choice:
+    """What was chosen of one family, and what was tried before."""
+
+    family: str
+    chosen: str
+    dearest: str
+    trial: Trial | None = None
+    """How far the choice is from what was chosen before it; ``None``: nothing was chosen, or it has no effect."""
+    rejected: tuple[tuple[str, Trial], ...] = ()
+    """Cheaper methods that are too far from the reference settings, and how far."""
+    slower: tuple[str, ...] = ()
+    """Cheaper methods that would do but take longer."""
+
+
 class Trials:
     """Pictures of one scene with some settings, each drawn once, where they are tried."""
 

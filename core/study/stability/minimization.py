@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from core.records.arrays import Floats, Integers
+from core.records.words import counted
 from core.scene import AnyScene
 from core.study.stability.record import Outcome, StressCancelledError, Verdict
 
@@ -90,8 +91,7 @@ class Kind:
 
     def words(self, parts: Parts) -> str:
         """Return how much it is: ``2 triangles in 1x1 pixels``."""
-        count = len(parts.elements)
-        return f"{count} {self.noun}{'s' if count > 1 else ''} in {parts.size[0]}x{parts.size[1]} pixels"
+        return f"{counted(len(parts.elements), self.noun)} in {parts.size[0]}x{parts.size[1]} pixels"
 
     def smaller(self, parts: Parts, way: int) -> Iterator[Parts]:
         """Yield what is smaller in one of the ways: with fewer elements, cropped, with fewer digits."""

@@ -11,7 +11,6 @@ from core import ClipScene, Settings
 from core.explain.history.sentences import (
     COUNTED,
     SENTENCES,
-    chain_sentences,
     count_sentences,
     event_reason,
     event_title,
@@ -40,7 +39,7 @@ def all_texts(history: PixelHistory) -> list[str]:
     """Return every sentence of a history."""
     texts = [verdict_sentence(history), *count_sentences(history)]
     for event in history.events:
-        texts += [event_reason(event), *(text for _, text in chain_sentences(event))]
+        texts += [event_reason(event), *map(link_sentence, event.chain)]
     return texts
 
 
@@ -116,9 +115,9 @@ def test_depth_tests_name_whom_they_met():
         ("Triangle 2", "Failed the depth test: equal to triangle 0 (0.5), and a tie keeps the stored depth."),
         ("Triangle 3", "Written and visible."),
     ]
-    assert dict(chain_sentences(history.fragments[0]))["depth"] == (
-        "Passed the depth test: 0.5 against the cleared depth (1)."
-    )
+    depth = history.fragments[0].link("depth")
+    assert depth is not None
+    assert link_sentence(depth) == "Passed the depth test: 0.5 against the cleared depth (1)."
     assert (
         verdict_sentence(history)
         == "Triangle 3 is visible here; 2 fragments rejected, 1 fragment overwritten."

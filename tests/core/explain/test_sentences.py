@@ -6,8 +6,9 @@ import numpy as np
 
 from core import STAGES, Settings
 from core.explain import initial_sentence, sentence, summary_sentence
-from core.explain.number_text import counted, joined, pair_text, position_text, spoken
+from core.explain.number_text import pair_text, position_text, spoken
 from core.records.steps import Level
+from core.records.words import counted, joined
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_steps, explained, rare_trace
 

@@ -92,7 +92,7 @@ def test_textured_triangles(
             # Another texel where the sample lies on its border, to single precision.
             assert (away > 1).mean() <= 0.001
         else:
-            # Neighbouring texels differ by up to 1: see `linear_error`, and single-precision coordinates.
+            # Neighbouring texels differ by up to 1: see `packed_texture`, and single-precision coordinates.
             assert away.max() <= 3
     else:
         assert away.max() == 0

@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, Texture, render
-from core.fragments.footprint_mean import footprint_means, slope_footprint
+from core.fragments.footprint_mean import footprint_means
 from core.fragments.interpolation import interpolate, set_up_planes
 from core.fragments.level_of_detail import choose_levels
 from core.fragments.mipmap_samples import mipmap_colors, sample_mipmaps
@@ -26,6 +26,7 @@ from core.stages.fragments import texture_slopes
 from core.stages.vertices import process_geometry
 from core.trace.source import TraceSource
 from tests.core.exact_reference import determinant, homogeneous_window
+from tests.core.fragments.test_footprint_mean import slope_footprint
 from tests.core.strategies import perspective_triangles
 
 MIPMAPPED = ["trilinear", "mipmap-nearest"]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_error, linear_levels
+from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_levels
 from core.fragments.textures import texture_colors
 from core.framebuffer.display import encode_linear, encode_srgb, from_display
 from core.scene import Texture
@@ -14,6 +14,11 @@ WRAPS = ["repeat", "clamp", "mirror"]
 SIZES = [(1, 1), (2, 8), (7, 5), (16, 16), (64, 3)]
 SRGB = encode_srgb(linear_levels())
 EVERY_GREY = Texture(from_display(np.arange(256, dtype=np.uint8).reshape(16, 16, 1)))
+
+
+def linear_error(contrast: float) -> float:
+    """Return the stated bound of a linear value where neighbouring texels differ by ``contrast`` at most."""
+    return contrast / 128 + 1 / 8191
 
 
 def random_texture(size, channels=3, seed=0):

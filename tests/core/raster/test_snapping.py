@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS, keep, place_corners, snap, snap_one
+from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS, place_corners, snap, snap_one
+from core.raster.number_formats.number_format import number_format
 from tests.core.exact_reference import snapped_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 
@@ -94,7 +95,7 @@ def test_snapping_moves_by_at_most_half_a_subpixel_and_only_once(value: float) -
 
 
 def test_float64_leaves_every_corner_to_its_homogeneous_position() -> None:
-    positions, is_projected = keep(np.zeros((2, 3, 2)))
+    positions, is_projected = number_format("float64").place(np.zeros((2, 3, 2)))
     assert not is_projected.any()
     assert np.isnan(positions).all()
 

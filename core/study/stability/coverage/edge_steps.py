@@ -9,8 +9,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.raster.edges.snapping import CornerPositions
-from core.raster.number_formats.number_format import LAST, NEXT, NumberFormat
+from core.raster.number_formats.number_format import LAST, NEXT, CornerPositions, NumberFormat
 
 
 @dataclass(frozen=True)
