@@ -120,7 +120,14 @@ class Settings:
         reason=has_no_texture,
         asks=("listing", "operations"),
     )
-    wrap: str = choice("repeat", "Texture wrap", "shade", "core.fragments.textures", reason=has_no_texture)
+    wrap: str = choice(
+        "repeat",
+        "Texture wrap",
+        "shade",
+        "core.fragments.textures",
+        reason=has_no_texture,
+        asks=("traits",),
+    )
     shading: str = choice(
         "phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light, asks=("traits",)
     )

@@ -13,7 +13,10 @@ Integers = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 
 SUBPIXELS = 256
-"""Window coordinates are whole multiples of 1/256 pixel, what OpenGL implementations snap to."""
+"""Window coordinates are whole multiples of 1/256 pixel, what OpenGL implementations snap to.
+
+Not the core's number: what the program is compared with stands on its own.
+"""
 
 
 @dataclass(frozen=True, eq=False)

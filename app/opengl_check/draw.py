@@ -190,9 +190,9 @@ class OpenGLRenderer:
         if channels == 4:
             image[..., 3] = texels[..., 3]
         texture = _owned(stack, self._context.texture((columns, rows), 4, image.tobytes(), dtype="f4"))
-        gl_filter = self._context.NEAREST if case.texture_filter == "nearest" else self._context.LINEAR
+        gl_filter = {"nearest": self._context.NEAREST, "bilinear": self._context.LINEAR}[case.texture_filter]
         texture.filter = (gl_filter, gl_filter)
-        texture.repeat_x = texture.repeat_y = case.wrap == "repeat"
+        texture.repeat_x = texture.repeat_y = {"repeat": True, "clamp": False}[case.wrap]
         texture.use(0)
 
     def _program(self, interpolation: str, is_textured: bool) -> Any:

@@ -9,7 +9,7 @@ from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, s
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
-from core.fragments.textures import TextureSamples, sample_texture
+from core.fragments.textures import TextureSamples, sample_texture, wrap_period
 from core.records.arrays import Floats
 from core.records.words import counted
 from core.scene import ClipScene, Texture
@@ -111,9 +111,10 @@ def _reads(source: TraceSource, texture: Texture, uv: Floats, slopes: Floats | N
 
 def tile_shift(center: Floats, wrap: str) -> Floats:
     """Return the whole repetitions (2,) that bring a place (2,) in texture coordinates into the texture."""
-    if wrap == "clamp" or not np.isfinite(center).all():
+    period = wrap_period(wrap)
+    if not period or not np.isfinite(center).all():
         return np.zeros(2)
-    return np.floor(center) if wrap == "repeat" else 2 * np.floor(center / 2)
+    return period * np.floor(center / period)
 
 
 def texture_pictures(session: Session) -> tuple[tuple[TexturePicture, ...], str]:
@@ -152,7 +153,7 @@ def texture_pictures(session: Session) -> tuple[tuple[TexturePicture, ...], str]
         ]
         picture = TexturePicture(
             pixels=level.pixels,
-            wrap=wrap,
+            period=wrap_period(wrap),
             triangle=None if corners is None else (corners - shift) * size,
             footprints=tuple(footprints),
             caption=_caption(source, triangle, level, pixels, found, shift, place),

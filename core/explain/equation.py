@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from core.explain.number_text import EXACT_DIGITS, is_short, number_text, position_text
 from core.explain.records import Formula
+from core.raster.edges.snapping import SUBPIXELS
 
 Part = str | tuple[str, float | str]
 """An operator, or a symbol with its number (or with LaTeX to stand under it)."""
@@ -49,7 +50,7 @@ def grid_latex(value: float) -> str:
         return number_latex(value)
     sign = "-" if value < 0 else ""
     *whole, fraction = text.removeprefix("−").split(" ")
-    return rf"{sign}{''.join(whole)}\frac{{{fraction.split('/')[0]}}}{{256}}"
+    return rf"{sign}{''.join(whole)}\frac{{{fraction.split('/')[0]}}}{{{SUBPIXELS}}}"
 
 
 def digits_that_add_up(value: float, products: Sequence[Sequence[float]]) -> int:

@@ -22,6 +22,7 @@ P. Heckbert, *Fundamentals of texture mapping and image warping*, 1989, section 
 
 import numpy as np
 
+from core.fragments.textures import wrap_period
 from core.methods import table
 from core.records.arrays import Floats, Integers, checked
 from core.scene import Texture
@@ -55,7 +56,6 @@ def footprint_means(texture: Texture, corners: Floats, wrap: str = "repeat") -> 
         If ``corners`` is not (F, 4, 2), or the wrap is not in the table.
     """
     quads = checked("corners", corners, ("F", 4, 2), finite=False)
-    table.get("wrap", wrap)
     plane = _Plane(texture, wrap)
     means = np.full((len(quads), texture.pixels.shape[2]), np.nan)
     finite = np.isfinite(quads).all(axis=(1, 2))
@@ -73,11 +73,12 @@ class _Plane:
 
     def __init__(self, texture: Texture, wrap: str) -> None:
         pixels = texture.pixels.astype(np.float64)
-        if wrap == "mirror":
-            pixels = np.concatenate([pixels, pixels[:, ::-1]], axis=1)
-            pixels = np.concatenate([pixels, pixels[::-1]], axis=0)
+        period, wrapped = wrap_period(wrap), table.get("wrap", wrap).function
+        if period > 1:
+            rows, columns = (wrapped(np.arange(period * size), size) for size in pixels.shape[:2])
+            pixels = pixels[rows][:, columns]
         self.pixels = pixels
-        self.is_clamped = wrap == "clamp"
+        self.is_clamped = not period
         self.height, self.width = pixels.shape[:2]
         before = np.zeros((self.height, 1, pixels.shape[2]))
         self._sums = np.concatenate([before, np.cumsum(pixels, axis=1)], axis=1)

@@ -159,7 +159,6 @@ class PackedSampler:
         columns, rows = self._packed.columns.size, self._packed.rows.size
         self.axes = (SubtexelAxis(columns * _SUBTEXELS, offset), SubtexelAxis(rows * _SUBTEXELS, offset))
         """Of u and of v."""
-        self._is_clamped = wrap == "clamp"
         self._byte_words: list[Words] = []
         if level_bytes is not None:
             self._byte_words = [level_bytes.astype(np.uint32) << np.uint32(8 * place) for place in range(3)]
@@ -253,7 +252,7 @@ class PackedSampler:
         if coordinate.min(initial=0) >= -limit and coordinate.max(initial=0) <= limit:
             return coordinate
         defined = np.nan_to_num(coordinate, nan=0.0)
-        near = np.clip(defined, -1, 2) if self._is_clamped else np.remainder(defined, 2)
+        near = np.clip(defined, -1, 2) if not self._packed.columns.repeats else np.remainder(defined, 2)
         return np.where(np.abs(defined) <= limit, defined, near)
 
     def _write_bytes(self, means: Integers, words: Words) -> None:

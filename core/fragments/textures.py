@@ -31,12 +31,22 @@ _BLOCK = 8192
 Wrap = Callable[[Integers, int], Integers]
 
 
+@dataclass(frozen=True)
+class WrapTraits:
+    """What is known of a wrap without running it."""
+
+    period: int
+    """Textures along an axis after which the plane repeats. 1: all are the same. 2: every second one is the mirror
+    image. 0: the border texels go on."""
+
+
 @method(
     "wrap",
     "repeat",
     "Repeat",
     source="OpenGL 4.6, GL_REPEAT",
     exact_for="textures whose opposite sides match",
+    traits=WrapTraits(period=1),
 )
 def repeat(index: Integers, size: int) -> Integers:
     """Start again at the other side: ``index`` modulo ``size``, never negative."""
@@ -53,6 +63,7 @@ def repeat(index: Integers, size: int) -> Integers:
     source="OpenGL 4.6, GL_CLAMP_TO_EDGE",
     exact_for="coordinates from 0 to 1",
     breaks_where="coordinates outside 0 to 1: the border texel is repeated",
+    traits=WrapTraits(period=0),
 )
 def clamp(index: Integers, size: int) -> Integers:
     """Go on with the border texel."""
@@ -65,12 +76,19 @@ def clamp(index: Integers, size: int) -> Integers:
     "Mirrored repeat",
     source="OpenGL 4.6, GL_MIRRORED_REPEAT",
     exact_for="all textures: no seam",
+    traits=WrapTraits(period=2),
 )
 def mirror(index: Integers, size: int) -> Integers:
     """Run to and fro: every second repetition is reflected."""
     there = repeat(index, 2 * size)
     back = 2 * size - 1 - there
     return np.minimum(there, back)
+
+
+def wrap_period(wrap: str) -> int:
+    """Return the period of a method of the family ``wrap``, see `WrapTraits`."""
+    traits: WrapTraits = table.get("wrap", wrap).traits
+    return traits.period
 
 
 def wrapped_index(index: int, size: int, wrap: str) -> int:

@@ -55,9 +55,9 @@ class TexturePlacement:
         return QRectF(corner, QSizeF(columns * self.scale, rows * self.scale))
 
 
-def outside_image(image: QImage, wrap: str) -> QImage:
+def outside_image(image: QImage, period: int) -> QImage:
     """Return what is repeated around a texture: itself, or two by two with mirror images."""
-    if wrap != "mirror":
+    if period != 2:
         return image
     across, down, both = (
         image.transformed(QTransform.fromScale(x, y)) for x, y in ((-1, 1), (1, -1), (-1, -1))
@@ -89,12 +89,12 @@ def paint_texture(
     is_reduced = placement.scale * width < image.width()
     painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_reduced)
     painter.setOpacity(OUTSIDE_OPACITY)
-    if picture.wrap == "clamp":
+    if not picture.period:
         _paint_clamped(painter, image, placement, picture.size)
     else:
         brush = QBrush(outside)
         corner = placement.to_widget(0, height)
-        columns = outside.width() / (2 if picture.wrap == "mirror" else 1)
+        columns = outside.width() / picture.period
         stretch = placement.scale * width / columns
         brush.setTransform(QTransform(stretch, 0, 0, stretch, corner.x(), corner.y()))
         painter.fillRect(area, brush)

@@ -39,8 +39,8 @@ class TexturePicture:
 
     pixels: NDArray[np.float32] = field(repr=False)
     """(h, w, C) linear colours, row 0 at the bottom."""
-    wrap: str = "repeat"
-    """What lies outside: ``repeat``, ``mirror`` or ``clamp``."""
+    period: int = 1
+    """Textures after which the plane repeats; 2: every second is a mirror image; 0: the border texels go on."""
     triangle: NDArray[np.float64] | None = field(default=None, repr=False)
     """(3, 2) float64, corners of a triangle in texels, or None."""
     footprints: tuple[TexelFootprint, ...] = ()
@@ -49,6 +49,8 @@ class TexturePicture:
     def __post_init__(self) -> None:
         if self.pixels.ndim != 3 or self.pixels.shape[2] not in (1, 3, 4) or 0 in self.pixels.shape:
             raise ValueError(f"pixels must be (h, w, 1, 3 or 4) and not empty, got {self.pixels.shape}")
+        if self.period not in (0, 1, 2):
+            raise ValueError(f"period must be 0, 1 or 2, got {self.period}")
         if self.triangle is not None and self.triangle.shape != (3, 2):
             raise ValueError(f"triangle must be (3, 2), got {self.triangle.shape}")
 

@@ -90,7 +90,9 @@ class TextureView(QWidget):
         """Show a texture; None: the empty text."""
         before, self._picture = self._picture, picture
         is_other = before is None or picture is None or before.pixels is not picture.pixels
-        is_other = is_other or (before is not None and picture is not None and before.wrap != picture.wrap)
+        is_other = is_other or (
+            before is not None and picture is not None and before.period != picture.period
+        )
         if is_other:
             self._make_images()
             self._scale = None
@@ -309,7 +311,7 @@ class TextureView(QWidget):
                 Qt.TransformationMode.SmoothTransformation,
             )
         around = self._image if self._reduced.isNull() else self._reduced
-        self._outside = QPixmap.fromImage(outside_image(around, self._picture.wrap))
+        self._outside = QPixmap.fromImage(outside_image(around, self._picture.period))
 
     def _repaint_all(self) -> None:
         """Paint everything again with the present theme."""

@@ -22,7 +22,7 @@ from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.number_formats import DETERMINANT, equals
 from core.explain.variable_text import VariableText, given, hides, shows
-from core.raster.edges.snapping import SNAP_LIMIT
+from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS
 
 ROUNDING = 1e-9
 """Pixels below which a corner counts as unmoved."""
@@ -61,13 +61,17 @@ def snapped(step: StepValues) -> Said:
             (rf"\vertex{{{k}}}{{{axis}_{k}}}", grid_latex(after)),
             "=",
             (
-                rf"\frac{{\mathrm{{round}}(256 \cdot \vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}})}}{{256}}",
-                rf"\frac{{\mathrm{{round}}(256 \cdot {signed_latex(before)})}}{{256}}",
+                _rounded(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}"),
+                _rounded(signed_latex(before)),
             ),
         ]
         for axis, before, after in zip("xy", window, grid, strict=True)
     ]
     return f"{_corner(step)} {text}", equation(*beside(*rounded))
+
+
+def _rounded(position: str) -> str:
+    return rf"\frac{{\mathrm{{round}}({SUBPIXELS} \cdot {position})}}{{{SUBPIXELS}}}"
 
 
 @explains("edges.homogeneous.keep")
@@ -212,12 +216,17 @@ def _coefficient_text(step: StepValues) -> str:
     return f"{name}, so E{k} {change} {way}."
 
 
+EVEN_HANDED_RULES = {
+    "inclusive": ("the inclusive rule counts every edge as inside", r"\ge"),
+    "exclusive": ("the exclusive rule counts no edge as inside", ">"),
+}
+"""By fill rule that treats all edges alike: why, and how an edge function inside compares with 0."""
+
+
 def tie_reason(a: float, b: float, owns: bool, rule: str) -> str:
     """Say why a triangle owns the pixel centres on an edge, or does not."""
-    if rule == "inclusive":
-        return "the inclusive rule counts every edge as inside"
-    if rule == "exclusive":
-        return "the exclusive rule counts no edge as inside"
+    if rule != "shared-edge":
+        return EVEN_HANDED_RULES[rule][0]
     if a != 0:
         return "it is a left edge" if owns else "it is a right edge"
     return "it is a level bottom edge" if owns else "it is a level top edge"
@@ -232,8 +241,7 @@ def tie(step: StepValues) -> Said:
     reason = tie_reason(a, b, owns, rule)
     text = f"A pixel centre exactly on edge {k} {verb} to triangle {step.triangle}: {reason}."
     if rule != "shared-edge":
-        wanted = r"\ge" if rule == "inclusive" else ">"
-        return text, equation(f"E_{k}", wanted, "0", *conclusion("inside", "inside"))
+        return text, equation(f"E_{k}", EVEN_HANDED_RULES[rule][1], "0", *conclusion("inside", "inside"))
     tests = [comparison(f"a_{k}", ">", a)]
     if a == 0:
         tests = [comparison(f"a_{k}", "=", a), comparison(f"b_{k}", ">", b)]

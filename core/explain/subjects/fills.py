@@ -3,6 +3,8 @@
 import math
 from functools import partial
 
+import numpy as np
+
 from core.explain.equation import (
     Part,
     all_of,
@@ -26,6 +28,7 @@ from core.explain.subjects.edges import tie_reason
 from core.explain.subjects.number_formats import equals, number_format
 from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
+from core.raster.edges.edge_functions import is_inside
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
 from core.records.words import counted, joined
@@ -175,7 +178,7 @@ def accepted(step: StepValues) -> Said:
     is_block = all(math.isnan(step.number(f"crossing_{k}")) for k in range(3))
     what = "its whole block is inside" if is_block else f"it is in the span of row {step.whole('row')}"
     values, owns = step.vector("values"), step.flags("owns_tie")
-    outside = [k for k in range(3) if not (values[k] > 0 or (values[k] == 0 and owns[k]))]
+    outside = np.flatnonzero(~is_inside(np.array(values), np.array(owns))).tolist()
     text = f"{step.pixel_name} is covered without a test of its own: {what}"
     if outside:
         listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
@@ -190,9 +193,9 @@ def span_edge(step: StepValues) -> Said:
     a, b, c = (step.vector(name)[k] for name in "abc")
     if a == 0:
         value = b * y + c
-        is_inside = value > 0 or (value == 0 and step.flags("owns_tie")[k])
+        is_row_inside = is_inside(np.array(value), np.array(step.flags("owns_tie")[k]))
         text = (
-            f"Row {row} runs along edge {k}, and all of it is {'inside' if is_inside else 'outside'} "
+            f"Row {row} runs along edge {k}, and all of it is {'inside' if is_row_inside else 'outside'} "
             f"(E{k} = {spoken(value)})."
         )
         return text, linear(f"E_{k}", value, [(f"b_{k}", b), (f"c_{k}", c)], ("y", y))

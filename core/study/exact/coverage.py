@@ -77,18 +77,23 @@ def exact_spans(
     -----
     Depth is not looked at. A triangle seen edge-on, or with all w <= 0, covers nothing.
     """
-    doubled_center = 1 if pixel_center == "half" else 0
+    center = doubled_center(pixel_center)
     found: list[tuple[int, int, int, int]] = []
-    for number in np.flatnonzero(may_hold_a_center(clip, size, doubled_center / 2)).tolist():
+    for number in np.flatnonzero(may_hold_a_center(clip, size, center / 2)).tolist():
         lines, rows = triangle_lines(clip[number], size, is_snapped)
         if not lines:
             continue
         for row in rows:
-            start, stop = columns_inside(lines, 2 * row + doubled_center, doubled_center, rule, size[0])
+            start, stop = columns_inside(lines, 2 * row + center, center, rule, size[0])
             if start < stop:
                 found.append((number, row, start, stop))
     columns = np.array(found, np.int64).reshape(-1, 4).T
     return ExactSpans(*columns)
+
+
+def doubled_center(pixel_center: str) -> int:
+    """Return twice the offset of a pixel's centre: 1 for ``half``, 0 for ``integer``."""
+    return {"half": 1, "integer": 0}[pixel_center]
 
 
 def may_hold_a_center(clip: Floats, size: tuple[int, int], center: float) -> Flags:
@@ -175,15 +180,23 @@ def _line_through(first: WholeCorner, second: WholeCorner, turn: int) -> Line:
     return turn * (y1 * w2 - w1 * y2), turn * (w1 * x2 - x1 * w2), turn * (x1 * y2 - y1 * x2)
 
 
+def owns_edge(a: int | Fraction, b: int | Fraction, rule: str = "shared-edge") -> bool:
+    """Tell whether a triangle owns the centres on the inward edge ``a x + b y + c = 0`` by a fill rule."""
+    return {"shared-edge": a > 0 or (a == 0 and b > 0), "inclusive": True, "exclusive": False}[rule]
+
+
 def columns_inside(
-    lines: tuple[Line, ...], doubled_y: int, doubled_center: int, rule: str, width: int
+    lines: tuple[Line, ...], doubled_y: int, center: int, rule: str, width: int
 ) -> tuple[int, int]:
-    """Return the first column inside all lines in one row, and the column after the last."""
+    """Return the first column inside all lines in one row, and the column after the last.
+
+    ``doubled_y`` and ``center`` are twice y of the row and x of the first column.
+    """
     start, stop = 0, width
     for a, b, c in lines:
         # Twice the value at column k is slope k + rest.
-        slope, rest = 2 * a, a * doubled_center + b * doubled_y + 2 * c
-        owns = rule == "inclusive" or (rule == "shared-edge" and (a > 0 or (a == 0 and b > 0)))
+        slope, rest = 2 * a, a * center + b * doubled_y + 2 * c
+        owns = owns_edge(a, b, rule)
         if slope > 0:
             start = max(start, -(rest // slope) if owns else -rest // slope + 1)
         elif slope < 0:

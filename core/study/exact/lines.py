@@ -10,6 +10,8 @@ from core.study.exact.areas import area_in_pixels
 Ends = tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]
 HALF_WIDTH = 0.5
 """Half the width of the ideal line, in pixels."""
+CENTER = 0.5
+"""Of pixel 0 along an axis: all lines here have pixel centres at halves."""
 
 
 def clipped_ends(segment: Floats, window: tuple[float, float, float, float]) -> Ends | None:
@@ -91,7 +93,7 @@ def _pixels_near(ends: Floats, rectangle: Floats, size: tuple[int, int]) -> tupl
     column, row = column.ravel(), row.ravel()
     along = ends[1] - ends[0]
     length = max(float(np.hypot(*along)), np.finfo(np.float64).tiny)
-    offset = (column + 0.5 - ends[0, 0]) * along[1] - (row + 0.5 - ends[0, 1]) * along[0]
+    offset = (column + CENTER - ends[0, 0]) * along[1] - (row + CENTER - ends[0, 1]) * along[0]
     near = np.abs(offset) <= length * (HALF_WIDTH + 1.0)
     return column[near], row[near]
 
@@ -118,7 +120,7 @@ def distance_from_line(
     is_steep = np.abs(along[:, 1]) > np.abs(along[:, 0])
     steep = is_steep[owner]
     major, minor = np.where(steep, row, column), np.where(steep, column, row)
-    start = np.where(is_steep[:, None], ends[:, 0, ::-1], ends[:, 0])[owner] - 0.5
+    start = np.where(is_steep[:, None], ends[:, 0, ::-1], ends[:, 0])[owner] - CENTER
     run, rise = np.where(is_steep[:, None], along[:, ::-1], along)[owner].T
 
     # (minor - v0) - (major - u0) rise / run with one division: products of multiples of 1/1024 pixel are exact.

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.records.arrays import Floats, Integers
-from core.study.exact.coverage import ExactSpans, exact_spans, homogeneous_corner
+from core.study.exact.coverage import ExactSpans, doubled_center, exact_spans, homogeneous_corner
 
 Whole = NDArray[Any]
 """Python integers, as an array of objects."""
@@ -92,7 +92,7 @@ def exact_values(
     -----
     NaN for a triangle that is seen edge-on, or where 1/w is 0.
     """
-    planes, center = exact_planes(corners, size), 1 if pixel_center == "half" else 0
+    planes, center = exact_planes(corners, size), doubled_center(pixel_center)
     x, y = _doubled(column, center), _doubled(row, center)
     shares = [_at(plane, x, y) for plane in planes.coefficients]
     total = shares[0] + shares[1] + shares[2]
@@ -139,7 +139,7 @@ def exact_fragments(
     triangle, column, row = (spans or exact_spans(clip, size, pixel_center=pixel_center)).pixels()
     depth, keeps = np.zeros(len(triangle)), np.ones(len(triangle), bool)
     planes: dict[int, ExactPlanes] = {}
-    center = 1 if pixel_center == "half" else 0
+    center = doubled_center(pixel_center)
     ends = np.flatnonzero(np.diff(triangle, append=-1)) + 1
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         part, number = slice(first, end), int(triangle[first])
@@ -180,6 +180,6 @@ def exact_visible(fragments: ExactFragments, size: tuple[int, int], pixel_center
 
 def _exact_depth(fragments: ExactFragments, index: int, pixel_center: str) -> Fraction:
     a, b, c, below = fragments.planes[int(fragments.triangle[index])].depth
-    center = 1 if pixel_center == "half" else 0
+    center = doubled_center(pixel_center)
     x, y = 2 * int(fragments.column[index]) + center, 2 * int(fragments.row[index]) + center
     return min(max(Fraction(a * x + b * y + c, below), Fraction(0)), Fraction(1))

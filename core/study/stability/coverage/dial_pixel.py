@@ -14,7 +14,7 @@ import numpy as np
 from core.pipeline import covered
 from core.raster.edges.edge_functions import edge_value, set_up_edges
 from core.raster.edges.snapping import place_corners
-from core.raster.pixel_runs import make_raster
+from core.raster.pixel_runs import half, make_raster
 from core.records.arrays import Flags, Integers
 from core.records.frame import StageCount
 from core.scene import ClipScene
@@ -158,7 +158,7 @@ def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> In
 def nearest_triangle(scene: ClipScene, pixel: Pixel) -> Integers:
     """Return, as (1,) int64, the triangle whose farthest edge leaves the least of the centre outside, in float64."""
     edges = set_up_edges(place_corners(scene.clip, scene.size, "float64"), "shared-edge")
-    x, y = (np.array([[index + 0.5]]) for index in pixel)
+    x, y = (np.array([[index + half()]]) for index in pixel)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         value = edge_value(edges.a, edges.b, edges.c, x, y)
         inside = (value / np.hypot(edges.a, edges.b)).min(axis=1)

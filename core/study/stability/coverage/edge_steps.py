@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from core.raster.number_formats.number_format import LAST, NEXT, CornerPositions, NumberFormat
+from core.study.exact.coverage import owns_edge
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ def decide(known: dict[str, Fraction], turn: int) -> bool:
         if name not in values:
             values[name] = RULES[operator](values[first], values[second])
     a, b, value = (turn * values[name] for name in (A, B, VALUE))
-    return value > 0 or (value == 0 and (a > 0 or (a == 0 and b > 0)))
+    return value > 0 or (value == 0 and owns_edge(a, b))
 
 
 def rounded(numbers: NumberFormat, operation: str, exact: Fraction) -> Fraction:

@@ -14,9 +14,10 @@ from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_insid
 from core.raster.edges.snapping import place_corners
 from core.raster.number_formats.bit_patterns import FIXED, bit_pattern
 from core.raster.number_formats.number_format import NumberFormat
+from core.raster.pixel_runs import half
 from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
-from core.study.exact.coverage import Corner, facing, homogeneous_corner
+from core.study.exact.coverage import Corner, facing, homogeneous_corner, owns_edge
 from core.study.stability.coverage.covered_pixels import coverage_experiment
 from core.study.stability.coverage.edge_steps import EdgeStep, edge_steps
 from core.study.stability.coverage.number_formats import FORMATS, powers, sliver
@@ -123,7 +124,7 @@ def _exact_case(scene: ClipScene, triangle: int, pixel: tuple[int, int]) -> _Cas
         (x1, y1, w1), (x2, y2, w2) = placed[k - 2], placed[k - 1]
         a, b, c = turn * (y1 * w2 - w1 * y2), turn * (w1 * x2 - x1 * w2), turn * (x1 * y2 - y1 * x2)
         values.append(a * x + b * y + c)
-        sides.append(values[k] > 0 or (values[k] == 0 and (a > 0 or (a == 0 and b > 0))))
+        sides.append(values[k] > 0 or (values[k] == 0 and owns_edge(a, b)))
     return _Case(scene.clip[[triangle]], scene.size, pixel, placed, turn, tuple(values), np.array(sides))
 
 
@@ -131,7 +132,7 @@ def _read(name: str, case: _Case, fill_rule: str) -> DialReading:
     """Return what one format makes of the pixel."""
     edges = set_up_edges(place_corners(case.clip, case.size, name), fill_rule)
     numbers = edges.numbers
-    x, y = (numbers.of_pixels(np.array([[index + 0.5]])) for index in case.pixel)
+    x, y = (numbers.of_pixels(np.array([[index + half()]])) for index in case.pixel)
     with np.errstate(over="ignore", invalid="ignore"):
         held = edge_value(edges.a, edges.b, edges.c, x, y)
     inside = is_inside(held, edges.owns_tie)[0]
