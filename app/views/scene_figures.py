@@ -60,7 +60,7 @@ def figures_text(figures: FrameFigures, per_second: float | None) -> str:
 
 def drawing_text(figures: FrameFigures) -> str:
     """Return by how many processes and in what way a frame was drawn: a few lines."""
-    backs = ["Back faces are left out: the meshes are solids, seen from outside."]
+    backs = ["Back faces are left out: the meshes are closed and seen from outside."]
     lines = [*_sharing_lines(figures.sharing), *_route_lines(figures.route)]
     return "\n".join(lines + backs if figures.are_backs_hidden else lines)
 

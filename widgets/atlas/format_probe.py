@@ -33,8 +33,8 @@ HEAD = (
 _BITS = HEAD.index("Bits of the value")
 EXPLANATIONS = (
     "Number format of the coverage test",
-    "How many triangles cover the pixel in this format; a tick: as many as should",
-    "Pixels of the whole picture that this format covers too often or too seldom: the count of a map's cell",
+    "Number of triangles that cover the pixel in this format; a tick marks the right number",
+    "Pixels of the whole picture with a wrong cover count in this format: the count of a map's cell",
     "A triangle that decides this pixel",
     "The format's decision for this triangle and the pixel",
     "The edge that decides",

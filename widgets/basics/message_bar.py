@@ -77,7 +77,7 @@ class MessageBar(QWidget):
         self.details_button = self._button("Details", "Show or hide the details")
         self.details_button.setCheckable(True)
         self.details_button.toggled.connect(self._show_details)
-        self.action_button = self._button("", "Do what the message offers")
+        self.action_button = self._button("", "Do the suggested action")
         self.action_button.clicked.connect(self.action_requested)
         self.cancel_button = self._button("Cancel", "Stop this work; the open scene is unchanged")
         self.cancel_button.clicked.connect(self._cancel)

@@ -60,7 +60,9 @@ class ChartLegend(QListWidget):
             item, letter = self.item(row), self._marks.get(series.key, "")
             is_strong = series.key in self._strong
             item.setText(f"{letter}: {series.title}" if letter else series.title)
-            item.setToolTip(f"{series.title}\nNo other is better in both." if is_strong else series.title)
+            item.setToolTip(
+                f"{series.title}\nPareto front: no other is better in both." if is_strong else series.title
+            )
             item.setIcon(QIcon(SeriesIcon(series.number)))
             font = self.font()
             font.setBold(is_strong)

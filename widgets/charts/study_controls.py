@@ -54,8 +54,10 @@ class StudyControls(RunPanel):
         self.cost_box = self.box(
             "Cost", "Time on this machine, or a count of work that is the same on every machine"
         )
-        self.rounds_box = self.number("Rounds", "How often every method is timed, in turns", 1, MOST_ROUNDS)
-        self.seed_box = self.number("Seed", "The random numbers that the work is made from", 0, 9999)
+        self.rounds_box = self.number(
+            "Rounds", "Rounds of measurement; the methods take turns", 1, MOST_ROUNDS
+        )
+        self.seed_box = self.number("Seed", "Seed of the random work", 0, 9999)
         self._dials: dict[str, DialControl] = {}
         self._work_flow = self.add_row(
             (("Work", self.work_box), ("Rounds", self.rounds_box), ("Seed", self.seed_box))

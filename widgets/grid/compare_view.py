@@ -70,8 +70,8 @@ class CompareView(QWidget):
 
     def _lay_out(self) -> None:
         reset, swap = QPushButton("B = A", self), QPushButton("Swap", self)
-        reset.setToolTip("Make B like A again")
-        swap.setToolTip("Make B's settings the current ones, and A's the others")
+        reset.setToolTip("Give B the settings of A")
+        swap.setToolTip("Swap the settings of A and B")
         reset.clicked.connect(self.reset_requested)
         swap.clicked.connect(self.swap_requested)
         row = QHBoxLayout()

@@ -28,7 +28,7 @@ class PlanControls(RunPanel):
         )
         self.kind_box = self.box(
             "Tolerance",
-            "How much the picture may differ from the one with the reference settings. Exact: every byte is equal",
+            "Allowed difference from the picture with the reference settings. Exact: every byte is equal",
         )
         self.kind_box.addItem("Within", WITHIN)
         self.kind_box.addItem("Exact", EXACT)
@@ -36,11 +36,11 @@ class PlanControls(RunPanel):
         self.color_box.setSuffix("/255")
         self.color_box.setValue(2)
         self.pixels_box = self.number(
-            "Allowed exceptions", "How many pixels may differ by more", 0, MOST_PIXELS
+            "Allowed exceptions", "Number of pixels that may differ by more", 0, MOST_PIXELS
         )
         self.pixels_box.setGroupSeparatorShown(True)
         self.rounds_box = self.number(
-            "Rounds", "How often each picture is timed, in turn; more rounds take longer", 1, MOST_ROUNDS
+            "Rounds", "Rounds of measurement; more rounds take longer", 1, MOST_ROUNDS
         )
         self.rounds_box.setValue(3)
         self.apply_button = self.button(

@@ -29,7 +29,7 @@ _MARGIN = 6
 _ARROW = 14
 """Room for the arrow that says that there is a menu."""
 _EXPLANATION = (
-    "Pictures shown in a second, what drawing the last one took, its size and its triangles.\n"
+    "Frames per second; time, size and triangles of the last picture.\n"
     "Click to choose the size it is drawn at."
 )
 _OPENING_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Down)

@@ -44,7 +44,7 @@ def read_gltf(path: Path, report: Report) -> LoadedMeshes:
     with translated_errors(path, files):
         scene = load_with_trimesh(path, files)
         report(None, "converting meshes")
-        warnings += [f"{name} is missing; what it holds is left out" for name in dict.fromkeys(files.missing)]
+        warnings += [f"{name} is missing; its content is left out" for name in dict.fromkeys(files.missing)]
         order = {name: place for place, name in enumerate(scene.geometry)}
         nodes = [(node, *scene.graph[node]) for node in scene.graph.nodes_geometry]
         meshes = [

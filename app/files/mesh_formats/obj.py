@@ -76,7 +76,7 @@ class ObjLines:
         numbers = [int(number) if number else 0 for number in word.split("/")]
         from_start = [n + count + 1 if n < 0 else n for n, count in zip(numbers, counts, strict=False)]
         if any(old < 0 and new < 1 for old, new in zip(numbers, from_start, strict=False)):
-            raise ValueError(f"corner {word} counts back to before the first vertex")
+            raise ValueError(f"corner {word} counts back beyond the first vertex")
         return "/".join(str(number) if number else "" for number in from_start)
 
     def convert(self) -> None:

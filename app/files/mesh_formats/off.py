@@ -122,7 +122,7 @@ def read_lines(path: Path, report: Report) -> OffLines:
     if kind is None:
         raise MeshFileError(f"{path.name} is not an OFF file of text in 3D: it begins with {first[:20]!r}")
     if kind[1]:
-        raise MeshFileError(f"{path.name} is of the kind STOFF; only OFF, COFF, NOFF and CNOFF are read")
+        raise MeshFileError(f"{path.name} is a STOFF file; only OFF, COFF, NOFF and CNOFF are read")
     found = OffLines(normal_count=3 * bool(kind[3]), has_colors=bool(kind[2]))
     try:
         number, counts = (number, kind[4]) if kind[4] else next(lines)

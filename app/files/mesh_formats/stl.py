@@ -72,5 +72,5 @@ def check_layout(path: Path) -> int:
         there = (size - HEADER) // TRIANGLE
         raise MeshFileError(f"{path.name} is cut short: it counts {count} triangles and ends after {there}")
     raise MeshFileError(
-        f"{path.name} is not an STL file: it is neither text nor as long as its number of triangles"
+        f"{path.name} is not an STL file: it is not text, and its length does not match its number of triangles"
     )

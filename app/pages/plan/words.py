@@ -29,7 +29,7 @@ def about(title: str, size: tuple[int, int], tolerance: Tolerance) -> str:
 def tolerance_text(tolerance: Tolerance) -> str:
     """Return how much may differ."""
     if not tolerance.bytes:
-        few = f" but for {counted(tolerance.pixels, 'pixel')}" if tolerance.pixels else ""
+        few = f" except for {counted(tolerance.pixels, 'pixel')}" if tolerance.pixels else ""
         return f"exact{few}"
     return f"within {tolerance.bytes}/255, {counted(tolerance.pixels, 'pixel')} beyond"
 
@@ -66,7 +66,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
     """Return the predicted and the measured error, and what the choice saves by itself."""
     predicted = f"predicted {in_bytes(decision.predicted_error)}"
     if decision.predicted_pixels:
-        predicted += f" but for {counted(decision.predicted_pixels, 'pixel')}"
+        predicted += f" except for {counted(decision.predicted_pixels, 'pixel')}"
     if outcome is None or report is None:
         return predicted
     measured = f"measured {in_bytes(outcome.measured_error)}"
@@ -82,7 +82,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
 def headline(plan: Plan, report: PlanReport | None) -> str:
     """Return in one sentence what the plan comes to."""
     if report is None:
-        return f"Predicted: {in_bytes(plan.predicted_error)} off at most{predicted_time(plan, ', ')}. Measuring …"
+        return f"Predicted: at most {in_bytes(plan.predicted_error)} off{predicted_time(plan, ', ')}. Measuring …"
     everything, chosen = (
         float(np.median(each)) for each in (report.seconds_everything, report.seconds_chosen)
     )
@@ -102,7 +102,7 @@ def predicted_time(plan: Plan, start: str) -> str:
 def details(plan: Plan, report: PlanReport) -> str:
     """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
     parts = [
-        f"Largest difference {in_bytes(report.largest_error)}, predicted {in_bytes(plan.predicted_error)} at most; "
+        f"Largest difference {in_bytes(report.largest_error)}, predicted at most {in_bytes(plan.predicted_error)}; "
         f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
         f"{plan.tolerance.pixels:,} allowed."
     ]

@@ -84,7 +84,7 @@ class ComparePresenter(QObject):
         other = TraceSource(source.scene, self.other, source.triangle, source.region, source.before)
         self._job.cancel()
         if replace(document, settings=self.other).estimated_seconds > QUICK_SECONDS:
-            self._view.show_refusal("B is being drawn …")
+            self._view.show_refusal("Drawing B …")
             self._job.start(partial(_draw, other))
             return
         try:

@@ -27,7 +27,7 @@ COUNT = 48
 SLIVERS = 64
 MISCLASSIFIED = ErrorMeasure("misclassified", "Misclassified pixels", "per million")
 CRACKS = ErrorMeasure("cracks", "Pixels of a mesh not covered exactly once", "per million")
-NO_MESH = "Only a mesh without gaps says how often each pixel is to be covered."
+NO_MESH = "Only a mesh without gaps defines how often each pixel must be covered."
 
 SIZES = Dial("size", "Triangle size", "pixels", (2, 4, 8, 16, 32, 64, 128, 256), 16, is_cost=True)
 ANGLES = Dial("angle", "Angle of the tip", "degrees", (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8), 1)

@@ -172,7 +172,7 @@ def put_back(chosen: Plan, setting: str) -> Plan:
     for decision in chosen.decisions:
         if decision.setting == setting:
             cheaper, dearest = (phrase(setting, name) for name in (decision.chosen, decision.dearest))
-            reason = f"{capitalized(cheaper)} was too far off when the whole picture was measured, so {dearest} stays."
+            reason = f"{capitalized(cheaper)} was too inaccurate in the whole picture, so {dearest} stays."
             decision = replace(
                 decision,
                 chosen=decision.dearest,
@@ -194,7 +194,7 @@ def _outcome(decision: Decision, differences: Integers) -> Outcome:
     place = min(decision.predicted_pixels, len(ranked) - 1)
     measured = float(ranked[place])
     is_right = beyond <= decision.predicted_pixels
-    pixels = f" but for {decision.predicted_pixels:,} pixels" if decision.predicted_pixels else ""
+    pixels = f" except for {decision.predicted_pixels:,} pixels" if decision.predicted_pixels else ""
     text = f"predicted {in_bytes(decision.predicted_error)}{pixels}, measured {measured:g}/255"
     if decision.predicted_pixels:
         text += f" and {beyond:,} pixels"

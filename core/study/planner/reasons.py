@@ -42,7 +42,7 @@ def change_text(trial: Trial) -> str:
     where = " in the rows that were tried" if trial.error > trial.largest else ""
     if not trial.largest:
         return f"no pixel changes{where}"
-    but = f", but for {counted(trial.pixels, 'pixel')}" if trial.pixels else ""
+    but = f", except for {counted(trial.pixels, 'pixel')}" if trial.pixels else ""
     return f"pixels change by {in_bytes(min(trial.error, trial.largest))} at most{but}{where}"
 
 
@@ -84,7 +84,7 @@ def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
 
 def _texture_fact(seen: Seen) -> str:
     if seen.texels is None:
-        return "There is no texture in view, so any filter does."
+        return "There is no texture in view, so every filter gives the same picture."
     size = "minified" if seen.texels > 1 else "nowhere minified"
     return f"A step of one pixel is at most {figure(seen.texels)} texels long, so the texture is {size}."
 

@@ -171,7 +171,7 @@ def test_corners_without_what_others_have_are_a_warning(tmp_path):
     [
         ("f 1 2 9\n", "line 5: a face names vertex 9, the file has 4"),
         ("f 0 1 2\n", "line 5: a face names vertex 0"),
-        ("f -9 1 2\n", "line 5: corner -9 counts back to before the first vertex"),
+        ("f -9 1 2\n", "line 5: corner -9 counts back beyond the first vertex"),
         ("f 1 2 3\nf 1/1 2/1 3/1\n", "line 6: a face names texture coordinate 1, the file has 0"),
         ("f 1//7 2//7 3//7\n", "line 5: a face names normal 7"),
         ("f 1 2\n", "line 5: a face needs at least 3 corners, got 2"),

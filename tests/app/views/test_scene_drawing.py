@@ -286,7 +286,7 @@ def test_how_a_frame_was_drawn_as_text():
         "Colours: attributes and light once per visible pixel.",
     ]
     without_backs = drawing_text(figures_of(sharing=failed, are_backs_hidden=True)).splitlines()
-    assert without_backs[-1] == "Back faces are left out: the meshes are solids, seen from outside."
+    assert without_backs[-1] == "Back faces are left out: the meshes are closed and seen from outside."
 
 
 @pytest.mark.parametrize("name", ["single-triangle", "torus", "textured-floor", "intersecting", "cube"])

@@ -110,7 +110,7 @@ def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -
     window.session.open(open_document(make_scene("sphere"), "Sphere"))
     window.page.show_view("compare")
     window.page.compare_view.setting_chosen.emit("fill", "brute-force")
-    assert window.page.compare_view.summary.text() == "B is being drawn …"
+    assert window.page.compare_view.summary.text() == "Drawing B …"
     qtbot.waitUntil(lambda: "0 of" in window.page.compare_view.summary.text(), timeout=20000)
 
 
