@@ -84,7 +84,7 @@ class ReplacedName(str):
 
 
 def is_registered(setting: str, name: str) -> bool:
-    """Tell whether a setting is the method ``name`` with its own function: only then a closed form may replace it."""
+    """Return whether a setting is the method ``name`` with its own function: only then a closed form may replace it."""
     return setting == name and not isinstance(setting, ReplacedName)
 
 

@@ -28,7 +28,7 @@ class BuiltInScene:
     title: str
     """What a person reads in a menu."""
     description: str
-    """One sentence on what there is to see."""
+    """One sentence on what the scene shows."""
     make: Callable[[], AnyScene]
 
 
@@ -61,7 +61,7 @@ def window_triangle(
     Notes
     -----
     The way there and back rounds; the result differs from x and y by far less than half of 1/256 pixel, so
-    corners on that grid snap to the very same place.
+    corners on that grid snap to the same place.
     """
     columns = [
         checked(name, values, (3,)) for name, values in (("x", x), ("y", y), ("depth", depth), ("w", w))

@@ -1,4 +1,4 @@
-"""The benchmark from beginning to end: run, tell, write files."""
+"""The benchmark from beginning to end: run, report, write files."""
 
 import sys
 from collections.abc import Sequence

@@ -81,7 +81,7 @@ def open_file(options: argparse.Namespace) -> Opened:
 
 
 @contextmanager
-def overflow_told() -> Iterator[None]:
+def overflow_reported() -> Iterator[None]:
     """Tell in one line, at the end, if numbers got too large in the block; nothing stops for that."""
     problems: set[str] = set()
 

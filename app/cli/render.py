@@ -11,7 +11,7 @@ from app.cli.arguments import (
     add_settings,
     chosen_settings,
     open_file,
-    overflow_told,
+    overflow_reported,
     size_from_text,
 )
 from app.cli.commands import UsageError
@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
         scene = replace(scene, size=options.size)
     blend = resolve(settings).blend_name
     check_memory(scene.size, settings)
-    with overflow_told():
+    with overflow_reported():
         frame = render(scene, settings)
 
     if options.output is not None:

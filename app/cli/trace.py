@@ -13,7 +13,7 @@ from app.cli.arguments import (
     add_settings,
     chosen_settings,
     open_file,
-    overflow_told,
+    overflow_reported,
     size_from_text,
 )
 from app.cli.commands import UsageError
@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
     if options.format == "npz" and options.output is None:
         raise UsageError("argument --format: npz needs a file, -o PATH")
     opened = open_file(options)
-    with overflow_told():
+    with overflow_reported():
         traced = make_trace(opened, options)
         if STAGES.index(options.stage) >= STAGES.index("raster"):
             check_length(traced)

@@ -172,7 +172,7 @@ def _clip_record(scene: ClipScene) -> ClipSceneRecord:
 
 
 def array_record(array: NDArray[Any]) -> ArrayRecord:
-    """Return the record of a float64, float32 or int64 array; it gives back the very same bits."""
+    """Return the record of a float64, float32 or int64 array; it gives back the same bits."""
     dtype: Any = array.dtype.name
     shape = list(array.shape)
     if array.size <= READABLE_COUNT:

@@ -36,7 +36,7 @@ class Page(QWidget):
     """One page of the window. What it does not say otherwise, a page does not do."""
 
     message_sent = Signal(str)
-    """Something to tell the user; nothing is wrong."""
+    """Information for the user; nothing is wrong."""
     edit_refused = Signal(str)
     """Why what was asked for came to nothing."""
     step_requested = Signal(object)

@@ -23,7 +23,7 @@ class HiddenBacks:
         """Of the box around the solids, in the world."""
 
     def are_hidden(self, scene: AnyScene) -> bool:
-        """Tell whether no back face can be seen; ``False`` also where that is not known."""
+        """Return whether no back face can be seen; ``False`` also where that is not known."""
         if not isinstance(scene, Scene) or sum(len(mesh.triangles) for mesh in scene.meshes) < FEWEST:
             return False
         if scene.meshes is not self._meshes:
@@ -38,7 +38,7 @@ class HiddenBacks:
         return self._is_solid and self._is_before(scene.camera)
 
     def _is_before(self, camera: Camera) -> bool:
-        """Tell whether the near plane cuts nothing off, so that the eye is outside and no solid is seen cut open."""
+        """Return whether the near plane cuts nothing off, so that the eye is outside and no solid is seen cut open."""
         forward = camera.target - camera.eye
         distance = (self._corners - camera.eye) @ forward / np.linalg.norm(forward)
         return bool((distance > camera.near).all())

@@ -127,7 +127,7 @@ def triangle_seen(shot: SceneShot, column: int, row: int) -> int:
 
 
 def _viewed(shot: SceneShot) -> tuple[AnyScene, Integers | None]:
-    """Return the scene as the viewing camera sees it, see ``viewed_scene``; its meshes are the very same."""
+    """Return the scene as the viewing camera sees it, see ``viewed_scene``; its meshes are the same."""
     background = np.append(linear_light(_bytes_of(shot.theme.canvas) / 255), 1.0)
     camera = viewing_camera(shot.space, shot.orbit)
     return viewed_scene(shot.space, shot.scene, camera, shot.size, background)

@@ -28,7 +28,7 @@ EYE_REACH = 25.0
 
 @dataclass(frozen=True, eq=False)
 class ViewSpace:
-    """A scene to be seen from outside of its own camera."""
+    """A scene to be seen from outside its own camera."""
 
     scene: AnyScene
     vertices: VertexStage

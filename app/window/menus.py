@@ -29,7 +29,7 @@ BEFORE_SEPARATORS = (
 
 
 class Menus(QObject):
-    """Fills the menu bar of a window, holds its actions, and tells what was chosen."""
+    """Fills the menu bar of a window, holds its actions, and reports what was chosen."""
 
     action_chosen = Signal(str)
     """Name of an action of ``app.window.keys.ACTIONS``, by key or menu."""

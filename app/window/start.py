@@ -53,7 +53,7 @@ def run_window(target: str | None = None) -> int:
     ----------
     target : str, optional
         Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
-        told in the window.
+        shown in the window.
     """
     application = the_application()
     application.setApplicationName("Rasterscope")
@@ -146,7 +146,7 @@ def grab_window(
 
 def _fill(window: MainWindow, saved: str, content: "PageContent | None") -> None:
     """Show a saved study or atlas, or fill a page."""
-    from app.pages.page_filling import (  # All pages come along: not before one is wanted.
+    from app.pages.page_filling import (  # Imports all pages: not before one is opened.
         fill_page,
         open_saved,
     )

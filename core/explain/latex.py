@@ -138,12 +138,12 @@ def _ends_a_term(cells: Sequence[str]) -> bool:
 
 
 def is_operator(cell: str) -> bool:
-    """Tell whether a cell is a lone relation, sign or multiplication sign, which takes room on both sides."""
+    """Return whether a cell is a lone relation, sign or multiplication sign, which takes room on both sides."""
     return cell in _RELATIONS or cell in _SIGNS or cell in _PRODUCTS
 
 
 def may_begin_line(cells: Sequence[str], place: int) -> bool:
-    """Tell whether a wrapped line may begin at a cell: not at a product, nor behind an operator."""
+    """Return whether a wrapped line may begin at a cell: not at a product, nor behind an operator."""
     return cells[place] not in _PRODUCTS and (place == 0 or not is_operator(cells[place - 1]))
 
 

@@ -85,7 +85,7 @@ def number_text(value: float, digits: int = 4) -> str:
 
 
 def is_short(value: float, digits: int = EXACT_DIGITS) -> bool:
-    """Tell whether a number is exact with so many digits, without a power of ten."""
+    """Return whether a number is exact with so many digits, without a power of ten."""
     text = repr(float(value))
     return "e" not in text and len(text.removesuffix(".0").replace(".", "").lstrip("-0")) <= digits
 

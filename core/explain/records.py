@@ -44,7 +44,7 @@ class Variable:
     """0, 1 or 2 where the variable belongs to that vertex, edge or weight."""
 
     def is_changed(self) -> bool:
-        """Tell whether the step changed it; NaN equals NaN here."""
+        """Return whether the step changed it; NaN equals NaN here."""
         return not _is_same(self.now, self.before)
 
 
@@ -91,7 +91,7 @@ class Asked:
     """One sentence with the value."""
 
     def is_right(self, answer: float) -> bool:
-        """Tell whether an answer counts as right."""
+        """Return whether an answer counts as right."""
         if self.question.kind is AnswerKind.CHOICE:
             return int(answer) == int(self.answer)
         return math.isclose(answer, self.answer, rel_tol=TOLERANCE, abs_tol=1e-9)

@@ -51,7 +51,7 @@ class StepValues:
         return self.pixel_name[0].lower() + self.pixel_name[1:]
 
     def has(self, *names: str) -> bool:
-        """Tell whether the step has all of these numbers."""
+        """Return whether the step has all of these numbers."""
         return all(name in self.explanation.values for name in names)
 
     def number(self, name: str) -> float:

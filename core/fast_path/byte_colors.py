@@ -145,7 +145,7 @@ def vertex_bytes(context: DrawContext) -> VertexBytes:
 
 
 def _are_of_vertices(context: DrawContext) -> bool:
-    """Tell whether the values belong to the sides of the scene's vertices, all fronts first, then all backs."""
+    """Return whether the values belong to the sides of the scene's vertices, all fronts first, then all backs."""
     geometry = context.geometry
     values, corner = geometry.primitives.values, geometry.vertices.corner_rows
     if geometry.primitives is not geometry.kept or len(values.rows) % len(geometry.vertices.clip):

@@ -24,7 +24,7 @@ ROUNDING = 2.0**-48
 
 
 def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
-    """Tell whether nothing fails the test against the cleared buffer; ``False`` may also mean that it is not known.
+    """Return whether nothing fails the test against the cleared buffer; ``False`` may also mean that it is not known.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
 
 
 def _all_linear(geometry: Geometry, difference: Floats) -> bool:
-    """Tell whether every triangle certainly has an integer plane; corners differ in depth by ``difference`` (P,)."""
+    """Return whether every triangle certainly has an integer plane; corners differ in depth by ``difference`` (P,)."""
     reach = max(
         float(np.abs(window[1:] - window[0]).max(initial=0))
         for window in (geometry.window_x, geometry.window_y)

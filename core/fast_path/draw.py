@@ -127,7 +127,7 @@ def draw_picture(
 
 
 def _is_supersampled(settings: Settings) -> bool:
-    """Tell whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
+    """Return whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
     if not resolve(settings).sampling.side or settings.pixel_center != "half":
         return False
     from core.antialiasing.sample_rasters import finer_settings
@@ -136,7 +136,7 @@ def _is_supersampled(settings: Settings) -> bool:
 
 
 def _is_multisampled(settings: Settings) -> bool:
-    """Tell whether spans can find what each of four samples shows."""
+    """Return whether spans can find what each of four samples shows."""
     is_plain = settings.antialiasing == "msaa-4" and settings.blend == "opaque"
     return is_plain and is_drawn_by_spans(replace(settings, antialiasing="none"))
 
@@ -177,7 +177,7 @@ def _draw_stacks(context: DrawContext) -> tuple[Route, DepthStatistics]:
 
 
 def is_drawn_by_spans(settings: Settings) -> bool:
-    """Tell whether spans can draw with these settings: filled, at centres, in numbers that suit, by the table."""
+    """Return whether spans can draw with these settings: filled, at centres, in numbers that suit, by the table."""
     resolved = resolve(settings)
     suits_spans = resolved.numbers.suits_spans and settings.visibility != "ray-casting"
     is_filled = settings.fill == "spans" and not resolved.is_outlined and settings.antialiasing == "none"

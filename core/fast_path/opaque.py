@@ -83,7 +83,7 @@ def _draw_layer(context: DrawContext, colors: "PaletteColors | SmoothColors | No
 
 
 def _may_be_one_layer(context: DrawContext) -> bool:
-    """Tell whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
+    """Return whether it is worth trying without depth: one triangle, or a mesh of which only one side is drawn."""
     geometry, scene = context.geometry, context.scene
     if not (geometry.is_projected.all() and geometry.is_in_range.all()):
         return False

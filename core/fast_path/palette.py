@@ -53,7 +53,7 @@ def _corners_agree(values: CornerValues, part: slice) -> bool:
 
 @lru_cache(maxsize=4)
 def _is_flat(scene: ClipScene) -> bool:
-    """Tell whether the corners of every triangle have the same values."""
+    """Return whether the corners of every triangle have the same values."""
     assert scene.attributes is not None
     return all(np.array_equal(scene.attributes[:, 0], scene.attributes[:, corner]) for corner in (1, 2))
 

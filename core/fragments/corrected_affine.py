@@ -3,7 +3,7 @@
 The weights are perspective-correct at two anchors of a row and linear between them. Anchors stand at columns whose
 number is a multiple of n, so a pixel's anchors depend on nothing but the triangle and the pixel, whatever is drawn
 first and in however many batches. Where a row of the triangle begins or ends between two of these columns, the anchor
-moves to that end: beyond it 1/w need not be positive. A centre that lies outside of its row, as snapping may have it
+moves to that end: beyond it 1/w need not be positive. A centre that lies outside its row, as snapping may have it
 by a hair, is its own anchor, and gets what perspective gives it.
 
 References

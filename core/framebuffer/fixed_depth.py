@@ -84,7 +84,7 @@ class FixedDepth(DepthFormat):
     is_planar = True
 
     def nearness_key(self, stored: Stored) -> Integers:
-        """Return (F,) int64 keys, 0 or more; far outside of a triangle, where no exact fill draws, the range ends."""
+        """Return (F,) int64 keys, 0 or more; far outside a triangle, where no exact fill draws, the range ends."""
         held = np.clip(stored, -SLACK, SCALE + SLACK)
         undefined = np.isnan(held)
         key: Integers = np.where(undefined, 0, held).astype(np.int64) + SLACK

@@ -1,6 +1,6 @@
 """Outcodes: on which side of which plane a vertex lies, one byte a vertex.
 
-A triangle whose corners share a bit is outside of that plane as a whole; one whose corners have a bit between them
+A triangle whose corners share a bit is outside that plane as a whole; one whose corners have a bit between them
 crosses it, or is outside. So bytes are gathered and joined for a triangle, not six distances of each corner.
 
 References

@@ -51,7 +51,7 @@ def welded(positions: Floats, triangles: Integers) -> Integers:
 
 
 def is_closed(positions: Floats, triangles: Integers) -> bool:
-    """Tell whether every edge of a mesh is gone along as often one way as the other.
+    """Return whether every edge of a mesh is gone along as often one way as the other.
 
     Parameters
     ----------
@@ -62,14 +62,14 @@ def is_closed(positions: Floats, triangles: Integers) -> bool:
 
 
 def _goes_both_ways(triangles: Integers) -> bool:
-    """Tell whether the edges of triangles (T, 3) are the same edges when all of them are turned round."""
+    """Return whether the edges of triangles (T, 3) are the same edges when all of them are turned round."""
     start, end = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
     count = int(triangles.max(initial=0)) + 1
     return np.array_equal(np.sort(start * count + end), np.sort(end * count + start))
 
 
 def is_solid(scene: Scene) -> bool:
-    """Tell whether the meshes of a scene are closed and wind around no point a negative number of times.
+    """Return whether the meshes of a scene are closed and wind around no point a negative number of times.
 
     Notes
     -----

@@ -195,7 +195,7 @@ def _covered_samples(
 
 
 def _at_samples(columns: dict[str, NDArray[Any]], sample: Integers) -> dict[str, NDArray[Any]]:
-    """Return x, y (R,) and c (R, 3) of the unmoved triangles, where the edge functions have the very same values there.
+    """Return x, y (R,) and c (R, 3) of the unmoved triangles, where the edge functions have the same values there.
 
     Rounding tells them apart where corners are not snapped: then the moved triangles are shown.
     """

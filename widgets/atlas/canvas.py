@@ -34,7 +34,7 @@ _SMALLEST_CELL = 16
 
 
 class AtlasCanvas(QWidget):
-    """Paints all maps; tells which cell is pointed at, chosen and opened."""
+    """Paints all maps; reports which cell is pointed at, chosen and opened."""
 
     cell_hovered = Signal(object)
     """A `CellPlace`."""

@@ -42,7 +42,7 @@ class CaseRecord:
 
 
 class CaseView(QWidget):
-    """Two linked grids under a heading and a verdict; tells what the user wants to do with the case."""
+    """Two linked grids under a heading and a verdict; reports what the user wants to do with the case."""
 
     step_requested = Signal()
     shrink_requested = Signal()

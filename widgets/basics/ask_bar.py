@@ -48,7 +48,7 @@ class AskBar(QWidget):
         self.hide()
 
     def ask(self, name: str, label: str, hint: str, text: str = "") -> None:
-        """Ask for a text and take the keyboard; ``hint`` says what is wanted."""
+        """Ask for a text and take the keyboard; ``hint`` describes the expected text."""
         self._name, self._hint = name, hint
         self.label.setText(label)
         self.field.setAccessibleName(label)

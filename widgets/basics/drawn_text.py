@@ -33,7 +33,7 @@ class LabelPlaces:
     ) -> QRectF | None:
         """Return a rectangle of ``size`` beside ``point``, ``reach`` away from it, or None if all is taken.
 
-        Where that is taken, ``further`` away: multiples of ``reach``, the nearest first. A point outside of the area
+        Where that is taken, ``further`` away: multiples of ``reach``, the nearest first. A point outside the area
         has no place.
         """
         if not self._area.adjusted(-1, -1, 1, 1).contains(point):

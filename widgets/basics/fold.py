@@ -1,4 +1,4 @@
-"""A part of a pane that is folded away under its title until it is wanted."""
+"""A part of a pane that is folded away under its title until it is opened."""
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget

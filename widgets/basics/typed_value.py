@@ -184,5 +184,5 @@ class TypedValue(QWidget):
 
 
 def _is_same(first: float, second: float) -> bool:
-    """Tell whether two values are written alike: a zero has a sign."""
+    """Return whether two values are written alike: a zero has a sign."""
     return first == second and math.copysign(1.0, first) == math.copysign(1.0, second)

@@ -31,7 +31,7 @@ _ADDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 
 class Chart(ChartCanvas):
-    """Shows series of points and tells which one the user points at and chooses."""
+    """Shows series of points and reports which one the user points at and chooses."""
 
     series_hovered = Signal(str)
     """Key of the series under the pointer, or gone to by an arrow key."""

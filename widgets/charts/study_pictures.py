@@ -26,7 +26,7 @@ class PicturesRecord:
 
 
 class StudyPictures(QWidget):
-    """Three linked grids under a heading; tells what the user wants to do with them."""
+    """Three linked grids under a heading; reports what the user wants to do with them."""
 
     step_requested = Signal()
     divergence_requested = Signal()

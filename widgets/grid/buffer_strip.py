@@ -282,27 +282,27 @@ class BufferStrip(QWidget):
         return tile
 
     def _hover_all(self, column: int, row: int) -> None:
-        """Mark the pixel in every grid at once, and tell."""
+        """Mark the pixel in every grid at once, and report it."""
         self.show_hover((column, row))
         self.pixel_hovered.emit(column, row)
 
     def _leave_all(self) -> None:
-        """Unmark the pixel in every grid, and tell."""
+        """Unmark the pixel in every grid, and report it."""
         self.show_hover(None)
         self.pixel_left.emit()
 
     def _view_all(self, view: GridView) -> None:
-        """Let every grid follow, and tell."""
+        """Let every grid follow, and report it."""
         self.set_view(view)
         self.view_changed.emit(view)
 
     def _choose(self, name: str) -> None:
-        """Mark the chosen title, and tell."""
+        """Mark the chosen title, and report it."""
         self.show_chosen(name)
         self.buffer_chosen.emit(name)
 
     def _choose_hidden(self, action: QAction) -> None:
-        """Show or hide the buffer of a menu entry, and tell."""
+        """Show or hide the buffer of a menu entry, and report it."""
         name = str(action.data())
         self.set_hidden_names(self._hidden - {name} if action.isChecked() else self._hidden | {name})
         self.hidden_changed.emit(self._hidden)

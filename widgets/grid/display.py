@@ -179,7 +179,7 @@ class GridDisplay(QWidget):
         return samples.text_at(column, row) if column < columns and row < rows else ""
 
     def value_text(self, pixel: tuple[int, int], digits: int = 4) -> str:
-        """Return the value of a pixel as text: "?" where it is covered, empty outside of the raster."""
+        """Return the value of a pixel as text: "?" where it is covered, empty outside the raster."""
         buffer, hidden = self._canvas.buffer, self._canvas.hidden
         column, row = pixel
         if buffer is None or not (0 <= column < buffer.columns and 0 <= row < buffer.rows):

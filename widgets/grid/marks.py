@@ -76,7 +76,7 @@ def region_outline(pixels: NDArray[np.integer], placement: GridPlacement) -> lis
     Parameters
     ----------
     pixels : (N, 2) integer array
-        Columns and rows; those outside of the raster are left out.
+        Columns and rows; those outside the raster are left out.
     placement : GridPlacement
     """
     columns, rows = pixels[:, 0], pixels[:, 1]

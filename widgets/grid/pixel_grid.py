@@ -36,7 +36,7 @@ class _Drag(Enum):
 
 
 class PixelGrid(GridDisplay):
-    """Shows a :class:`~widgets.grid.buffer.GridBuffer` magnified and tells what the user points at and drags.
+    """Shows a :class:`~widgets.grid.buffer.GridBuffer` magnified and reports what the user points at and drags.
 
     Wheel: zoom about the pointer. Middle drag, right drag or Space and drag: pan. Click: ``pixel_clicked``.
     Vertices of the triangle in focus can be dragged; Shift rounds to half pixels, Escape takes the drag

@@ -141,7 +141,7 @@ class RangeControl(QWidget):
         self._show_ends()
 
     def _toggle_fitting(self, position: QPoint) -> None:
-        """Begin or end to keep fitting, and tell."""
+        """Begin or end to keep fitting, and report it."""
         self.set_keeps_fitting(not self._keeps_fitting)
         self.fitting_changed.emit(self._keeps_fitting)
 

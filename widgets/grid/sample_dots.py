@@ -69,7 +69,7 @@ def between_samples(placement: GridPlacement, dots: SampleDots) -> tuple[float, 
 
 
 def has_room(placement: GridPlacement, dots: SampleDots) -> bool:
-    """Tell whether the dots of a pixel stand clearly apart at this zoom."""
+    """Return whether the dots of a pixel stand clearly apart at this zoom."""
     return bool(placement.cell >= LEAST_CELL * len(dots.position) ** 0.5)
 
 

@@ -61,7 +61,7 @@ class GridPlacement:
         )
 
     def pixel_at(self, position: QPointF) -> tuple[int, int] | None:
-        """Return (column, row) of the cell under a widget position, or None outside of the raster."""
+        """Return (column, row) of the cell under a widget position, or None outside the raster."""
         if not QRectF(self.viewport).contains(position):
             return None
         column = floor((position.x() - self.left) / self.cell)

@@ -74,7 +74,7 @@ class FormulaSetter:
         return [cell for row in cell_rows(formula) for cell in row if cell[0] and not _is_quick(cell[0])]
 
     def is_ready(self, cell: tuple[str, str]) -> bool:
-        """Tell whether a cell is typeset already."""
+        """Return whether a cell is typeset already."""
         return self._typesetter.cached(*cell, self._size) is not None
 
     def typeset(self, cell: tuple[str, str]) -> None:
@@ -250,7 +250,7 @@ def _aligned_cells(formula: Formula) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _is_quick(latex: str) -> bool:
-    """Tell whether a cell is a number or a fraction of two: these change at every step and are drawn here."""
+    """Return whether a cell is a number or a fraction of two: these change at every step and are drawn here."""
     return bool(_NUMBER.match(latex) or _FRACTION.match(latex))
 
 

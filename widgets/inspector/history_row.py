@@ -104,7 +104,7 @@ _ELIDE = Qt.TextElideMode.ElideRight
 
 
 def is_stacked(width: int) -> bool:
-    """Tell whether a row is too narrow for title and values on one line."""
+    """Return whether a row is too narrow for title and values on one line."""
     title = QFontMetrics(_text_font()).horizontalAdvance("Triangle 00")
     return width - 3 * _value_width(width) < title + 2 * QFontMetrics(_text_font()).height()
 

@@ -41,7 +41,7 @@ class PixelHistory(QWidget):
     rejected_toggled = Signal(bool)
     """The user shows (True) or leaves out (False) rejected fragments."""
     history_shown = Signal()
-    """The pane has come into sight, by its tab or with its page: its owner may have told it nothing meanwhile."""
+    """The pane has become visible, by its tab or with its page: it may be out of date."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

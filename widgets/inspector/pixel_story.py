@@ -85,7 +85,7 @@ class StoryModel(QAbstractListModel):
 
 
 class StoryFilter(QSortFilterProxyModel):
-    """Leaves out rejected fragments when told to."""
+    """Leaves out rejected fragments on request."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)

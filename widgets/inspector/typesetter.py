@@ -78,7 +78,7 @@ def _typesetting() -> ModuleType:
 
 
 def is_typesetter_loaded() -> bool:
-    """Tell whether typesetting can begin at once; loading takes a fifth of a second, once."""
+    """Return whether typesetting can begin at once; loading takes a fifth of a second, once."""
     return _typesetting.cache_info().currsize > 0
 
 

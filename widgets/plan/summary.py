@@ -101,7 +101,7 @@ class PlanSummary(QWidget):
 
 
 class PlanFindings(QScrollArea):
-    """Findings in the scene and how fine its meshes are, each folded away until it is wanted."""
+    """Findings in the scene and how fine its meshes are, each folded away until it is opened."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

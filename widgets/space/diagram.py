@@ -59,7 +59,7 @@ class Spot:
     radius: float = 4.0
     label: str = ""
     handle: int | None = None
-    """Number by which it is told when it is dragged; ``None``: it stays where it is."""
+    """Number that signals report when it is dragged; ``None``: it cannot be dragged."""
 
     def __post_init__(self) -> None:
         if self.point.shape != (3,):
@@ -94,7 +94,7 @@ class Diagram:
     elevation: float = 0.35
     """Radians, the direction from which it is first seen; see :class:`~widgets.space.orbit.Orbit`."""
     caption: str = ""
-    """What there is to see, in one to three sentences."""
+    """What the drawing shows, in one to three sentences."""
 
     def spot_of(self, handle: int) -> Spot | None:
         """Return the point with a handle's number."""

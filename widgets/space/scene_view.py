@@ -35,7 +35,7 @@ class SceneHandle:
     """A vertex of the triangle in focus."""
 
     index: int
-    """0, 1 or 2: its colour, its name, and what it is told by."""
+    """0, 1 or 2: its colour, its name, and its number in signals."""
     x: float
     """Fraction of the picture's width, from the left."""
     y: float

@@ -232,7 +232,7 @@ class TextureView(QWidget):
         return super().event(event)
 
     def _texel_text(self, position: QPointF) -> str:
-        """Return place and colour of the texel at a widget position; empty outside of the texture."""
+        """Return place and colour of the texel at a widget position; empty outside the texture."""
         if self._picture is None:
             return ""
         column, row = self.texel_at(position)

@@ -77,7 +77,7 @@ class StageCardView(QWidget):
         self._body.setVisible(not is_folded)
 
     def is_folded(self) -> bool:
-        """Tell whether only the title line is shown."""
+        """Return whether only the title line is shown."""
         return self._is_folded
 
     @Slot()

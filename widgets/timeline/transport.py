@@ -166,7 +166,7 @@ class Timeline(QWidget):
         self._guests.addWidget(widget)
 
     def is_playing(self) -> bool:
-        """Tell whether the clock runs."""
+        """Return whether the clock runs."""
         return self.clock.isActive()
 
     def level(self) -> Level:

@@ -178,7 +178,7 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
         overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
         overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
         values = stage.columns.get("values")
-        # A line has no edge functions: nothing is outside of an edge.
+        # A line has no edge functions: nothing is outside an edge.
         for k in range(3 if values is not None else 0):
             assert values is not None
             outside = mask(values[:done, k] < 0)

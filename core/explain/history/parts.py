@@ -63,7 +63,7 @@ def share_name(area: float) -> str:
 
 
 def is_same(first: float, second: float) -> bool:
-    """Tell whether two areas differ by no more than rounding, in pixels."""
+    """Return whether two areas differ by no more than rounding, in pixels."""
     return isclose(first, second, rel_tol=0.0, abs_tol=1e-9)
 
 

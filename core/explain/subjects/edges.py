@@ -97,7 +97,7 @@ def homogeneous(step: StepValues) -> Said:
 
 
 def _has_area(step: StepValues) -> bool:
-    """Tell whether the area is that of snapped corners; else it is a determinant."""
+    """Return whether the area is that of snapped corners; else it is a determinant."""
     return step.flag("is_projected") and all(map(math.isfinite, step.vector("snapped")))
 
 

@@ -38,7 +38,7 @@ _FROM_BORDER = r"N \cdot (P_0 - P_E)"
 
 
 def uses_normals(step: StepValues) -> bool:
-    """Tell whether the method uses normals, as Cyrus-Beck does, rather than p and q."""
+    """Return whether the method uses normals, as Cyrus-Beck does, rather than p and q."""
     return step.text("line_clipping") != "liang-barsky"
 
 
@@ -139,7 +139,7 @@ def _side(step: StepValues) -> Formula:
 def parallel(step: StepValues) -> Said:
     """A parallel edge that is kept, for now."""
     border = step.text("border")
-    text = f"The edge is parallel to the {border} border and not outside of it, so it is not cut there."
+    text = f"The edge is parallel to the {border} border and not outside it, so it is not cut there."
     if step.number("room") < 0:
         text = f"As printed, a parallel edge is ignored although it lies outside the {border} border: it is kept."
     return text, _side(step)
@@ -148,9 +148,7 @@ def parallel(step: StepValues) -> Said:
 @explains("raster.clip-outside.drop")
 def outside(step: StepValues) -> Said:
     """A parallel edge outside."""
-    text = (
-        f"The edge is parallel to the {step.text('border')} border and outside of it: nothing of it is drawn."
-    )
+    text = f"The edge is parallel to the {step.text('border')} border and outside it: nothing of it is drawn."
     return text, _side(step)
 
 

@@ -2,7 +2,7 @@
 
 A highlight ends where the light goes behind the surface, and it may end abruptly. There the least turn of a normal
 decides between a highlight and none, and no bound holds. Nor does one for triangles hardly wider than snapping moves
-their corners: attributes belong to the unsnapped ones, and pixels may lie far outside of these. The few pixels that are
+their corners: attributes belong to the unsnapped ones, and pixels may lie far outside these. The few pixels that are
 so are coloured once more, with the attributes and the light of every other picture, and so are those of the few
 triangles whose normals differ too much.
 """

@@ -111,7 +111,7 @@ def even_mesh(context: DrawContext) -> LitMesh | None:
 
 
 def have_few_unlike(context: DrawContext, meshes: Sequence[VertexFacts]) -> bool:
-    """Tell whether so few triangles of all ``meshes`` of a scene have unlike normals that these may be coloured twice.
+    """Return whether few enough triangles of all ``meshes`` of a scene have unlike normals to be coloured twice.
 
     Of whole meshes, so that what holds for the picture holds for all bands of it; pieces of triangles are no mesh.
     """
@@ -122,7 +122,7 @@ def have_few_unlike(context: DrawContext, meshes: Sequence[VertexFacts]) -> bool
 
 
 def is_mostly_in_front(geometry: Geometry) -> bool:
-    """Tell whether so few triangles have corners without a place in the window that they may be coloured twice.
+    """Return whether so few triangles have corners without a place in the window that they may be coloured twice.
 
     Of all that are not culled, so that what holds for the picture holds for all bands of it.
     """

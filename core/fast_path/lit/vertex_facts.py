@@ -1,6 +1,6 @@
 """What the colours of a mesh ask of all of its vertices: the same from picture to picture, whatever the camera.
 
-The values at vertices are the very same array in every picture of an orbit, where no light on them depends on the
+The values at vertices are the same array in every picture of an orbit, where no light on them depends on the
 camera; so what was found in the array of the last picture is kept with it.
 """
 

@@ -133,7 +133,7 @@ class BandWorkers:
             self._lock.release()
 
     def start(self) -> bool:
-        """Start the workers now, and wait until they are ready; tell whether they are.
+        """Start the workers now, and wait until they are ready; return whether they are.
 
         `draw` starts them by itself: this is for whoever knows that many pictures will come.
         """
@@ -208,7 +208,7 @@ class BandWorkers:
         return "" if self._always or self._pace.may_share else self._pace.reason
 
     def _has_workers(self, seconds: float) -> bool:
-        """Start the workers where there are none; tell whether they are ready after at most ``seconds``."""
+        """Start the workers where there are none; return whether they are ready after at most ``seconds``."""
         try:
             if not self._workers:
                 self._start_count += 1
@@ -224,7 +224,7 @@ class BandWorkers:
         _close_all(self._workers)
 
     def _draw_in_one_way(self, order: Order) -> tuple[Picture, tuple[BandTime, ...]]:
-        """Draw with all workers, all bands with the colours of the whole picture; no bands: that cannot be told.
+        """Draw with all workers, all bands with the colours of the whole picture; no bands: the colours are unknown.
 
         What all of them must draw alike is learned from the bands, and stays so for the pictures to come: an orbit
         draws a band twice only where it changes.

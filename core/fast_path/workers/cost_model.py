@@ -66,7 +66,7 @@ class Load:
         return self.seconds * (1 - 1 / processes) - ASKING
 
     def is_worth(self, processes: int) -> bool:
-        """Tell whether so many processes draw such a picture noticeably faster than one."""
+        """Return whether so many processes draw such a picture noticeably faster than one."""
         return self.gain(processes) >= LEAST_GAIN
 
 

@@ -81,7 +81,7 @@ def _forget(
 
 
 def is_sent_once(value: object) -> bool:
-    """Tell whether an object cannot change, and is large enough or kept long enough to be named by a number."""
+    """Return whether an object cannot change, and is large enough or kept long enough to be named by a number."""
     if isinstance(value, np.ndarray):
         return not value.flags.writeable and value.nbytes >= LARGE
     return isinstance(value, SENT_ONCE)

@@ -54,7 +54,7 @@ def joined_counts(statistics: Sequence[dict[str, StageCount]]) -> dict[str, Stag
 
 
 def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
-    """Tell whether bands have the colours that one process gives the whole picture.
+    """Return whether bands have the colours that one process gives the whole picture.
 
     Parameters
     ----------

@@ -63,7 +63,7 @@ class Pace:
         self._shared.clear()
 
     def _compare_with(self, load: Load) -> bool:
-        """Forget what was measured where the work is of another kind; tell whether it is of the same."""
+        """Forget what was measured where the work is of another kind; return whether it is of the same."""
         if self._estimate / SAME_KIND <= load.seconds <= self._estimate * SAME_KIND:
             return True
         self._estimate = load.seconds

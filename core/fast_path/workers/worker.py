@@ -80,7 +80,7 @@ class Worker:
         return self._process.pid
 
     def is_ready(self, seconds: float = 0.0) -> bool:
-        """Tell whether it can be asked, waiting for at most ``seconds``."""
+        """Return whether it can be asked, waiting for at most ``seconds``."""
         if not self._is_ready and self._connection.poll(seconds):
             self._is_ready = self._receive() == READY
         return self._is_ready

@@ -5,7 +5,7 @@ potentially leaves (PL), both at t = N . (P0 - P_E) / (-N . D). The segment is i
 the least of an exit.
 
 The lecture prints "if N . D is not 0 {ignore edges parallel to line}" and stops there, so a segment that is parallel to
-an edge and outside of it is kept. ``cyrus-beck`` looks at its side; ``cyrus-beck-lecture`` is as printed.
+an edge and outside it is kept. ``cyrus-beck`` looks at its side; ``cyrus-beck-lecture`` is as printed.
 
 References
 ----------

@@ -25,7 +25,7 @@ class PolygonClipping:
     clip_by: Callable[[Primitives, Floats, tuple[int, ...]], Clipped] = clip_primitives
     """Clips primitives, given the distances of their corners, against planes."""
     is_canonical: bool = True
-    """Whether new corners are computed alike from A to B and from B to A, so that neighbours get the very same."""
+    """Whether new corners are computed alike from A to B and from B to A, so that neighbours get the same."""
     divides: bool = False
     """Whether corners are divided by w first, whatever its sign."""
 

@@ -3,7 +3,7 @@
 Notes
 -----
 A new corner is computed from the inside end to the outside end, so that the two triangles of an
-edge get the very same corner; `clip_edge_in_order` does without. Positions and attributes are linear in clip space:
+edge get the same corner; `clip_edge_in_order` does without. Positions and attributes are linear in clip space:
 one t serves both.
 
 References
@@ -123,7 +123,7 @@ def clip_chosen(
         counts.append(count)
         rows.append(plane_rows)
 
-    # Fans (0, k, k + 1), each piece in the place of its triangle.
+    # Fans (0, k, k + 1), each piece in its triangle's place.
     crossing = np.zeros(len(primitives), bool)
     crossing[clipped] = True
     piece_count = np.where(crossing, 0, 1)

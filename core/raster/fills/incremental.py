@@ -1,7 +1,7 @@
 """Incremental edge functions: a value is the one of the pixel before, plus a to the right or b upwards.
 
 The box of a triangle is walked row by row. Its first value is evaluated, the first of every other row is that of the
-row below plus b, and along a row a is added. One addition a pixel and edge in the place of two products and two sums:
+row below plus b, and along a row a is added. One addition a pixel and edge instead of two products and two sums:
 exact where sums are (``int64``, ``exact``, and ``snapped`` where an end of every edge is before the eye); where each
 sum is rounded, the errors add up along the way, and the edge drifts.
 

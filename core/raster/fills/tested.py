@@ -97,7 +97,7 @@ def incremental(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: 
 
 
 def effective_fill(fill: str, coverage: str) -> str:
-    """Return the fill that runs: ``bounding-box`` in the place of spans that do not suit the numbers.
+    """Return the fill that runs: ``bounding-box`` instead of spans that do not suit the numbers.
 
     Spans give the pixels of a test at every pixel only where values are monotone along a row, and are made for
     float64.

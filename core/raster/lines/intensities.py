@@ -31,7 +31,7 @@ def run_rightwards(outlines: Outlines) -> Outlines:
 
     Notes
     -----
-    So both triangles at an edge draw the very same pixels, intensities and depths: what the first one stored, the
+    So both triangles at an edge draw the same pixels, intensities and depths: what the first one stored, the
     second one does not pass, and no pixel of the edge is blended twice by rounding.
     """
     first, second = outlines.window[:, 0], outlines.window[:, 1]

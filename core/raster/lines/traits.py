@@ -76,7 +76,7 @@ def line_traits(line: str) -> LineTraits:
 
 
 def has_intensities(line: str) -> bool:
-    """Tell whether a method of the family ``line`` gives its pixels shares of the line's colour."""
+    """Return whether a method of the family ``line`` gives its pixels shares of the line's colour."""
     return BLENDING in table.get("line", line).needs
 
 

@@ -61,7 +61,7 @@ def used_names(listing: FunctionType) -> dict[str, Any]:
 
 
 def is_counted(line: str) -> bool:
-    """Tell whether the listing of a line method is plain arithmetic: a fraction costs what no number does."""
+    """Return whether the listing of a line method is plain arithmetic: a fraction costs what no number does."""
     return not any(value is Fraction for value in used_names(line_listing(line)).values())
 
 

@@ -101,7 +101,7 @@ def stage_divergence(first: StageTrace, second: StageTrace) -> Divergence | None
 
 
 def is_same_schedule(first: StageTrace, second: StageTrace) -> bool:
-    """Tell whether two traces have rows of the same kinds about the same triangles and pixels, in the same order."""
+    """Return whether two traces have rows of the same kinds about the same triangles and pixels, in the same order."""
     if first.steps.row_count != second.steps.row_count:
         return False
     kinds = [np.array(each.steps.kinds)[each.steps.kind] for each in (first, second)]

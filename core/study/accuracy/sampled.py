@@ -25,7 +25,7 @@ ROWS_AT_ONCE = 4
 
 
 def can_be_sampled(size: tuple[int, int]) -> bool:
-    """Tell whether a picture of this size can be drawn at 16 times its size."""
+    """Return whether a picture of this size can be drawn at 16 times its size."""
     return SIDE * max(size) <= SIZE_LIMIT
 
 

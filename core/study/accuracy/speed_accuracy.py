@@ -182,7 +182,7 @@ def cost_dial(work: WorkKind) -> Dial | None:
 
 
 def _is_too_slow(candidate: Candidate, growth: Mapping[float, tuple[Point, ...]], value: float) -> bool:
-    """Tell whether one run took longer than `BUDGET` on less work, or could not be done: then more is not tried."""
+    """Return whether one run took longer than `BUDGET` on less work, or could not be done: then more is not tried."""
     return any(
         point.method == candidate.method and (bool(point.refused) or float(point.seconds.min()) > BUDGET)
         for less, points in growth.items()

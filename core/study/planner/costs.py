@@ -32,7 +32,7 @@ class Costs:
     """Nothing is timed: the methods that the lectures call cheaper are, on every scene and machine alike."""
 
     def is_slower(self, settings: Settings, others: Settings) -> bool:
-        """Tell whether ``settings`` are known to take longer than ``others``."""
+        """Return whether ``settings`` are known to take longer than ``others``."""
         return False
 
     def seconds(self, options: Sequence[Settings]) -> tuple[float, ...] | None:
@@ -58,7 +58,7 @@ class TriedCosts(Costs):
         self._least: dict[Settings, list[float]] = {}
 
     def is_slower(self, settings: Settings, others: Settings) -> bool:
-        """Tell whether ``settings`` took longer than ``others`` in most rounds, and by more than `BAND` in all."""
+        """Return whether ``settings`` took longer than ``others`` in most rounds, and by more than `BAND` in all."""
         faster = 0
         for _ in range(ROUNDS):
             faster += self._draw(settings) <= self._draw(others)

@@ -1,4 +1,4 @@
-"""What there is in a scene: signs of w, closedness, layers, texels, light. Facts to be read, and reasons' numbers."""
+"""What a scene contains: signs of w, closedness, layers, texels, light. Facts to be read, and reasons' numbers."""
 
 from dataclasses import dataclass, replace
 from math import acos, pi

@@ -165,7 +165,7 @@ def _choose(
 
 
 def has_no_effect(family: str, settings: Settings, seen: Seen) -> bool:
-    """Tell whether all methods of a family draw the same in the same time, so that the cheapest is chosen untried."""
+    """Return whether all methods of a family draw the same in the same time, so that the cheapest is chosen untried."""
     return (
         (family == "clipping" and seen.cut == 0)
         or (family == "texture_filter" and seen.texels is None)

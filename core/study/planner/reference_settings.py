@@ -48,5 +48,5 @@ def reference_settings(scene: AnyScene, base: Settings | None = None) -> Setting
 
 
 def is_perspective(scene: AnyScene) -> bool:
-    """Tell whether depth can be kept reversed, by a projection of its own."""
+    """Return whether depth can be kept reversed, by a projection of its own."""
     return not isinstance(scene, Scene) or scene.camera.projection == "perspective"

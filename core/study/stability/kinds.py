@@ -238,7 +238,7 @@ def nearer_looks(parts: Parts) -> Iterator[Parts]:
 
     Notes
     -----
-    Of a perspective camera a part is seen by turning it there: not the very same pixels, but as good.
+    Of a perspective camera a part is seen by turning it there: not the same pixels, but as good.
     """
     width, height = parts.size
     if parts.size != (1, 1):

@@ -151,11 +151,11 @@ def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometr
 def _number_trouble(
     scene: ClipScene, settings: Settings, geometry: Geometry, cover: Integers
 ) -> Outcome | None:
-    """Tell whether edge functions left the range of their numbers: NaN, infinite, or wrapped around.
+    """Return whether edge functions left the range of their numbers: NaN, infinite, or wrapped around.
 
     Notes
     -----
-    Whole numbers that wrap around cannot be told by looking at them. But their products and sums forget nothing else:
+    A whole number does not show that it wrapped around. But their products and sums forget nothing else:
     where pixels differ from those of exact numbers on the same grid, a value did not fit.
     """
     edges = geometry.edges

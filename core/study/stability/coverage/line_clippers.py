@@ -114,7 +114,7 @@ def stretch_text(ends: list[list[float]]) -> str:
 
     Notes
     -----
-    Four digits are read, ulps are not: ends that read the same are told as one place.
+    Four digits are read, ulps are not: ends that read the same are written as one place.
     """
     first, second = ("(" + ", ".join(f"{value:.4g}" for value in end) + ")" for end in ends)
     return f"at {first}" if first == second else f"from {first} to {second}"
