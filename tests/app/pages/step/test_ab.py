@@ -58,7 +58,7 @@ def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_p
     window.page.show_view("compare")
     window.files.export_to(str(tmp_path / "both.svg"))
     drawing = (tmp_path / "both.svg").read_text()
-    for text in ("A, current settings", "Scanline as printed", "Difference, colour", "pixels differ"):
+    for text in ("A, current settings", "Scanline, as printed", "Difference, colour", "pixels differ"):
         assert text in drawing
     for text in ("B = A", "Swap"):
         assert text not in drawing
