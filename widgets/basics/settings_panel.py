@@ -113,7 +113,7 @@ class SettingsPanel(QWidget):
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-            combo.setMinimumContentsLength(8)
+            combo.setMinimumContentsLength(9)
             combo.setAccessibleName(setting.label)
             combo.setObjectName(setting.family)
             combo.activated.connect(self._choose)
