@@ -83,7 +83,7 @@ def test_no_triangle_and_no_digit_can_be_left_out() -> None:
 
 
 def test_only_what_fails_can_be_shrunk() -> None:
-    with pytest.raises(ValueError, match="a scene that fails is wanted"):
+    with pytest.raises(ValueError, match="expected a scene that fails"):
         shrink_cell("slivers", "coverage=exact", (0.5, 0.25))
     with pytest.raises(ValueError, match="method of slivers must be one of"):
         shrink_cell("slivers", "coverage=decimal", (0.5, 0.25))

@@ -89,7 +89,7 @@ def test_a_strip_with_other_normals_or_seen_from_behind_has_no_truth() -> None:
         NormalsCase(replace(scene, meshes=(tilted,)))
     with pytest.raises(ValueError, match="seen from the front"):
         NormalsCase(replace(scene, meshes=(replace(mesh, triangles=mesh.triangles[:, ::-1]),)))
-    with pytest.raises(ValueError, match="one mesh with normals is wanted"):
+    with pytest.raises(ValueError, match="expected one mesh with normals"):
         NormalsCase(replace(scene, meshes=(mesh, mesh)))
 
 
@@ -175,11 +175,11 @@ def test_a_part_of_the_picture_of_a_perspective_camera_looks_there() -> None:
 
 def test_only_one_lit_mesh_is_taken_apart() -> None:
     scene = flattened_tube(90.0, 1)
-    with pytest.raises(ValueError, match="one mesh under one light is wanted"):
+    with pytest.raises(ValueError, match="expected one mesh under one light"):
         LIT_MESHES.take_apart(replace(scene, lights=()))
-    with pytest.raises(ValueError, match="a mesh with normals under a distant light is wanted"):
+    with pytest.raises(ValueError, match="expected a mesh with normals under a distant light"):
         LIT_MESHES.take_apart(replace(scene, meshes=(replace(scene.meshes[0], normals=None),)))
-    with pytest.raises(ValueError, match="one mesh under one light is wanted"):
+    with pytest.raises(ValueError, match="expected one mesh under one light"):
         scene_text(replace(scene, lights=()))
 
 
