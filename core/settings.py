@@ -79,7 +79,7 @@ class Settings:
         "core.raster.lines.rectangle",
         "core.raster.lines.smooth",
         taken_by="polygon_mode",
-        otherwise="Lines are drawn where polygons are wireframes.",
+        otherwise="Only wireframes draw lines.",
         asks=("listing", "operations"),
     )
     line_clipping: str = choice(
@@ -92,7 +92,7 @@ class Settings:
         "core.geometry.line_clipping.exact",
         "core.geometry.line_clipping.liang_barsky",
         taken_by="polygon_mode",
-        otherwise="Lines are drawn where polygons are wireframes.",
+        otherwise="Only wireframes draw lines.",
     )
     pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs")
     interpolation: str = choice(
@@ -152,7 +152,7 @@ class Settings:
         "resolve",
         "core.framebuffer.resolve",
         taken_by="antialiasing",
-        otherwise="Only several samples a pixel are filtered.",
+        otherwise="Only several samples per pixel are filtered.",
     )
     block_size: int = number_field(
         8,
@@ -171,7 +171,7 @@ class Settings:
         (1, 2, 4, 8, 16, 32, 64),
         "{0} px",
         taken_by="interpolation",
-        otherwise="Only affine interpolation that is corrected has an interval.",
+        otherwise="Only corrected affine interpolation has an interval.",
         reason=draws_lines,
     )
     """Columns between corrections (interpolation ``affine-n``), 1 to 256."""
@@ -182,7 +182,7 @@ class Settings:
         tuple(range(1, 9)),
         "{0} × {0} samples",
         taken_by="antialiasing",
-        otherwise="Only supersampling with n x n samples leaves their number open.",
+        otherwise="Only supersampling with n x n samples has a sample count.",
     )
     """Samples on a side of a pixel (antialiasing ``ssaa-n``), 1 to 8."""
 
