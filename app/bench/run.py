@@ -11,7 +11,7 @@ from app.bench.machine import Machine, this_machine
 from app.bench.report import foot_text, head_text, result_text
 from app.bench.results_file import results_text
 from app.bench.scenes import WORKLOADS, Workload
-from app.files.file_writing import whole_file
+from app.files.file_writing import whole_file, write_file
 
 FILE_NAME = "benchmark"
 
@@ -60,10 +60,8 @@ def verdict(results: Sequence[Result]) -> int:
 def write_files(folder: Path, results: list[Result], machine: Machine, rounds: int) -> None:
     """Write the table and the chart."""
     svg = chart_svg(results, machine)
-    with whole_file(folder / f"{FILE_NAME}.csv") as file:
-        file.write(results_text(results, machine, rounds).encode("utf-8"))
-    with whole_file(folder / f"{FILE_NAME}.svg") as file:
-        file.write(svg.encode("utf-8"))
+    write_file(folder / f"{FILE_NAME}.csv", results_text(results, machine, rounds).encode("utf-8"))
+    write_file(folder / f"{FILE_NAME}.svg", svg.encode("utf-8"))
     with whole_file(folder / f"{FILE_NAME}.png") as file:
         write_png(file, svg)
 

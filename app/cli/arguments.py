@@ -9,6 +9,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from app.cli.commands import PROGRAM, UsageError
+from app.files.mesh_formats import Report
 from app.files.open_any import Opened, open_any
 from core import Settings
 from core.scene import SIZE_LIMIT
@@ -71,10 +72,8 @@ def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Se
 
 def open_file(options: argparse.Namespace) -> Opened:
     """Open FILE; warnings go to stderr, and progress too if it is a terminal."""
-    shows_progress = sys.stderr.isatty()
-    opened = open_any(options.file, show_progress if shows_progress else None)
-    if shows_progress:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with progress_line() as progress:
+        opened = open_any(options.file, progress)
     for warning in opened.warnings:
         print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
     return opened
@@ -96,6 +95,15 @@ def overflow_reported() -> Iterator[None]:
             f"({', '.join(sorted(problems))}); what depends on them is undefined",
             file=sys.stderr,
         )
+
+
+@contextmanager
+def progress_line() -> Iterator[Report | None]:
+    """Give what shows progress where stderr is a terminal, else ``None``; its line is gone at the end."""
+    shows_progress = sys.stderr.isatty()
+    yield show_progress if shows_progress else None
+    if shows_progress:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def show_progress(fraction: float | None, doing: str) -> None:

@@ -4,10 +4,9 @@ NumPy is imported only after the numbers of threads are set: it asks for them on
 """
 
 import argparse
-from pathlib import Path
 
 from app.bench.threads import set_threads
-from app.cli.commands import UsageError
+from app.cli.commands import UsageError, output_folder
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
 pictures, time them in turn, and write a table. The libraries are in the extra bench."""
@@ -44,9 +43,7 @@ def run(options: argparse.Namespace) -> int:
     """Measure; 0 if the core drew what it should."""
     if options.quick and options.rounds is not None:
         raise UsageError("argument --quick: not allowed with --rounds")
-    folder = None if options.output is None else Path(options.output)
-    if folder is not None and not folder.is_dir():
-        raise UsageError(f"argument -o: there is no folder {folder}")
+    folder = output_folder(options)
     set_threads()
     from app.bench.run import chosen_workloads, run_benchmark
 

@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
@@ -58,6 +59,14 @@ scene; a file with the name of a command or scene opens as ./name.
 
 class UsageError(ValueError):
     """The command line is wrong; the message is one line."""
+
+
+def output_folder(options: argparse.Namespace) -> Path | None:
+    """Return the folder that ``-o`` names, ``None`` without it, or raise UsageError where there is none."""
+    folder = None if options.output is None else Path(options.output)
+    if folder is not None and not folder.is_dir():
+        raise UsageError(f"argument -o: there is no folder {folder}")
+    return folder
 
 
 class Parser(argparse.ArgumentParser):

@@ -1,7 +1,6 @@
 """``rasterscope plan``: the cheapest methods that a scene needs, why, and what they were measured to do."""
 
 import argparse
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +10,8 @@ from app.cli.arguments import (
     add_settings,
     chosen_settings,
     open_file,
+    progress_line,
     rounds_from_text,
-    show_progress,
     size_from_text,
 )
 from app.cli.commands import UsageError
@@ -148,16 +147,15 @@ def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
     saved: dict[str, list[float]] = {}
     fallen_back = wrong = 0
     base = chosen_settings(Settings(), options.set)
-    for seed in range(options.corpus):
-        kind, scene = corpus_scene(seed)
-        if sys.stderr.isatty():
-            show_progress(seed / options.corpus, f"scene {seed}, {kind}")
-        report = plan_and_check(scene, tolerance, base, options.rounds)
-        saved.setdefault(kind, []).append(report.time_saved)
-        fallen_back += bool(report.fallen_back)
-        wrong += sum(not outcome.is_right for outcome in report.outcomes)
-    if sys.stderr.isatty():
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with progress_line() as progress:
+        for seed in range(options.corpus):
+            kind, scene = corpus_scene(seed)
+            if progress is not None:
+                progress(seed / options.corpus, f"scene {seed}, {kind}")
+            report = plan_and_check(scene, tolerance, base, options.rounds)
+            saved.setdefault(kind, []).append(report.time_saved)
+            fallen_back += bool(report.fallen_back)
+            wrong += sum(not outcome.is_right for outcome in report.outcomes)
     every = [value for values in saved.values() for value in values]
     rows = [["scenes", "count", *(f"{100 * quantile:g} %" for quantile in QUANTILES)]]
     for name, values in [*saved.items(), ("all", every)]:

@@ -1,13 +1,12 @@
 """``rasterscope stress``: where methods fail, as maps of real runs; and failing cases made small."""
 
 import argparse
-import sys
 from itertools import product
 from pathlib import Path
 
 from app import __version__
-from app.cli.arguments import show_progress
-from app.cli.commands import UsageError
+from app.cli.arguments import progress_line
+from app.cli.commands import UsageError, output_folder
 from app.cli.study import seed_from_text
 from app.cli.window import load_qt
 from app.export.atlas_text import atlas_text
@@ -53,9 +52,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     if options.experiment is None:
         raise UsageError("EXPERIMENT is required; --list shows all")
-    folder = None if options.output is None else Path(options.output)
-    if folder is not None and not folder.is_dir():
-        raise UsageError(f"argument -o: there is no folder {folder}")
+    folder = output_folder(options)
     if folder is not None and options.shrink is None:
         load_qt()
     try:
@@ -66,11 +63,8 @@ def run(options: argparse.Namespace) -> int:
         raise UsageError(str(problem)) from problem
     if options.shrink is not None:
         return run_shrink(experiment, options.shrink, options.seed, folder)
-    shows_progress = sys.stderr.isatty()
-    progress = show_progress if shows_progress else None
-    atlas = stress(options.experiment, seed=options.seed, progress=progress, machine=machine(__version__))
-    if shows_progress:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with progress_line() as progress:
+        atlas = stress(options.experiment, seed=options.seed, progress=progress, machine=machine(__version__))
     print("\n".join(atlas_text(atlas)))
     if folder is not None:
         from app.export.atlas import export_atlas  # Maps need Qt, their text does not.

@@ -1,12 +1,10 @@
 """``rasterscope study``: the methods of a family on the same work, their speed against their accuracy."""
 
 import argparse
-import sys
-from pathlib import Path
 
 from app import __version__
-from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, rounds_from_text, show_progress
-from app.cli.commands import UsageError
+from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, progress_line, rounds_from_text
+from app.cli.commands import UsageError, output_folder
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
@@ -91,9 +89,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     if options.family is None:
         raise UsageError("FAMILY is required; --list shows all")
-    folder = None if options.output is None else Path(options.output)
-    if folder is not None and not folder.is_dir():
-        raise UsageError(f"argument -o: there is no folder {folder}")
+    folder = output_folder(options)
     if folder is not None:
         load_qt()
     dials = dict(options.dial)
@@ -116,22 +112,20 @@ def run(options: argparse.Namespace) -> int:
             if opened.state is not None:
                 settings = opened.document.settings
         settings = chosen_settings(settings, options.set)
-    shows_progress = sys.stderr.isatty()
-    study = measure(
-        family.name,
-        options.work,
-        dials,
-        scene=scene,
-        settings=settings,
-        scene_title=title,
-        rounds=options.rounds,
-        grow=not options.no_growth,
-        seed=options.seed,
-        machine=machine(__version__),
-        progress=show_progress if shows_progress else None,
-    )
-    if shows_progress:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with progress_line() as progress:
+        study = measure(
+            family.name,
+            options.work,
+            dials,
+            scene=scene,
+            settings=settings,
+            scene_title=title,
+            rounds=options.rounds,
+            grow=not options.no_growth,
+            seed=options.seed,
+            machine=machine(__version__),
+            progress=progress,
+        )
     print("\n".join(table_text(study)))
     if folder is not None:
         from app.export.study import export_study  # Charts need Qt, numbers do not.

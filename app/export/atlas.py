@@ -1,12 +1,13 @@
 """A stability experiment as files: every cell as CSV, all of it as JSON, the maps as SVG and PNG."""
 
 import csv
+from functools import partial
 from io import StringIO
 from math import isnan
 from pathlib import Path
 
 from app.export.sheet import MARGIN, WIDTH, Sheet, sheet_bytes
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_files
 from app.files.state_files import readable_json
 from app.pages.stability.records import atlas_record, cells_of, has_curves, method_titles, severity_chart
 from app.pages.words import machine_words
@@ -99,12 +100,5 @@ def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
     OSError
         If a file cannot be written; the message is one sentence.
     """
-    written = []
-    for ending in ENDINGS:
-        path = folder / f"stress-{atlas.experiment.name}{ending}"
-        content = atlas_content(atlas, ending)
-        assert content is not None
-        with whole_file(path) as file:
-            file.write(content)
-        written.append(path)
-    return written
+    stem = f"stress-{atlas.experiment.name}"
+    return write_files(folder, stem, ENDINGS, partial(atlas_content, atlas))

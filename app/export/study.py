@@ -1,12 +1,13 @@
 """A study as files: numbers as CSV and JSON, charts as SVG and PNG; with the machine, versions, date and settings."""
 
 import csv
+from functools import partial
 from io import StringIO
 from math import isnan
 from pathlib import Path
 
 from app.export.sheet import Sheet, sheet_bytes
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_files
 from app.files.study_files import EXTENSION, study_json
 from app.pages.compare.charts import TIME, growth_of, numbers_of, scatter_of, title_of
 from app.pages.words import machine_sentence, settings_sentence, work_sentence
@@ -125,12 +126,5 @@ def export_study(study: Study, folder: Path, measure: str | None = None) -> list
     OSError
         If a file cannot be written; the message is one sentence.
     """
-    written = []
-    for ending in ENDINGS:
-        path = folder / f"study-{study.family}-{study.work.name}{ending}"
-        content = study_content(study, measure, ending)
-        assert content is not None
-        with whole_file(path) as file:
-            file.write(content)
-        written.append(path)
-    return written
+    stem = f"study-{study.family}-{study.work.name}"
+    return write_files(folder, stem, ENDINGS, partial(study_content, study, measure))

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.export.paint import paint_tree, seen_image
 from app.export.svg import svg_text
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_file
 from widgets.inspector.formula_view import FormulaView
 
 ENDINGS = (".png", ".svg", ".pdf")
@@ -44,8 +44,7 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
     if widget.size().isEmpty():
         raise ValueError("this view has no size, there is nothing to export")
     content = makers[ending]()
-    with whole_file(path) as file:
-        file.write(content)
+    write_file(path, content)
 
 
 def copy_widget(widget: QWidget) -> None:

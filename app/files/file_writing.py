@@ -2,7 +2,7 @@
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
@@ -25,6 +25,31 @@ def make_folder(folder: Path) -> None:
     except OSError as problem:
         reason = (problem.strerror or str(problem)).lower()
         raise FileWriteError(f"{folder} cannot be made: {reason}") from problem
+
+
+def write_file(path: str | Path, content: bytes) -> None:
+    """Write a whole file, or nothing; its arguments and errors are those of `whole_file`."""
+    with whole_file(path) as file:
+        file.write(content)
+
+
+def write_files(
+    folder: Path, stem: str, endings: Iterable[str], content: Callable[[str], bytes | None]
+) -> list[Path]:
+    """Write a file for every ending, which ``content`` makes, and return the paths; others of that name are replaced.
+
+    Raises
+    ------
+    FileWriteError
+        If a file cannot be written.
+    """
+    written = []
+    for ending in endings:
+        made = content(ending)
+        assert made is not None
+        written.append(folder / f"{stem}{ending}")
+        write_file(written[-1], made)
+    return written
 
 
 @contextmanager

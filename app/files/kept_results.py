@@ -13,7 +13,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QStandardPaths, Signal, Slot
 
 from app.background.workers import JobGroup, Progress
-from app.files.file_writing import FileWriteError, make_folder, whole_file
+from app.files.file_writing import FileWriteError, make_folder, write_file
 from app.window.preferences import FOLDER_VARIABLE
 
 LARGEST = 4 << 20
@@ -116,8 +116,7 @@ def write_result(folder: Path, name: str, content: bytes) -> None:
     if len(content) > LARGEST:
         raise FileWriteError(f"{name} is larger than {LARGEST >> 20} MiB")
     make_folder(folder)
-    with whole_file(folder / name) as file:
-        file.write(content)
+    write_file(folder / name, content)
     remove_oldest(folder, LARGEST_TOGETHER)
 
 

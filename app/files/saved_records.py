@@ -16,7 +16,16 @@ class SavedRecordError(ValueError):
     """A saved record cannot be read; the message is one sentence, or the end of one."""
 
 
-def read_record(path: Path, model: type[Model], program: str, noun: str, version: int) -> Model:
+def read_record(
+    path: Path,
+    model: type[Model],
+    program: str,
+    noun: str,
+    version: int,
+    *,
+    limit: int = SIZE_LIMIT,
+    union: str = "",
+) -> Model:
     """Return what a file holds.
 
     Parameters
@@ -30,13 +39,17 @@ def read_record(path: Path, model: type[Model], program: str, noun: str, version
         What such a file is called, with its article: ``a study``.
     version : int
         The only one that is read.
+    limit : int
+        Its largest size in bytes.
+    union : str
+        As in `field_problem`.
 
     Raises
     ------
     SavedRecordError
         If it cannot be read; the message says why and names the field.
     """
-    content = _read(path)
+    content = _read(path, limit)
     try:
         found = json.loads(content)
     except (ValueError, RecursionError) as problem:
@@ -49,16 +62,18 @@ def read_record(path: Path, model: type[Model], program: str, noun: str, version
     try:
         return model.model_validate_json(content)
     except ValidationError as problem:
-        raise SavedRecordError(field_problem(problem)) from problem
+        raise SavedRecordError(field_problem(problem, union)) from problem
 
 
-def _read(path: Path) -> bytes:
+def _read(path: Path, limit: int) -> bytes:
     try:
-        if path.stat().st_size > SIZE_LIMIT:
-            raise SavedRecordError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
+        if path.stat().st_size > limit:
+            raise SavedRecordError(f"it is larger than {limit >> 20} MiB")
         return path.read_bytes()
     except FileNotFoundError as problem:
-        raise SavedRecordError("there is no such file") from problem
+        raise SavedRecordError(f"there is no file {path}") from problem
+    except PermissionError as problem:
+        raise SavedRecordError("permission is denied") from problem
     except OSError as problem:
         raise SavedRecordError((problem.strerror or str(problem)).lower()) from problem
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_file
 from app.files.state_files import EXTENSION, State, save_state
 from app.pages.step.opening_document import document_at
 from core.study.stability.shrink import Shrunk
@@ -24,8 +24,7 @@ def save_shrunk(path: Path, shrunk: Shrunk, title: str) -> None:
         If it cannot be written, or for another ending; the message is one sentence.
     """
     if path.suffix == TEST_ENDING:
-        with whole_file(path) as file:
-            file.write(shrunk.test.encode())
+        write_file(path, shrunk.test.encode())
     elif path.suffix == EXTENSION:
         opening = shrunk.opening
         save_state(path, State(document_at(opening, title), opening.stage, pin=opening.pixel))

@@ -11,11 +11,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
-from app.files.saved_records import field_problem
+from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
 from app.files.state_scenes import StateFileError, in_field, scene_from_record, scene_record
 from app.session.document import VIEWS, Document, TeachingRaster
@@ -90,8 +88,7 @@ def save_state(path: str | Path, state: State) -> None:
         view=state.view,
     )
     text = readable_json(record.model_dump(mode="json", exclude_defaults=True))
-    with whole_file(path) as file:
-        file.write(text.encode() + b"\n")
+    write_file(path, text.encode() + b"\n")
 
 
 def load_state(
@@ -120,47 +117,18 @@ def load_state(
     """
     path = Path(path)
     try:
-        record = _parse(_read(path))
+        record = read_record(
+            path, StateRecord, "rasterscope", "a state file", VERSION, limit=SIZE_LIMIT, union="scene"
+        )
         scene, mesh_path, warnings = scene_from_record(
             record.scene, path.resolve().parent, progress, is_cancelled
         )
         state = _state(record, scene, mesh_path)
         return without_stray_pin(state, warnings)
-    except StateFileError as problem:
+    except (SavedRecordError, StateFileError) as problem:
         raise StateFileError(f"{path.name} cannot be opened: {problem}") from problem
     except MemoryError as problem:
         raise StateFileError(f"{path.name} cannot be opened: there is not enough memory for it") from problem
-
-
-def _read(path: Path) -> bytes:
-    """Return the bytes of the file."""
-    try:
-        if path.stat().st_size > SIZE_LIMIT:
-            raise StateFileError(f"it is larger than {SIZE_LIMIT >> 20} MiB")
-        return path.read_bytes()
-    except FileNotFoundError as problem:
-        raise StateFileError(f"there is no file {path}") from problem
-    except PermissionError as problem:
-        raise StateFileError("permission is denied") from problem
-    except OSError as problem:
-        raise StateFileError((problem.strerror or str(problem)).lower()) from problem
-
-
-def _parse(content: bytes) -> StateRecord:
-    """Return the validated content."""
-    try:
-        found = json.loads(content)
-    except (ValueError, RecursionError) as problem:
-        raise StateFileError("it is not a state file, or it is incomplete: it is not valid JSON") from problem
-    if not isinstance(found, dict) or found.get("program") != "rasterscope":
-        raise StateFileError("it is not a state file of Rasterscope")
-    if found.get("version") != VERSION or isinstance(found.get("version"), bool | float):
-        version = str(found.get("version"))[:20]
-        raise StateFileError(f"it is of version {version}, and this Rasterscope opens version {VERSION}")
-    try:
-        return StateRecord.model_validate_json(content)
-    except ValidationError as problem:
-        raise StateFileError(field_problem(problem, "scene")) from problem
 
 
 def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:

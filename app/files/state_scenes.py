@@ -94,16 +94,7 @@ def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | 
         kind="meshes",
         source=source,
         meshes=[_mesh_record(mesh, k, own[k], theirs) for k, mesh in enumerate(scene.meshes)],
-        camera=CameraRecord(
-            eye=_numbers(scene.camera.eye),
-            target=_numbers(scene.camera.target),
-            up=_numbers(scene.camera.up),
-            projection="perspective" if scene.camera.projection == "perspective" else "orthographic",
-            field_of_view=float(scene.camera.field_of_view),
-            view_height=float(scene.camera.view_height),
-            near=float(scene.camera.near),
-            far=float(scene.camera.far),
-        ),
+        camera=CameraRecord(**{name: _plain(value) for name, value in vars(scene.camera).items()}),
         lights=[_light_record(light) for light in scene.lights],
         size=scene.size,
         background=_numbers(scene.background),
@@ -186,6 +177,13 @@ def _numbers(values: NDArray[Any]) -> Any:
     return tuple(float(value) for value in values)
 
 
+def _plain(value: Any) -> Any:
+    """Return a value of a camera as a file keeps it: three numbers, a name, or one number."""
+    if isinstance(value, np.ndarray):
+        return _numbers(value)
+    return value if isinstance(value, str) else float(value)
+
+
 # From a record.
 
 
@@ -207,16 +205,8 @@ def scene_from_record(
     sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
     meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
-        camera = Camera(
-            eye=np.array(record.camera.eye),
-            target=np.array(record.camera.target),
-            up=np.array(record.camera.up),
-            projection=record.camera.projection,
-            field_of_view=record.camera.field_of_view,
-            view_height=record.camera.view_height,
-            near=record.camera.near,
-            far=record.camera.far,
-        )
+        given = record.camera.model_dump().items()
+        camera = Camera(**{name: np.array(v) if isinstance(v, tuple) else v for name, v in given})
     lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
     with in_field("scene"):
         return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings

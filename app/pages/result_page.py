@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QPushButton, QSplitter, QVBoxLayout, QWidget
 from app.background.background_task import BackgroundTask
 from app.background.workers import JobGroup
 from app.export.views import copy_widget, export_widget
-from app.files.file_writing import whole_file
+from app.files.file_writing import write_file
 from app.files.kept_results import ENDING, KeptResults
 from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
@@ -215,8 +215,7 @@ class ResultPage(WorkPage):
         if content is None:
             export_widget(self.main_view(), path)
             return
-        with whole_file(path) as file:
-            file.write(content)
+        write_file(path, content)
 
     @Slot()
     def copy(self) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QStandardPaths
 
-from app.files.file_writing import FileWriteError, make_folder, whole_file
+from app.files.file_writing import FileWriteError, make_folder, write_file
 from app.files.saved_records import field_problem
 from core.stages.declared import STAGES
 
@@ -115,5 +115,4 @@ def save_preferences(preferences: Preferences) -> None:
     """
     folder = preferences_folder()
     make_folder(folder)
-    with whole_file(folder / FILE_NAME) as file:
-        file.write(preferences.model_dump_json(indent=1).encode() + b"\n")
+    write_file(folder / FILE_NAME, preferences.model_dump_json(indent=1).encode() + b"\n")

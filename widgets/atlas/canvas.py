@@ -6,7 +6,6 @@ from functools import lru_cache
 from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
-    QFocusEvent,
     QFontMetrics,
     QKeyEvent,
     QMouseEvent,
@@ -214,16 +213,6 @@ class AtlasCanvas(QWidget):
     def _go_to(self, place: CellPlace) -> None:
         self._choose(place)
         self.map_shown.emit(self.cell_area(place))
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the ring."""
-        super().focusInEvent(event)
-        self.update()
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Take the ring away."""
-        super().focusOutEvent(event)
-        self.update()
 
     # Painting.
 

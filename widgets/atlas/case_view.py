@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 from widgets.atlas.format_probe import DialRow, DialView
 from widgets.basics.flow_layout import FlowLayout
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import LinkedGrids, Pixel, button_with_tip, closing_button, reading_at
+from widgets.grid.linked_grids import PinnedPictures, Pixel, button_with_tip
 
 WORDS = ("Picture", "Times covered")
 
@@ -41,21 +41,16 @@ class CaseRecord:
     """Whether it has been made small: that is worth a file."""
 
 
-class CaseView(QWidget):
+class CaseView(PinnedPictures):
     """Two linked grids under a heading and a verdict; reports what the user wants to do with the case."""
 
-    step_requested = Signal()
     shrink_requested = Signal()
     save_requested = Signal()
-    closing_requested = Signal()
     pixel_pinned = Signal(int, int)
     """The user has pinned another pixel."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._record: CaseRecord | None = None
-        self._pin: Pixel | None = None
-        self._hover: Pixel | None = None
+        super().__init__(WORDS, "the case", parent)
         self.heading = QLabel(self)
         self.heading.setWordWrap(True)
         self.heading.setAccessibleName("Chosen cell")
@@ -63,9 +58,6 @@ class CaseView(QWidget):
         self.verdict.setWordWrap(True)
         self.verdict.setAccessibleName("Outcome")
         self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.linked = LinkedGrids(WORDS, self)
-        self.values = QLabel(self)
-        self.values.setProperty("role", "muted")
         self.values.setWordWrap(True)
         self.formats = DialView(self)
         self.tabs = QTabWidget(self)
@@ -80,14 +72,9 @@ class CaseView(QWidget):
         self.save_button = button_with_tip(
             "Save case…", "Save the small case as a scene, or as a Python test", self
         )
-        self.close_button = closing_button("the case", self)
         self.step_button.clicked.connect(self.step_requested)
         self.shrink_button.clicked.connect(self.shrink_requested)
         self.save_button.clicked.connect(self.save_requested)
-        self.close_button.clicked.connect(self.closing_requested)
-        self.linked.pixel_hovered.connect(self._hover_pixel)
-        self.linked.pixel_left.connect(self._leave)
-        self.linked.pixel_clicked.connect(self._pin_pixel)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -122,14 +109,9 @@ class CaseView(QWidget):
         layout.setContentsMargins(0, 4, 0, 0)
         layout.addWidget(self.parts, 1)
 
-    @property
-    def pin(self) -> Pixel | None:
-        """The pixel that is pinned: where the run is wrong first, or another one that the user has clicked."""
-        return self._pin
-
     def show_case(self, record: CaseRecord) -> None:
         """Show a case."""
-        self._record, self._pin, self._hover = record, record.pixel, None
+        self._buffers, self._pin, self._hover = record.buffers, record.pixel, None
         self.heading.setText(record.heading)
         self.verdict.setText(record.verdict)
         self.tabs.setTabEnabled(0, record.buffers is not None)
@@ -160,27 +142,7 @@ class CaseView(QWidget):
         for button in (self.step_button, self.shrink_button, self.save_button):
             button.setEnabled(False)
 
-    def _show_pointing(self) -> None:
-        self.linked.show_pointing(self._pin, self._hover)
-        buffers = None if self._record is None else self._record.buffers
-        pixel = self._hover or self._pin
-        if buffers is None or pixel is None:
-            self.values.setText("" if buffers is None else "Point at a pixel to read its values.")
-            return
-        self.values.setText(reading_at(pixel, buffers))
-
-    @Slot(int, int)
-    def _hover_pixel(self, column: int, row: int) -> None:
-        self._hover = (column, row)
-        self._show_pointing()
-
-    @Slot()
-    def _leave(self) -> None:
-        self._hover = None
-        self._show_pointing()
-
     @Slot(int, int)
     def _pin_pixel(self, column: int, row: int) -> None:
-        self._pin = (column, row)
-        self._show_pointing()
+        super()._pin_pixel(column, row)
         self.pixel_pinned.emit(column, row)

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Collection
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QFocusEvent, QKeyEvent
+from PySide6.QtCore import QEvent, QObject, QRect, Qt
+from PySide6.QtGui import QColor, QFocusEvent, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QWidget
+
+from widgets.basics.theme import current_theme
 
 _NO_MOVE = (
     Qt.FocusReason.ActiveWindowFocusReason,
@@ -17,6 +19,32 @@ _NO_MOVE = (
 def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:
     """Return whether the keyboard gave the focus; where the user gave none, ``before``."""
     return before if event.reason() in _NO_MOVE else event.reason() != Qt.FocusReason.MouseFocusReason
+
+
+class FocusRing(QObject):
+    """Tells whether a widget that paints itself shows a ring for the keyboard's focus: not after a click."""
+
+    def __init__(self, widget: QWidget, painted: QWidget | None = None) -> None:
+        """Follow the focus of a widget, and paint on ``painted`` in its stead, if that is another one."""
+        super().__init__(widget)
+        self._widget, self._painted = widget, painted or widget
+        self._is_by_keyboard = False
+        widget.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow the focus; nothing is kept from the widget."""
+        if isinstance(event, QFocusEvent):
+            if event.type() == QEvent.Type.FocusIn:
+                self._is_by_keyboard = is_focus_by_keyboard(event, self._is_by_keyboard)
+            self._painted.update()
+        return False
+
+    def paint(self, painter: QPainter, area: QRect) -> None:
+        """Paint the ring just inside an area, if it is to be seen."""
+        if self._widget.hasFocus() and self._is_by_keyboard:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(current_theme().focus), 2))
+            painter.drawRect(area.adjusted(1, 1, -1, -1))
 
 
 class KeyClaim(QObject):

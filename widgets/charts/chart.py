@@ -3,11 +3,11 @@
 from math import hypot
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.drawn_text import LabelPlaces, paint_empty
-from widgets.basics.key_claim import is_focus_by_keyboard
+from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, faded, text_font
 from widgets.charts.canvas import ChartCanvas
 from widgets.charts.records import ChartEmpty, ChartMark, ChartPicture
@@ -52,7 +52,7 @@ class Chart(ChartCanvas):
         """Which of its points."""
         self._marks: ChartMark = {}
         self._pressed_at: QPointF | None = None
-        self._shows_focus = False
+        self._ring = FocusRing(self, self.viewport())
         self.setAccessibleName(name)
 
     # Showing.
@@ -161,17 +161,6 @@ class Chart(ChartCanvas):
         index = keys.index(self._pointed) + across + down
         self._point_at(keys[min(max(index, 0), len(keys) - 1)])
 
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the ring if the focus came by a key."""
-        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
-        super().focusInEvent(event)
-        self.viewport().update()
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Take the ring away."""
-        super().focusOutEvent(event)
-        self.viewport().update()
-
     # Painting what lies over the chart.
 
     def drawForeground(self, painter: QPainter, rect: QRectF) -> None:
@@ -188,9 +177,7 @@ class Chart(ChartCanvas):
             self._paint_pointed_line(painter, self.picture)
             self._paint_rings(painter, self.picture)
             self._paint_names(painter, self.picture)
-        if self.hasFocus() and self._shows_focus:
-            painter.setPen(QPen(QColor(theme.focus), 2.0))
-            painter.drawRect(area.adjusted(1, 1, -1, -1))
+        self._ring.paint(painter, area.toRect())
         painter.restore()
 
     def _paint_titles(self, painter: QPainter, picture: ChartPicture) -> None:

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from widgets.basics.labels import ElidedLabel
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import LinkedGrids, Pixel, button_with_tip, closing_button, reading_at
+from widgets.grid.linked_grids import PinnedPictures, button_with_tip
 
 WORDS = ("Picture", "Reference", "Difference")
 
@@ -25,23 +25,16 @@ class PicturesRecord:
     """Whether there are two runs that may part ways."""
 
 
-class StudyPictures(QWidget):
+class StudyPictures(PinnedPictures):
     """Three linked grids under a heading; reports what the user wants to do with them."""
 
-    step_requested = Signal()
     divergence_requested = Signal()
     copy_requested = Signal()
-    closing_requested = Signal()
+    hint = "Point at a pixel to read its values; click to pin it."
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._pin: Pixel | None = None
-        self._hover: Pixel | None = None
-        self._record: PicturesRecord | None = None
+        super().__init__(WORDS, "the pictures", parent)
         self.heading = ElidedLabel(self)
-        self.linked = LinkedGrids(WORDS, self)
-        self.values = QLabel(self)
-        self.values.setProperty("role", "muted")
         self.step_button = button_with_tip(
             "Open in the stepper",
             "Step this run at the pinned pixel, or at its first error (Ctrl+Return)",
@@ -53,14 +46,9 @@ class StudyPictures(QWidget):
             self,
         )
         self.copy_button = button_with_tip("Copy picture", "Put the three pictures on the clipboard", self)
-        self.close_button = closing_button("the pictures", self)
         self.step_button.clicked.connect(self.step_requested)
         self.divergence_button.clicked.connect(self.divergence_requested)
         self.copy_button.clicked.connect(self.copy_requested)
-        self.close_button.clicked.connect(self.closing_requested)
-        self.linked.pixel_hovered.connect(self._hover_pixel)
-        self.linked.pixel_left.connect(self._leave)
-        self.linked.pixel_clicked.connect(self._pin_pixel)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -76,14 +64,9 @@ class StudyPictures(QWidget):
         layout.addWidget(self.linked, 1)
         layout.addWidget(self.values)
 
-    @property
-    def pin(self) -> Pixel | None:
-        """The pixel that the user has pinned: column and row."""
-        return self._pin
-
     def show_pictures(self, record: PicturesRecord) -> None:
         """Show three pictures; a pin stays where it was if there is such a pixel."""
-        self._record = record
+        self._buffers = record.buffers
         self.heading.setText(record.heading)
         self.linked.show_buffers(record.buffers, record.titles)
         shape = record.buffers[0].columns, record.buffers[0].rows
@@ -95,7 +78,7 @@ class StudyPictures(QWidget):
 
     def show_waiting(self, text: str) -> None:
         """Show no pictures and say what is awaited, or why there are none."""
-        self._record = None
+        self._buffers = None
         self._hover = None
         self.heading.setText(text)
         self.linked.show_nothing()
@@ -113,27 +96,8 @@ class StudyPictures(QWidget):
         self.divergence_button.setEnabled(record is not None and record.can_diverge)
         self.copy_button.setEnabled(record is not None)
 
-    def _show_pointing(self) -> None:
-        self.linked.show_pointing(self._pin, self._hover)
-        pixel, record = self._hover or self._pin, self._record
-        if record is None:
-            self.values.setText("")
-        elif pixel is None:
-            self.values.setText("Point at a pixel to read its values; click to pin it.")
-        else:
-            self.values.setText(reading_at(pixel, record.buffers))
-
-    @Slot(int, int)
-    def _hover_pixel(self, column: int, row: int) -> None:
-        self._hover = (column, row)
-        self._show_pointing()
-
-    @Slot()
-    def _leave(self) -> None:
-        self._hover = None
-        self._show_pointing()
-
     @Slot(int, int)
     def _pin_pixel(self, column: int, row: int) -> None:
+        """Pin a pixel, or unpin it."""
         self._pin = None if self._pin == (column, row) else (column, row)
         self._show_pointing()

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QRegion
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.canvas import GridCanvas
@@ -34,8 +35,7 @@ class GridDisplay(QWidget):
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step: NDArray[np.integer] | None = None
-        self._shows_focus = False
-        """Whether the focus came by a key: only then its ring helps."""
+        self._ring = FocusRing(self)
         self._vertex: int | None = None
         """The vertex under the pointer or being dragged."""
         self.empty_text = "Nothing to show yet"
@@ -210,10 +210,8 @@ class GridDisplay(QWidget):
                 placement = self.placement()
                 self._canvas.paint(painter, placement, self.rect(), theme)
                 self._paint_marks(painter, placement)
-            if self.hasFocus() and self._shows_focus:
-                painter.setClipping(False)
-                painter.setPen(QPen(QColor(theme.focus), 2))
-                painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
+            painter.setClipping(False)
+            self._ring.paint(painter, self.rect())
 
     def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
         """Paint what changes at every move: triangle, step, pin, hover, and the rulers' numbers."""

@@ -100,3 +100,55 @@ def reading_at(pixel: Pixel, buffers: Sequence[GridBuffer]) -> str:
     """Return the values of buffers at a pixel."""
     read = ", ".join(f"{buffer.label} {buffer.text_at(*pixel)}" for buffer in buffers)
     return f"pixel ({pixel[0]}, {pixel[1]}): {read}"
+
+
+class PinnedPictures(QWidget):
+    """Linked grids with the values of the pixel that is pointed at, else of the one that is pinned."""
+
+    step_requested = Signal()
+    closing_requested = Signal()
+    hint = "Point at a pixel to read its values."
+    """What stands there while no pixel is chosen."""
+
+    def __init__(self, names: Sequence[str], closes: str, parent: QWidget | None = None) -> None:
+        """Make empty grids, and a cross that ``closes`` what is shown, as ``the case``."""
+        super().__init__(parent)
+        self._buffers: Sequence[GridBuffer] | None = None
+        self._pin: Pixel | None = None
+        self._hover: Pixel | None = None
+        self.linked = LinkedGrids(names, self)
+        self.values = QLabel(self)
+        self.values.setProperty("role", "muted")
+        self.close_button = closing_button(closes, self)
+        self.close_button.clicked.connect(self.closing_requested)
+        self.linked.pixel_hovered.connect(self._hover_pixel)
+        self.linked.pixel_left.connect(self._leave)
+        self.linked.pixel_clicked.connect(self._pin_pixel)
+
+    @property
+    def pin(self) -> Pixel | None:
+        """The pinned pixel, column and row: one that the user has clicked, or that came with what is shown."""
+        return self._pin
+
+    def _show_pointing(self) -> None:
+        self.linked.show_pointing(self._pin, self._hover)
+        pixel = self._hover or self._pin
+        if self._buffers is None:
+            self.values.setText("")
+        else:
+            self.values.setText(self.hint if pixel is None else reading_at(pixel, self._buffers))
+
+    @Slot(int, int)
+    def _hover_pixel(self, column: int, row: int) -> None:
+        self._hover = (column, row)
+        self._show_pointing()
+
+    @Slot()
+    def _leave(self) -> None:
+        self._hover = None
+        self._show_pointing()
+
+    @Slot(int, int)
+    def _pin_pixel(self, column: int, row: int) -> None:
+        self._pin = (column, row)
+        self._show_pointing()

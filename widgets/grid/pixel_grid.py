@@ -216,19 +216,6 @@ class PixelGrid(GridDisplay):
         self._set_pointed(None)
         super().leaveEvent(event)
 
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the focus ring if the focus came by a key, not by a click; else leave it."""
-        by_key = (
-            Qt.FocusReason.TabFocusReason,
-            Qt.FocusReason.BacktabFocusReason,
-            Qt.FocusReason.ShortcutFocusReason,
-        )
-        if event.reason() in by_key:
-            self._shows_focus = True
-        elif event.reason() == Qt.FocusReason.MouseFocusReason:
-            self._shows_focus = False
-        super().focusInEvent(event)
-
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Forget a held Space; its release may go elsewhere."""
         self._has_space = False

@@ -1,40 +1,20 @@
 """A pane whose space is turned, moved and magnified with the pointer or the keyboard."""
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import (
-    QColor,
-    QFocusEvent,
-    QHideEvent,
-    QKeyEvent,
-    QMouseEvent,
-    QPainter,
-    QPen,
-    QWheelEvent,
-)
-from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
+from PySide6.QtGui import QHideEvent, QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.basics.key_claim import EscapeClaim, KeyClaim, is_focus_by_keyboard
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.key_claim import EscapeClaim
+from widgets.space.moved_area import MovedArea
 from widgets.space.orbit import Orbit, panned, turned, zoomed
 
 GRAB_RADIUS = 12.0
 """How near the pointer must come to a handle to take it, in logical pixels."""
-_WHEEL_FACTOR = 1.2
 _KEY_PIXELS = 16.0
 """A key turns or moves as far as a drag of this many pixels."""
-_KEYS = (
-    Qt.Key.Key_Left,
-    Qt.Key.Key_Right,
-    Qt.Key.Key_Up,
-    Qt.Key.Key_Down,
-    Qt.Key.Key_Plus,
-    Qt.Key.Key_Equal,
-    Qt.Key.Key_Minus,
-    Qt.Key.Key_Home,
-)
 
 
-class OrbitArea(QWidget):
+class OrbitArea(MovedArea):
     """Left drag turns, middle or Shift drag moves, the wheel magnifies, a double click shows all of it.
 
     With the keyboard's focus: arrows turn, Shift and arrows move, plus and minus magnify, Home shows all
@@ -56,15 +36,7 @@ class OrbitArea(QWidget):
         self._pressed_at = self._last_at = QPointF()
         self._pressed_handle: int | None = None
         """The handle at the last press."""
-        self._shows_focus = False
-        self._claim = KeyClaim(self, _KEYS)
         self._escape = EscapeClaim(self, self._is_dragging_handle)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setMouseTracking(True)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setMinimumSize(120, 90)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        theme_notifier().theme_changed.connect(self._repaint)
 
     def orbit(self) -> Orbit:
         """Return from where the space is seen."""
@@ -104,7 +76,7 @@ class OrbitArea(QWidget):
 
     def _space_area(self) -> QRectF:
         """Return the part of the widget that shows the space."""
-        return QRectF(self.rect())
+        return self._room()
 
     def _orbit_replaced(self) -> None:
         """Draw from another direction."""
@@ -167,19 +139,6 @@ class OrbitArea(QWidget):
         if event.button() == Qt.MouseButton.LeftButton and self._pressed_handle is None:
             self.fit()
 
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Magnify about the pointer."""
-        notches = event.angleDelta().y() / 120.0
-        if notches == 0:
-            event.ignore()
-            return
-        area = self._space_area()
-        offset = event.position() - area.center()
-        factor = _WHEEL_FACTOR**notches
-        before = self._orbit_at(event.position())
-        self._change(zoomed(before, factor, offset.x(), offset.y(), area.height()))
-        event.accept()
-
     def leaveEvent(self, event: QEvent) -> None:
         """Point at no handle."""
         if self._button is Qt.MouseButton.NoButton:
@@ -191,53 +150,34 @@ class OrbitArea(QWidget):
         self._end_drag(is_taken_back=False)
         super().hideEvent(event)
 
-    # Keyboard.
+    # Keyboard and wheel.
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Turn, move or magnify by one notch; Escape takes the drag of a handle back."""
-        key = event.key()
-        arrows = {
-            Qt.Key.Key_Left: (-_KEY_PIXELS, 0.0),
-            Qt.Key.Key_Right: (_KEY_PIXELS, 0.0),
-            Qt.Key.Key_Up: (0.0, -_KEY_PIXELS),
-            Qt.Key.Key_Down: (0.0, _KEY_PIXELS),
-        }
-        if key in arrows:
-            right, down = arrows[Qt.Key(key)]
-            if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
-                self._change(panned(self._orbit, right, down, self._space_area().height()))
-            else:
-                self._change(turned(self._orbit, right, down))
-        elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus):
-            factor = 1 / _WHEEL_FACTOR if key == Qt.Key.Key_Minus else _WHEEL_FACTOR
-            self._change(zoomed(self._orbit, factor, 0.0, 0.0, self._space_area().height()))
-        elif key == Qt.Key.Key_Home:
-            self._change(self._home)
-        elif key == Qt.Key.Key_Escape and self._is_dragging_handle():
+        if event.key() == Qt.Key.Key_Escape and self._is_dragging_handle():
             self._end_drag(is_taken_back=True)
         else:
             super().keyPressEvent(event)
 
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
-        super().focusInEvent(event)
-        self.update()
+    def _go(self, across: int, down: int, is_shifted: bool) -> None:
+        right, below = _KEY_PIXELS * across, _KEY_PIXELS * down
+        if is_shifted:
+            self._change(panned(self._orbit, right, below, self._space_area().height()))
+        else:
+            self._change(turned(self._orbit, right, below))
 
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Take the focus ring away."""
-        super().focusOutEvent(event)
-        self.update()
+    def _magnify(self, factor: float, position: QPointF | None) -> None:
+        area, before, offset = self._space_area(), self._orbit, QPointF()
+        if position is not None:
+            before, offset = self._orbit_at(position), position - area.center()
+        self._change(zoomed(before, factor, offset.x(), offset.y(), area.height()))
+
+    def _go_home(self) -> None:
+        self._change(self._home)
 
     def fit(self) -> None:
         """Show the whole space from the present direction, as the user's wish."""
         self._change(Orbit(self._orbit.azimuth, self._orbit.elevation, self._home.target, self._home.extent))
-
-    def _paint_focus_ring(self, painter: QPainter) -> None:
-        if self.hasFocus() and self._shows_focus:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(current_theme().focus), 2))
-            painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
 
     def _change(self, orbit: Orbit) -> None:
         """Take over a direction that the user chose."""
@@ -269,7 +209,3 @@ class OrbitArea(QWidget):
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
         else:
             self.unsetCursor()
-
-    def _repaint(self) -> None:
-        """Paint again with the present theme."""
-        self.update()

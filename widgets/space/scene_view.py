@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from widgets.basics.drawn_text import LabelPlaces, caption_height, paint_caption, paint_empty
+from widgets.basics.drawn_text import LabelPlaces
 from widgets.basics.image import display_image
 from widgets.basics.theme import Theme, current_theme, faded, ink_color
 from widgets.space.diagram import Spot
@@ -109,7 +109,6 @@ class SceneView(OrbitArea):
         self._has_new_pixels = False
         self._corner = FrameCorner(self)
         self._corner.size_chosen.connect(self.size_chosen)
-        self.empty_text = "Nothing to show yet"
         self.setAccessibleName("3D scene")
 
     def picture(self) -> ScenePicture | None:
@@ -167,32 +166,23 @@ class SceneView(OrbitArea):
         """Return how many pixels of the picture a logical pixel of the view shows, along one axis."""
         return self.picture_size()[0] / max(self._space_area().width(), 1.0)
 
-    def paint_to(self, painter: QPainter) -> None:
-        """Paint what is seen, to any device of the widget's size."""
-        theme = current_theme()
+    def _drawn_caption(self) -> str | None:
+        return None if self._picture is None else self._picture.caption
+
+    def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
         if self._picture is None:
-            paint_empty(painter, self.rect(), self.empty_text, theme)
             return
         area = self._space_area()
-        painter.fillRect(self.rect(), QColor(theme.panel))
         painter.drawImage(area, self._image_for(area.size() * painter.device().devicePixelRatioF()))
         painter.save()
         painter.setClipRect(area)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_over(painter, self._picture, area, theme)
         painter.restore()
-        paint_caption(painter, self.rect(), self._picture.caption, theme)
-
-    def sizeHint(self) -> QSize:
-        """Return the size that suits the main view."""
-        return QSize(640, 480)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the picture, what is over it, and the focus ring."""
-        painter = QPainter(self)
-        self.paint_to(painter)
-        self._paint_focus_ring(painter)
-        painter.end()
+        """Paint the picture and what is over it, and say when."""
+        super().paintEvent(event)
         if self._has_new_pixels:
             self._has_new_pixels = False
             self.picture_painted.emit(perf_counter())
@@ -222,10 +212,8 @@ class SceneView(OrbitArea):
             return self._room()
         return picture_area(self._room(), self._fixed_size, self.devicePixelRatioF())
 
-    def _room(self) -> QRectF:
-        """Return the part above the caption."""
-        height = caption_height(self._caption, self.width(), current_theme())
-        return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
+    def _kept_caption(self) -> str:
+        return self._caption
 
     def _image_for(self, room: QSizeF) -> QImage:
         """Return the picture for so many pixels of the screen: magnified pixels stay squares, others are averaged."""

@@ -3,42 +3,18 @@
 from math import floor
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import (
-    QColor,
-    QFocusEvent,
-    QHelpEvent,
-    QImage,
-    QKeyEvent,
-    QMouseEvent,
-    QPainter,
-    QPaintEvent,
-    QPen,
-    QPixmap,
-    QWheelEvent,
-)
-from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
+from PySide6.QtCore import QEvent, QPointF, Qt, Signal
+from PySide6.QtGui import QHelpEvent, QImage, QMouseEvent, QPainter, QPixmap
+from PySide6.QtWidgets import QToolTip, QWidget
 
-from widgets.basics.drawn_text import caption_height, paint_caption, paint_empty
 from widgets.basics.image import buffer_image
-from widgets.basics.key_claim import KeyClaim, is_focus_by_keyboard
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.theme import Theme, current_theme
 from widgets.grid.buffer import GridBuffer
+from widgets.space.moved_area import MovedArea
 from widgets.space.texture_paint import TexturePlacement, outside_image, paint_texture
 from widgets.space.texture_picture import TexturePicture
 
-_WHEEL_FACTOR = 1.25
 _KEY_PIXELS = 32.0
-_KEYS = (
-    Qt.Key.Key_Left,
-    Qt.Key.Key_Right,
-    Qt.Key.Key_Up,
-    Qt.Key.Key_Down,
-    Qt.Key.Key_Plus,
-    Qt.Key.Key_Equal,
-    Qt.Key.Key_Minus,
-    Qt.Key.Key_Home,
-)
 LARGEST_TEXEL = 160.0
 """Largest side of a texel in logical pixels."""
 REDUCED = 1024
@@ -47,7 +23,7 @@ FOOTPRINT_ROOM = 3.0
 """The view of a footprint is so many times as wide as the footprint or its texels."""
 
 
-class TextureView(QWidget):
+class TextureView(MovedArea):
     """Shows a :class:`~widgets.space.texture_picture.TexturePicture`.
 
     Drag: pan. Wheel: magnify about the pointer. Double click: the footprint, and again the whole texture.
@@ -57,6 +33,7 @@ class TextureView(QWidget):
 
     view_changed = Signal()
     """The user has panned or magnified."""
+    wheel_factor = 1.25
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -71,16 +48,7 @@ class TextureView(QWidget):
         """Logical pixels per texel; None: the whole texture."""
         self._is_on_footprint = False
         self._dragged_from: QPointF | None = None
-        self._shows_focus = False
-        self.empty_text = "Nothing to show yet"
-        self._claim = KeyClaim(self, _KEYS)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setMouseTracking(True)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setMinimumSize(120, 90)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setAccessibleName("Texture space")
-        theme_notifier().theme_changed.connect(self._repaint_all)
 
     def picture(self) -> TexturePicture | None:
         """Return what is shown."""
@@ -115,7 +83,7 @@ class TextureView(QWidget):
 
     def placement(self) -> TexturePlacement:
         """Return where texels stand in the widget now."""
-        area = self._texture_area()
+        area = self._room()
         width, height = self._picture.size if self._picture is not None else (1, 1)
         room = min(area.width() / (1.25 * width), area.height() / (1.25 * height))
         if self._scale is None:
@@ -130,31 +98,14 @@ class TextureView(QWidget):
         x, y = self.placement().to_texels(position)
         return floor(x), floor(y)
 
-    def paint_to(self, painter: QPainter) -> None:
-        """Paint what is seen, to any device of the widget's size."""
-        theme = current_theme()
-        if self._picture is None:
-            paint_empty(painter, self.rect(), self.empty_text, theme)
-            return
-        painter.fillRect(self.rect(), QColor(theme.panel))
-        placement = self.placement()
-        image = self._image if placement.scale >= 1 or self._reduced.isNull() else self._reduced
-        paint_texture(painter, self._picture, image, self._outside, placement, theme)
-        paint_caption(painter, self.rect(), self._picture.caption, theme)
+    def _drawn_caption(self) -> str | None:
+        return None if self._picture is None else self._picture.caption
 
-    def sizeHint(self) -> QSize:
-        """Return the size that suits the main view."""
-        return QSize(640, 480)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the texture, the caption and the focus ring."""
-        painter = QPainter(self)
-        self.paint_to(painter)
-        if self.hasFocus() and self._shows_focus:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(current_theme().focus), 2))
-            painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
-        painter.end()
+    def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
+        if self._picture is not None:
+            placement = self.placement()
+            image = self._image if placement.scale >= 1 or self._reduced.isNull() else self._reduced
+            paint_texture(painter, self._picture, image, self._outside, placement, theme)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to pan."""
@@ -181,44 +132,11 @@ class TextureView(QWidget):
         else:
             self.fit_footprint()
 
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Magnify about the pointer."""
-        notches = event.angleDelta().y() / 120.0
-        if notches == 0 or self._picture is None:
-            event.ignore()
-            return
-        self._zoom(_WHEEL_FACTOR**notches, event.position())
-        event.accept()
+    def _go(self, across: int, down: int, is_shifted: bool) -> None:
+        self._pan(-_KEY_PIXELS * across, -_KEY_PIXELS * down)
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Pan, magnify, or show the whole texture."""
-        steps = {
-            Qt.Key.Key_Left: (_KEY_PIXELS, 0.0),
-            Qt.Key.Key_Right: (-_KEY_PIXELS, 0.0),
-            Qt.Key.Key_Up: (0.0, _KEY_PIXELS),
-            Qt.Key.Key_Down: (0.0, -_KEY_PIXELS),
-        }
-        key = event.key()
-        if key in steps:
-            self._pan(*steps[Qt.Key(key)])
-        elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus):
-            factor = 1 / _WHEEL_FACTOR if key == Qt.Key.Key_Minus else _WHEEL_FACTOR
-            self._zoom(factor, self._texture_area().center())
-        elif key == Qt.Key.Key_Home:
-            self.fit()
-        else:
-            super().keyPressEvent(event)
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the focus ring unless the focus came by a click."""
-        self._shows_focus = is_focus_by_keyboard(event, self._shows_focus)
-        super().focusInEvent(event)
-        self.update()
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Take the focus ring away."""
-        super().focusOutEvent(event)
-        self.update()
+    def _go_home(self) -> None:
+        self.fit()
 
     def event(self, event: QEvent) -> bool:
         """Show the texel under the pointer as a tooltip."""
@@ -246,20 +164,17 @@ class TextureView(QWidget):
             f"{buffer.text_at(column, row, digits=0)}, linear"
         )
 
-    def _texture_area(self) -> QRectF:
-        """Return the part above the caption."""
-        caption = self._picture.caption if self._picture is not None else ""
-        height = caption_height(caption, self.width(), current_theme())
-        return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
-
     def _pan(self, right: float, down: float) -> None:
         placement = self.placement()
         center = placement.area.center()
         x, y = placement.to_texels(center - QPointF(right, down))
         self._take(x, y, placement.scale)
 
-    def _zoom(self, factor: float, position: QPointF) -> None:
+    def _magnify(self, factor: float, position: QPointF | None) -> None:
+        if self._picture is None:
+            return
         placement = self.placement()
+        position = placement.area.center() if position is None else position
         x, y = placement.to_texels(position)
         self._take(x, y, placement.scale * factor)
         # What is under the pointer stays there, at the scale that was possible.
@@ -292,7 +207,7 @@ class TextureView(QWidget):
             self._scale = None
             return
         low, high = points.min(axis=0), points.max(axis=0)
-        area = self._texture_area()
+        area = self._room()
         span = np.maximum(high - low, 1.0) * FOOTPRINT_ROOM
         self._scale = float(min(area.width() / span[0], area.height() / span[1]))
         x, y = ((low + high) / 2).tolist()
@@ -313,7 +228,7 @@ class TextureView(QWidget):
         around = self._image if self._reduced.isNull() else self._reduced
         self._outside = QPixmap.fromImage(outside_image(around, self._picture.period))
 
-    def _repaint_all(self) -> None:
+    def _repaint(self) -> None:
         """Paint everything again with the present theme."""
         self._make_images()
         self.update()

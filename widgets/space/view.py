@@ -1,12 +1,11 @@
 """A drawing in space under the pointer: turn, move, magnify, and drag the points that can be dragged."""
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtCore import QLineF, QPointF, Signal
+from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
-from widgets.basics.drawn_text import caption_height, paint_caption, paint_empty
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import Theme
 from widgets.space.diagram import Diagram
 from widgets.space.orbit import Orbit, framed
 from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
@@ -31,7 +30,6 @@ class SpaceView(OrbitArea):
         self._origin = np.zeros(3)
         self._is_own_view = False
         """Whether the user has chosen the view."""
-        self.empty_text = "Nothing to show yet"
         self.setAccessibleName("Drawing in space")
         self.view_changed.connect(self._keep_view)
 
@@ -57,37 +55,18 @@ class SpaceView(OrbitArea):
         """Return how the space is mapped to the widget."""
         return projection_of(self._orbit, self._space_area())
 
-    def paint_to(self, painter: QPainter) -> None:
-        """Paint the drawing as it is seen, as vectors, for an SVG of the widget's size."""
-        theme = current_theme()
-        if self._diagram is None:
-            paint_empty(painter, self.rect(), self.empty_text, theme)
-            return
-        painter.fillRect(self.rect(), QColor(theme.panel))
-        paint_diagram(painter, self._diagram, self.projection(), self._space_area(), theme, self._handle)
-        paint_caption(painter, self.rect(), self._diagram.caption, theme)
+    def _drawn_caption(self) -> str | None:
+        return None if self._diagram is None else self._diagram.caption
 
-    def sizeHint(self) -> QSize:
-        """Return the size that suits the main view."""
-        return QSize(640, 480)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the drawing, its caption and the focus ring."""
-        painter = QPainter(self)
-        self.paint_to(painter)
-        self._paint_focus_ring(painter)
-        painter.end()
+    def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
+        if self._diagram is not None:
+            area = self._space_area()
+            paint_diagram(painter, self._diagram, self.projection(), area, theme, self._handle)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the whole drawing in view."""
         super().resizeEvent(event)
         self._refit()
-
-    def _space_area(self) -> QRectF:
-        """Return the part above the caption."""
-        caption = self._diagram.caption if self._diagram is not None else ""
-        height = caption_height(caption, self.width(), current_theme())
-        return QRectF(self.rect()).adjusted(0, 0, 0, -min(height, 0.6 * self.height()))
 
     def _refit(self) -> None:
         if self._diagram is None:

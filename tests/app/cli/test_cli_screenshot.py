@@ -151,7 +151,7 @@ REFUSED = [
         ["cube", "-o", "a.png", "--page", "stability", "--show", "tea"],
         "experiment must be one of precision-dial",
     ),
-    (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no such file"),
+    (["gone.json", "-o", "a.png"], "gone.json cannot be opened: there is no file gone.json"),
     (["gone.obj", "-o", "a.png"], "there is no file gone.obj"),
     (["cube", "-o", "a.png", "--view", "upside-down"], "view must be one of pixels"),
     (["cube", "-o", "gone/a.png"], "cannot be written: there is no folder"),

@@ -121,7 +121,7 @@ def test_a_file_of_something_else_is_told(tmp_path: Path, content: bytes) -> Non
     path.write_bytes(content)
     with pytest.raises(StudyFileError, match=r"a\.json cannot be opened: it is not a study"):
         load_study(path)
-    with pytest.raises(StudyFileError, match="there is no such file"):
+    with pytest.raises(StudyFileError, match="there is no file"):
         load_study(tmp_path / "none.json")
 
 
