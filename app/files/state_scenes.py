@@ -205,8 +205,8 @@ def scene_from_record(
     sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
     meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
-        given = record.camera.model_dump().items()
-        camera = Camera(**{name: np.array(v) if isinstance(v, tuple) else v for name, v in given})
+        given: dict[str, Any] = record.camera.model_dump()
+        camera = Camera(**{name: np.array(v) if isinstance(v, tuple) else v for name, v in given.items()})
     lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
     with in_field("scene"):
         return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings

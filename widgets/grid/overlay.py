@@ -53,16 +53,27 @@ class BlockState(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class MaskOverlay:
-    """A mark on every pixel of a mask."""
+class NamedOverlay:
+    """What every kind of overlay has."""
 
     key: str
     """Identifies the overlay in the legend and from one step to the next."""
+    title: str = field(default="", kw_only=True)
+    """Name in the legend."""
+
+    @property
+    def label(self) -> str:
+        """Name in the legend."""
+        return self.title
+
+
+@dataclass(frozen=True, eq=False)
+class MaskOverlay(NamedOverlay):
+    """A mark on every pixel of a mask; without a title its name is that of the mark."""
+
     mark: Mark
     mask: NDArray[np.bool_] = field(repr=False)
     """(H, W) bool, row 0 at the bottom."""
-    title: str = ""
-    """Name in the legend; empty: that of the mark."""
 
     def __post_init__(self) -> None:
         if self.mask.ndim != 2:
@@ -77,13 +88,12 @@ class MaskOverlay:
 
 
 @dataclass(frozen=True, eq=False)
-class CountOverlay:
+class CountOverlay(NamedOverlay):
     """How often each pixel was drawn: a tint that grows with the count, and numbers in large cells."""
 
-    key: str
     counts: NDArray[np.integer] = field(repr=False)
     """(H, W) integers, row 0 at the bottom."""
-    title: str = "overdraw"
+    title: str = field(default="overdraw", kw_only=True)
 
     def __post_init__(self) -> None:
         if self.counts.ndim != 2:
@@ -91,17 +101,11 @@ class CountOverlay:
         if self.counts.dtype.kind not in "ui":
             raise ValueError(f"counts must be integers, got {self.counts.dtype}")
 
-    @property
-    def label(self) -> str:
-        """Name in the legend."""
-        return self.title
-
 
 @dataclass(frozen=True, eq=False)
-class BlockOverlay:
+class BlockOverlay(NamedOverlay):
     """Outlined rectangles of pixels: bins, blocks of a hierarchy, bounding boxes."""
 
-    key: str
     blocks: NDArray[np.integer] = field(repr=False)
     """(N, 4) integers: column, row of the lower left pixel, columns, rows."""
     states: tuple[BlockState, ...] = field(repr=False)
@@ -110,7 +114,7 @@ class BlockOverlay:
     """A short text in the upper left corner of each; empty: none."""
     edges: tuple[int, ...] = field(default=(), repr=False)
     """The edge 0, 1, 2 that rejected each, which gives it its colour, or -1; empty: none."""
-    title: str = "blocks"
+    title: str = field(default="blocks", kw_only=True)
 
     def __post_init__(self) -> None:
         if self.blocks.ndim != 2 or self.blocks.shape[1] != 4:
@@ -121,43 +125,31 @@ class BlockOverlay:
                     f"{name} must have one entry per block ({len(self.blocks)}), got {len(given)}"
                 )
 
-    @property
-    def label(self) -> str:
-        """Name in the legend."""
-        return self.title
-
 
 @dataclass(frozen=True, eq=False)
-class SpanOverlay:
+class SpanOverlay(NamedOverlay):
     """Horizontal runs of pixels, drawn as a bar with two ends through the middle of the row."""
 
-    key: str
     spans: NDArray[np.integer] = field(repr=False)
     """(N, 3) integers: row, first column, end column (excluded)."""
-    title: str = "spans"
+    title: str = field(default="spans", kw_only=True)
 
     def __post_init__(self) -> None:
         if self.spans.ndim != 2 or self.spans.shape[1] != 3:
             raise ValueError(f"spans must be (N, 3), got {self.spans.shape}")
 
-    @property
-    def label(self) -> str:
-        """Name in the legend."""
-        return self.title
-
 
 @dataclass(frozen=True, eq=False)
-class SegmentOverlay:
+class SegmentOverlay(NamedOverlay):
     """Exact thin lines in window coordinates."""
 
-    key: str
     segments: NDArray[np.float64] = field(repr=False)
     """(N, 2, 2) float64: both ends (x, y) in window coordinates; may be far away, infinite or NaN."""
     edges: tuple[int, ...] = ()
     """The edge 0, 1, 2 that gives each its colour, or -1 for a neutral line; empty: neutral."""
     extended: bool = False
     """Whether the whole line through both ends is drawn, dashed."""
-    title: str = "lines"
+    title: str = field(default="lines", kw_only=True)
     is_polygon: bool = False
     """Whether they are the sides of one polygon in order, whose inside is tinted."""
 
@@ -168,11 +160,6 @@ class SegmentOverlay:
             raise ValueError(
                 f"edges must have one entry per segment ({len(self.segments)}), got {len(self.edges)}"
             )
-
-    @property
-    def label(self) -> str:
-        """Name in the legend."""
-        return self.title
 
 
 Overlay = MaskOverlay | CountOverlay | BlockOverlay | SpanOverlay | SegmentOverlay

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from widgets.basics.image import mask_image
 from widgets.basics.mark_patterns import is_pattern, mark_color, pattern_brush, transparent_image
-from widgets.basics.theme import Theme, text_font
+from widgets.basics.theme import Theme, faded, text_font
 from widgets.grid.line_clip import widget_lines
 from widgets.grid.overlay import (
     BlockOverlay,
@@ -119,7 +119,7 @@ def _paint_counts(
     size = int(min(max(placement.cell * 0.3, 8), theme.small_px))
     painter.setFont(text_font(theme, size))
     metrics = painter.fontMetrics()
-    chip, ink = _faded(theme.panel, 0.85), QColor(theme.text)
+    chip, ink = faded(theme.panel, 0.85), QColor(theme.text)
     for column, row in _visible(painter, placement, counts > 0):
         text = f"×{int(counts[row, column])}"
         box = QRectF(0, 0, metrics.horizontalAdvance(text) + 4, metrics.height())
@@ -231,7 +231,7 @@ def _outline_blocks(painter: QPainter, placement: GridPlacement, overlay: BlockO
         if overlay.edges and overlay.edges[index] in (0, 1, 2):
             color = theme.vertex[overlay.edges[index]]
         inside = rect.adjusted(1, 1, -1, -1)
-        painter.setPen(QPen(_faded(theme.halo(), 0.7), 3.0))
+        painter.setPen(QPen(faded(theme.halo(), 0.7), 3.0))
         painter.drawRect(inside)
         painter.setPen(QPen(QColor(color), 1.4, style))
         painter.drawRect(inside)
@@ -239,7 +239,7 @@ def _outline_blocks(painter: QPainter, placement: GridPlacement, overlay: BlockO
         width = painter.fontMetrics().horizontalAdvance(label) + 8
         if label and rect.width() >= width + 4 and rect.height() >= height + 4:
             chip = QRectF(rect.left() + 2, rect.top() + 2, width, height)
-            painter.fillRect(chip, _faded(theme.panel, 0.85))
+            painter.fillRect(chip, faded(theme.panel, 0.85))
             painter.setPen(QColor(theme.text))
             painter.drawText(chip, Qt.AlignmentFlag.AlignCenter, label)
     painter.restore()
@@ -284,7 +284,7 @@ def _tint_polygon(painter: QPainter, placement: GridPlacement, overlay: SegmentO
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(_faded(theme.covered, 0.6))
+    painter.setBrush(faded(theme.covered, 0.6))
     painter.drawPolygon(QPolygonF([placement.to_widget(x, y) for x, y in overlay.segments[:, 0].tolist()]))
     painter.restore()
 
@@ -302,7 +302,7 @@ def _stroke(
         return
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setPen(QPen(_faded(theme.halo(), 0.7), width + 2.0))
+    painter.setPen(QPen(faded(theme.halo(), 0.7), width + 2.0))
     painter.drawLines(lines)
     painter.setPen(QPen(color, width, style))
     painter.drawLines(lines)
@@ -321,10 +321,3 @@ def _painted_cells(painter: QPainter, placement: GridPlacement) -> tuple[int, in
     if painter.hasClipping():
         return placement.cells_in(painter.clipBoundingRect())
     return placement.visible_cells()
-
-
-def _faded(color: str, opacity: float) -> QColor:
-    """Return a colour with an opacity."""
-    faded = QColor(color)
-    faded.setAlphaF(opacity)
-    return faded

@@ -182,8 +182,8 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
         for k in range(3 if values is not None else 0):
             assert values is not None
             outside = mask(values[:done, k] < 0)
-            overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, f"outside edge {k}"))
-        overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), "on an edge"))
+            overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, title=f"outside edge {k}"))
+        overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), title="on an edge"))
         counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
         overlays.append(CountOverlay("overdraw", counted))
     if stage.stage == "depth":

@@ -56,7 +56,7 @@ FLOAT32_ROUNDING = 2.0**-23
 
 
 @dataclass(frozen=True, eq=False)
-class _Columns:
+class LineColumns:
     """The columns (steep: rows) of L lines, in coordinates where pixel centres are whole numbers."""
 
     is_steep: Flags
@@ -71,12 +71,33 @@ class _Columns:
     intercept: Floats
     """(L,) float64 b of v = m u + b."""
 
+    @property
+    def first_minor(self) -> Floats:
+        """(L,) float64 minor coordinate in the first column."""
+        return line_equation(self.start, self.slope, self.intercept)
 
-def _columns(segments: Segments, last_pixel: bool) -> _Columns:
+    @property
+    def minor_step(self) -> Floats:
+        """(L,) float64 change of the minor coordinate from a column to the next."""
+        return self.step * self.slope
+
+    def visible(
+        self, segments: Segments, v: Floats, v_step: Floats, margin: Floats | float = MINOR_MARGIN
+    ) -> tuple[Integers, Integers]:
+        """Return the steps of `visible_range` for lines that begin at ``v`` (L,) and change by ``v_step`` (L,)."""
+        return visible_range(segments, self.is_steep, self.start, self.step, v, v_step, self.count, margin)
+
+
+def ends_by_column(segments: Segments) -> tuple[Floats, Flags]:
+    """Return ends (L, 2, 2) u, v, the major axis first and pixel centres whole, and which lines (L,) are steep."""
     ends = segments.centered_ends
     length = np.abs(ends[:, 1] - ends[:, 0])
     is_steep = length[:, 1] > length[:, 0]
-    ends = major_first(ends, is_steep)
+    return major_first(ends, is_steep), is_steep
+
+
+def _columns(segments: Segments, last_pixel: bool) -> LineColumns:
+    ends, is_steep = ends_by_column(segments)
     u, u_end = ends[:, 0, 0], ends[:, 1, 0]
     is_backward = u_end < u
     start = np.where(is_backward, np.floor(u), np.ceil(u))
@@ -86,11 +107,11 @@ def _columns(segments: Segments, last_pixel: bool) -> _Columns:
         stop = np.where(is_backward, np.floor(u_end) + 1, np.ceil(u_end) - 1)
     step = np.where(is_backward, -1, 1)
     count = np.maximum(step * (stop - start).astype(np.int64) + 1, 0)
-    return _Columns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
+    return LineColumns(is_steep, start.astype(np.int64), step, count, *line_coefficients(ends))
 
 
 def _run(
-    columns: _Columns,
+    columns: LineColumns,
     owner: Integers,
     k: Integers,
     v: Floats,
@@ -108,16 +129,7 @@ def _run(
 def draw_nearest(segments: Segments, last_pixel: bool, round_minor: Callable[[Floats], Integers]) -> LineRun:
     """Evaluate m x + b in every column, and round it with ``round_minor``, (P,) float64 to (P,) int64."""
     columns = _columns(segments, last_pixel)
-    v = line_equation(columns.start, columns.slope, columns.intercept)
-    first, last = visible_range(
-        segments,
-        columns.is_steep,
-        columns.start,
-        columns.step,
-        v,
-        columns.step * columns.slope,
-        columns.count,
-    )
+    first, last = columns.visible(segments, columns.first_minor, columns.minor_step)
     owner, k = enumerate_steps(first, last)
     u, step = columns.start[owner] + columns.step[owner] * k, columns.step[owner]
     slope, intercept = columns.slope[owner], columns.intercept[owner]
@@ -209,11 +221,8 @@ def dda(segments: Segments, last_pixel: bool) -> LineRun:
     begins outside the raster.
     """
     columns = _columns(segments, last_pixel)
-    v = line_equation(columns.start, columns.slope, columns.intercept)
-    v_step = columns.step * columns.slope
-    first, last = visible_range(
-        segments, columns.is_steep, columns.start, columns.step, v, v_step, columns.count
-    )
+    v, v_step = columns.first_minor, columns.minor_step
+    first, last = columns.visible(segments, v, v_step)
     owner, k = enumerate_steps(first, last)
     sums, sums_before = _running_sums(first, last, v, v_step)
     return _run(columns, owner, k, sums, sums_before)
@@ -270,24 +279,14 @@ def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
     The first sum and the slope are those of ``dda``, rounded once to float32.
     """
     columns = _columns(segments, last_pixel)
-    v = line_equation(columns.start, columns.slope, columns.intercept).astype(np.float32)
-    v_step = (columns.step * columns.slope).astype(np.float32)
+    v, v_step = columns.first_minor.astype(np.float32), columns.minor_step.astype(np.float32)
     # How far the sums can be off where the line leaves the raster, at the latest.
     size = np.where(columns.is_steep, segments.height, segments.width)
     leaves = np.where(columns.step > 0, size - columns.start, columns.start + 1)
     steps = np.clip(leaves, 0, columns.count)
     reach = np.abs(v) + steps * np.abs(v_step) + 1.0
     margin = MINOR_MARGIN + (np.minimum(steps, STEP_LIMIT) + 1) * reach * FLOAT32_ROUNDING
-    first, last = visible_range(
-        segments,
-        columns.is_steep,
-        columns.start,
-        columns.step,
-        v.astype(float),
-        v_step.astype(float),
-        columns.count,
-        margin,
-    )
+    first, last = columns.visible(segments, v.astype(float), v_step.astype(float), margin)
     last, _ = limited_steps("dda-float32", first, last)
     owner, k = enumerate_steps(first, last)
     sums, sums_before = _running_sums(first, last, v, v_step)

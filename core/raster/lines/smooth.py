@@ -23,16 +23,14 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from core.methods import method
-from core.raster.lines.dda import line_equation
+from core.raster.lines.dda import LineColumns, ends_by_column, line_equation
 from core.raster.lines.records import (
     BLENDING,
     LineRun,
     LineSteps,
     Segments,
     enumerate_steps,
-    major_first,
     round_half_up,
-    visible_range,
 )
 from core.raster.lines.traits import (
     EVALUATE,
@@ -105,20 +103,9 @@ FILTER_TABLE = read_only(cone_intensity(np.arange(int(FILTER_REACH * TABLE_STEPS
 
 
 @dataclass(frozen=True, eq=False)
-class _Reach:
-    """The columns (steep: rows) that L lines reach, in coordinates where pixel centres are whole numbers."""
+class _Reach(LineColumns):
+    """The columns that L lines reach, from the one that the first end lies in up to that of the second."""
 
-    is_steep: Flags
-    start: Integers
-    """(L,) int64 column that the first end lies in."""
-    step: Integers
-    """(L,) int64, 1 or -1."""
-    count: Integers
-    """(L,) int64 columns up to that of the second end."""
-    slope: Floats
-    """(L,) float64 m; 0 where the ends coincide."""
-    intercept: Floats
-    """(L,) float64 b of v = m u + b."""
     low: Floats
     """(L,) float64 left (steep: lower) end."""
     high: Floats
@@ -143,10 +130,7 @@ class _Passage:
 
 
 def _reach(segments: Segments) -> _Reach:
-    ends = segments.centered_ends
-    length = np.abs(ends[:, 1] - ends[:, 0])
-    is_steep = length[:, 1] > length[:, 0]
-    ends = major_first(ends, is_steep)
+    ends, is_steep = ends_by_column(segments)
     u, u_end = ends[:, 0, 0], ends[:, 1, 0]
     # An end between two columns reaches into the one that the line is in.
     is_backward = u_end < u
@@ -160,10 +144,7 @@ def _reach(segments: Segments) -> _Reach:
 
 def _pass_columns(reach: _Reach, segments: Segments, n: int) -> _Passage:
     """List the columns that are on the raster or just beside it."""
-    v = line_equation(reach.start, reach.slope, reach.intercept)
-    first, last = visible_range(
-        segments, reach.is_steep, reach.start, reach.step, v, reach.step * reach.slope, reach.count
-    )
+    first, last = reach.visible(segments, reach.first_minor, reach.minor_step)
     owner, k = enumerate_steps(first, last)
     which = np.tile(np.arange(n), len(owner))
     owner, k = owner.repeat(n), k.repeat(n)
