@@ -205,8 +205,10 @@ def scene_from_record(
     sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
     meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
-        given: dict[str, Any] = record.camera.model_dump()
-        camera = Camera(**{name: np.array(v) if isinstance(v, tuple) else v for name, v in given.items()})
+        camera_values: dict[str, Any] = {
+            name: np.array(value) if isinstance(value, tuple) else value for name, value in record.camera
+        }
+        camera = Camera(**camera_values)
     lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
     with in_field("scene"):
         return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings
