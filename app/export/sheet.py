@@ -4,11 +4,12 @@ import os
 from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QWidget
 
 from app.export.paint import seen_image
 from app.export.svg import svg_text
 from app.export.views import png_bytes
+from widgets.basics.controls import column_layout
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import LIGHT, paint_as, text_font
 from widgets.charts.chart import Chart
@@ -33,9 +34,7 @@ class Sheet(QWidget):
         self.setFont(text_font(LIGHT))
         self.setStyleSheet(f"{style_sheet(LIGHT)} * {{ background: {LIGHT.panel}; }}")
         self.setFixedWidth(WIDTH)
-        self._rows = QVBoxLayout(self)
-        self._rows.setContentsMargins(MARGIN, 16, MARGIN, 16)
-        self._rows.setSpacing(4)
+        self._rows = column_layout(self, 4, margins=(MARGIN, 16, MARGIN, 16))
         self.write([title], "title")
         self.write([subtitle], "muted")
 

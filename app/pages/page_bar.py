@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QSplitter, QStackedWidget, QTabBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.session.session import Session
 from core.settings import Settings
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
@@ -132,13 +133,10 @@ class Pages(QWidget):
         for kind in kinds:
             index = self.bar.addTab(kind.title)
             self.bar.setTabToolTip(index, kind.tip)
-        row = QHBoxLayout()
-        row.setContentsMargins(8, 0, 8, 0)
+        row = row_layout(margins=(8, 0, 8, 0))
         row.addWidget(self.bar)
         row.addStretch(1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
+        layout = column_layout(self, 0)
         layout.addLayout(row)
         layout.addWidget(shared)
         layout.addWidget(self._stack, 1)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
 from app.background.background_task import BackgroundTask
 from app.background.workers import JobGroup
@@ -18,6 +18,7 @@ from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
+from widgets.basics.controls import button_with_tip, column_layout
 from widgets.basics.labels import ElidedLabel, Readout
 from widgets.charts.family_list import FamilyList
 
@@ -50,15 +51,12 @@ class WorkPage(Page):
     ) -> None:
         """Put ``left`` beside the widgets ``above``, each with its stretch, and ``below``."""
         top = QWidget(self)
-        layout = QVBoxLayout(top)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(spacing)
+        layout = column_layout(top, spacing)
         for widget, stretch in above:
             layout.addWidget(widget, stretch)
         self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
         self.columns = SideColumns(left, self.panes, self)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(8, 4, 8, 8)
+        page = column_layout(self, margins=(8, 4, 8, 8))
         page.addWidget(self.columns)
 
     def dismiss(self) -> bool:
@@ -120,8 +118,7 @@ class ResultPage(WorkPage):
         self.copy_button = self._button("Copy", words.copy_tip, self.copy)
 
     def _button(self, text: str, tip: str, action: Callable[[], None]) -> QPushButton:
-        button = QPushButton(text, self)
-        button.setToolTip(tip)
+        button = button_with_tip(text, tip, self)
         button.clicked.connect(action)
         return button
 

@@ -9,14 +9,14 @@ from PySide6.QtWidgets import (
     QScrollArea,
     QSplitter,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
 from widgets.atlas.format_probe import DialRow, DialView
+from widgets.basics.controls import button_with_tip, column_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import PinnedPictures, Pixel, button_with_tip
+from widgets.grid.linked_grids import PinnedPictures, Pixel
 
 WORDS = ("Picture", "Times covered")
 
@@ -88,9 +88,7 @@ class CaseView(PinnedPictures):
         for button in (self.step_button, self.shrink_button, self.save_button):
             flow.addWidget(button)
         words = QWidget(self)
-        column = QVBoxLayout(words)
-        column.setContentsMargins(0, 4, 0, 0)
-        column.setSpacing(8)
+        column = column_layout(words, 8, margins=(0, 4, 0, 0))
         for widget in (self.heading, buttons, self.verdict, self.values):
             column.addWidget(widget)
         column.addStretch(1)
@@ -105,8 +103,7 @@ class CaseView(PinnedPictures):
         self.parts.addWidget(self.tabs)
         self.parts.setStretchFactor(1, 1)
         self.parts.setSizes([330, 660])
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 4, 0, 0)
+        layout = column_layout(self, margins=(0, 4, 0, 0))
         layout.addWidget(self.parts, 1)
 
     def show_case(self, record: CaseRecord) -> None:

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import (
     QLabel,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
+from widgets.basics.controls import column_layout
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -123,9 +123,7 @@ class DialView(QWidget):
         self.sentence.setAccessibleName("What the table is about")
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.table = DialTable(self)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 0)
-        column.setSpacing(4)
+        column = column_layout(self, 4, margins=(0, 4, 0, 0))
         column.addWidget(self.sentence)
         column.addWidget(self.table, 1)
 

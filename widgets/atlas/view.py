@@ -2,10 +2,11 @@
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QWidget
 
 from widgets.atlas.canvas import AtlasCanvas, paint_cell
 from widgets.atlas.records import UNKNOWN, AtlasRecord, CellKind, CellPlace
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import ElidedLabel
 from widgets.basics.theme import current_theme, theme_notifier
@@ -95,9 +96,7 @@ class AtlasLegend(QWidget):
 
     def _make_entry(self) -> tuple[QWidget, _Swatch, QLabel]:
         pair = QWidget(self)
-        row = QHBoxLayout(pair)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row = row_layout(pair, 4)
         swatch, label = _Swatch(pair), QLabel(pair)
         row.addWidget(swatch)
         row.addWidget(label)
@@ -132,9 +131,7 @@ class AtlasView(QWidget):
         for name in ("cell_hovered", "cell_left", "cell_chosen", "cell_opened"):
             getattr(self.canvas, name).connect(getattr(self, name))
         self.canvas.map_shown.connect(self._show_part)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4)
         layout.addWidget(self.axes)
         layout.addWidget(self.pane, 1)
         layout.addWidget(self.legend)

@@ -2,8 +2,9 @@
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import set_role
 
 
@@ -24,8 +25,7 @@ class AskBar(QWidget):
         self.field = QLineEdit(self)
         self.field.returnPressed.connect(self._enter)
         self.field.textEdited.connect(self._forget_problem)
-        self.enter_button = QPushButton("OK", self)
-        self.enter_button.setToolTip("Accept (Enter)")
+        self.enter_button = button_with_tip("OK", "Accept (Enter)", self)
         self.enter_button.clicked.connect(self._enter)
         self.close_button = QPushButton("Close", self)
         self.close_button.setProperty("flat", True)
@@ -34,15 +34,12 @@ class AskBar(QWidget):
         self.hint = QLabel(self)
         self.hint.setWordWrap(True)
         self._hint = ""
-        row = QHBoxLayout()
-        row.setSpacing(8)
+        row = row_layout(spacing=8)
         row.addWidget(self.label)
         row.addWidget(self.field, 1)
         row.addWidget(self.enter_button)
         row.addWidget(self.close_button)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(12, 8, 12, 8)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4, margins=(12, 8, 12, 8))
         layout.addLayout(row)
         layout.addWidget(self.hint)
         self.hide()

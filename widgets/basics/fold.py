@@ -1,7 +1,9 @@
 """A part of a pane that is folded away under its title until it is opened."""
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QWidget
+
+from widgets.basics.controls import column_layout
 
 
 class Fold(QWidget):
@@ -23,9 +25,7 @@ class Fold(QWidget):
         self.text.setAccessibleName(title)
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.text.setContentsMargins(8, 0, 8, 8)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
+        layout = column_layout(self, 0)
         layout.addWidget(self.button)
         layout.addWidget(self.text)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)

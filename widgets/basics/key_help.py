@@ -7,15 +7,14 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QScrollArea,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
+from widgets.basics.controls import column_layout, flat_button, row_layout
 from widgets.basics.theme import current_theme, theme_notifier
 
 _COLUMN_WIDTH = 360
@@ -53,11 +52,7 @@ class KeyHelp(QWidget):
         self.search.setClearButtonEnabled(True)
         self.search.setMaximumWidth(320)
         self.search.textChanged.connect(self._narrow)
-        close = QToolButton(self)
-        close.setText("✕")
-        close.setProperty("flat", True)
-        close.setAccessibleName("Close the keys page")
-        close.setToolTip("Close (Escape)")
+        close = flat_button("✕", "Close the keys page", "Close (Escape)", self)
         close.clicked.connect(self.closed)
         self.close_button = close
         self.none_found = QLabel("No key does that.", self)
@@ -67,15 +62,12 @@ class KeyHelp(QWidget):
         self._scroll.setWidgetResizable(True)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        top = QHBoxLayout()
-        top.setSpacing(12)
+        top = row_layout(spacing=12)
         top.addWidget(title)
         top.addWidget(self.search, 1)
         top.addStretch(1)
         top.addWidget(close)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(16, 12, 16, 12)
-        layout.setSpacing(12)
+        layout = column_layout(self, 12, margins=(16, 12, 16, 12))
         layout.addLayout(top)
         layout.addWidget(self.none_found)
         layout.addWidget(self._scroll, 1)
@@ -149,9 +141,7 @@ class KeyHelp(QWidget):
         body = QWidget()
         body.setProperty("role", "panel")
         body.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        row = QHBoxLayout(body)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(32)
+        row = row_layout(body, 32)
         stacks = [QVBoxLayout() for _ in range(self._columns)]
         heights = [0] * self._columns
         placed: list[list[tuple[str, list[KeyEntry]]]] = [[] for _ in stacks]
@@ -184,9 +174,7 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
     grid.addWidget(heading, 0, 0, 1, 2)
     for number, entry in enumerate(entries, start=1):
         caps = QWidget()
-        row = QHBoxLayout(caps)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row = row_layout(caps, 4)
         for key in entry.keys.split(", "):
             cap = QLabel(key)
             cap.setStyleSheet(

@@ -6,16 +6,14 @@ from enum import Enum
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
     QSizePolicy,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -81,27 +79,20 @@ class MessageBar(QWidget):
         self.action_button.clicked.connect(self.action_requested)
         self.cancel_button = self._button("Cancel", "Stop this work; the open scene is unchanged")
         self.cancel_button.clicked.connect(self._cancel)
-        self.dismiss_button = QToolButton(self)
-        self.dismiss_button.setText("✕")
-        self.dismiss_button.setProperty("flat", True)
+        self.dismiss_button = flat_button("✕", "Dismiss the message", "Dismiss (Escape)", self)
         self.dismiss_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.dismiss_button.setAccessibleName("Dismiss the message")
-        self.dismiss_button.setToolTip("Dismiss (Escape)")
         self.dismiss_button.clicked.connect(self._dismiss)
         self.details = QLabel(self)
         self.details.setWordWrap(True)
         self.details.setProperty("role", "muted")
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        row = QHBoxLayout()
-        row.setSpacing(8)
+        row = row_layout(spacing=8)
         row.addWidget(self._icon)
         row.addWidget(self.text, 1)
         row.addWidget(self.progress)
         for button in (self.details_button, self.action_button, self.cancel_button, self.dismiss_button):
             row.addWidget(button)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(12, 4, 4, 4)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4, margins=(12, 4, 4, 4))
         layout.addLayout(row)
         layout.addWidget(self.details)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
@@ -162,8 +153,7 @@ class MessageBar(QWidget):
             self._cancel()
 
     def _button(self, text: str, tip: str) -> QPushButton:
-        button = QPushButton(text, self)
-        button.setToolTip(tip)
+        button = button_with_tip(text, tip, self)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         button.setAutoDefault(False)
         return button

@@ -6,16 +6,14 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QProgressBar,
-    QPushButton,
     QSizePolicy,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import ElidedLabel
 from widgets.basics.message_bar import Progress
@@ -38,8 +36,8 @@ class RunPanel(QWidget):
         self.setProperty("role", "panel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setAccessibleName(name)
-        self.start_button = self.button(start, start_tip)
-        self.cancel_button = self.button("Cancel", cancel_tip)
+        self.start_button = button_with_tip(start, start_tip, self)
+        self.cancel_button = button_with_tip("Cancel", cancel_tip, self)
         self.progress = QProgressBar(self)
         self.progress.setTextVisible(False)
         self.progress.setFixedSize(160, 8)
@@ -48,19 +46,11 @@ class RunPanel(QWidget):
         self.doing.setFixedWidth(320)
         # An elided label takes any width by itself; here it keeps its own, so that a line that is full wraps.
         self.doing.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.rows = QVBoxLayout(self)
-        self.rows.setContentsMargins(8, 8, 8, 8)
-        self.rows.setSpacing(8)
+        self.rows = column_layout(self, 8, margins=(8, 8, 8, 8))
         self.start_button.clicked.connect(self.start_requested)
         self.cancel_button.clicked.connect(self.cancel_requested)
 
     # Making controls.
-
-    def button(self, text: str, tip: str) -> QPushButton:
-        """Return a new button."""
-        button = QPushButton(text, self)
-        button.setToolTip(tip)
-        return button
 
     def box(self, name: str, tip: str) -> QComboBox:
         """Return a new list of choices."""
@@ -136,9 +126,7 @@ def set_number(box: QSpinBox, value: int) -> None:
 def _labelled(text: str, control: QWidget) -> QWidget:
     """Return a widget that holds a label and the control that it names."""
     pair = QWidget()
-    row = QHBoxLayout(pair)
-    row.setContentsMargins(0, 0, 0, 0)
-    row.setSpacing(4)
+    row = row_layout(pair, 4)
     label = QLabel(text, pair)
     label.setBuddy(control)
     row.addWidget(label)

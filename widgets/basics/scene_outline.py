@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
 
+from widgets.basics.controls import column_layout
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import TypedValue
@@ -176,9 +177,7 @@ class SceneOutline(QScrollArea):
         content = QWidget()
         content.setProperty("role", "panel")
         content.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        layout = QVBoxLayout(content)
-        layout.setContentsMargins(4, 4, 4, 8)
-        layout.setSpacing(4)
+        layout = column_layout(content, 4, margins=(4, 4, 4, 8))
         if not self._groups:
             hint = QLabel("The scene appears here: camera, lights, meshes and vertices with their numbers.")
             hint.setProperty("role", "muted")

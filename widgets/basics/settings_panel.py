@@ -13,9 +13,10 @@ from PySide6.QtWidgets import (
     QStyle,
     QStyleOptionComboBox,
     QStylePainter,
-    QVBoxLayout,
     QWidget,
 )
+
+from widgets.basics.controls import column_layout
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,7 @@ class SettingsPanel(QWidget):
         self._combos: dict[str, ChoiceBox] = {}
         self._labels: dict[str, QLabel] = {}
         self._body: QWidget | None = None
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout = column_layout(self)
         self._empty = QLabel("Choose the methods of each stage here.", self)
         self._empty.setProperty("role", "muted")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)

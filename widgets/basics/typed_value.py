@@ -4,9 +4,10 @@ import math
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QSizePolicy, QWidget
 
 from core.explain.number_text import full_text, number_text, parse_number
+from widgets.basics.controls import column_layout
 from widgets.basics.theme import current_theme, theme_notifier
 
 
@@ -41,9 +42,7 @@ class TypedValue(QWidget):
         self.error.setWordWrap(True)
         self.error.setProperty("role", "bad")
         self.error.hide()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
+        layout = column_layout(self, 2)
         layout.addWidget(self.edit)
         layout.addWidget(self.error)
         self.setFocusProxy(self.edit)

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QSlider, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QSlider, QWidget
 
 from core.explain.number_text import number_text
+from widgets.basics.controls import row_layout
 from widgets.basics.typed_value import TypedValue
 
 
@@ -43,9 +44,7 @@ class DialControl(QWidget):
         self.field.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         stops = ", ".join(number_text(value) for value in dial.values)
         self.setToolTip(f"{dial.title}{unit}: {stops}, or any value between them")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row = row_layout(self, 4)
         for widget in (self.label, self.slider, self.field):
             row.addWidget(widget)
         self.show_value(dial.value)

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import ElidedLabel
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.linked_grids import PinnedPictures, button_with_tip
+from widgets.grid.linked_grids import PinnedPictures
 
 WORDS = ("Picture", "Reference", "Difference")
 
@@ -52,14 +53,11 @@ class StudyPictures(PinnedPictures):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.setSpacing(8)
+        top = row_layout(spacing=8)
         top.addWidget(self.heading, 1)
         for button in (self.step_button, self.divergence_button, self.copy_button, self.close_button):
             top.addWidget(button)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 4, 0, 0)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4, margins=(0, 4, 0, 0))
         layout.addLayout(top)
         layout.addWidget(self.linked, 1)
         layout.addWidget(self.values)

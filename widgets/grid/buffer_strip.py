@@ -5,16 +5,15 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QMenu,
     QScrollArea,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -44,9 +43,7 @@ class BufferTile(QWidget):
         self.value.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.value.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._pixel: tuple[int, int] | None = None
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
+        column = column_layout(self, 2)
         column.addWidget(self.title)
         column.addWidget(self.grid, 1)
         column.addWidget(self.value)
@@ -129,9 +126,7 @@ class BufferStrip(QWidget):
         self._more.setStyleSheet("QToolButton::menu-indicator { image: none; }")
         self._more.setMenu(self._menu)
         content = QWidget()
-        self._row = QHBoxLayout(content)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(3 * current_theme().unit)
+        self._row = row_layout(content, 3 * current_theme().unit)
         self._area = _SidewaysArea(self)
         self._area.setWidget(content)
         self._bringing = QTimer(self)
@@ -140,9 +135,7 @@ class BufferStrip(QWidget):
         self._bringing.timeout.connect(self._bring_chosen_into_sight)
         content.setAutoFillBackground(False)
         self._area.viewport().setAutoFillBackground(False)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(current_theme().unit)
+        whole = row_layout(self, current_theme().unit)
         whole.addWidget(self._area, 1)
         whole.addWidget(self._more, 0, Qt.AlignmentFlag.AlignTop)
         theme_notifier().theme_changed.connect(self._take_font)

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.settings_panel import ChoiceBox, Setting
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -74,8 +75,7 @@ class CompareView(QWidget):
         swap.setToolTip("Swap the settings of A and B")
         reset.clicked.connect(self.reset_requested)
         swap.clicked.connect(self.swap_requested)
-        row = QHBoxLayout()
-        row.setSpacing(8)
+        row = row_layout(spacing=8)
         for widget in (
             QLabel("Compare", self),
             self.buffer_box,
@@ -87,14 +87,10 @@ class CompareView(QWidget):
         row.addWidget(reset)
         row.addWidget(swap)
         row.addStretch(1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 4, 0, 0)
-        layout.setSpacing(8)
+        layout = column_layout(self, 8, margins=(0, 4, 0, 0))
         layout.addLayout(row)
         layout.addWidget(self.figure, 1)
-        figure = QVBoxLayout(self.figure)
-        figure.setContentsMargins(0, 0, 0, 0)
-        figure.setSpacing(8)
+        figure = column_layout(self.figure, 8)
         figure.addWidget(self.linked, 1)
         figure.addWidget(self.summary)
 

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
+from widgets.basics.controls import closing_button
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.pixel_grid import PixelGrid
@@ -77,23 +78,6 @@ class LinkedGrids(QWidget):
 
 
 Pixel = tuple[int, int]
-
-
-def button_with_tip(text: str, tip: str, parent: QWidget) -> QPushButton:
-    """Return a button that says what it does when it is pointed at."""
-    button = QPushButton(text, parent)
-    button.setToolTip(tip)
-    return button
-
-
-def closing_button(what: str, parent: QWidget) -> QToolButton:
-    """Return the cross that closes ``what``, as ``the case``; Escape does the same."""
-    button = QToolButton(parent)
-    button.setText("✕")
-    button.setProperty("flat", True)
-    button.setAccessibleName(f"Close {what}")
-    button.setToolTip(f"Close {what} (Escape)")
-    return button
 
 
 def reading_at(pixel: Pixel, buffers: Sequence[GridBuffer]) -> str:

@@ -3,8 +3,9 @@
 import numpy as np
 from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
-from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QWidget
 
+from widgets.basics.controls import column_layout
 from widgets.basics.mark_patterns import is_pattern, transparent_image
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.overlay import (
@@ -46,9 +47,7 @@ class OverlayLegend(QWidget):
         super().__init__(parent)
         self._boxes: dict[str, QCheckBox] = {}
         self._overlays: tuple[Overlay, ...] = ()
-        self._rows = QVBoxLayout(self)
-        self._rows.setContentsMargins(0, 0, 0, 0)
-        self._rows.setSpacing(0)
+        self._rows = column_layout(self, 0)
         self.setAccessibleName("Overlays")
         theme_notifier().theme_changed.connect(self._repaint_swatches)
 

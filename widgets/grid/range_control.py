@@ -3,8 +3,9 @@
 from math import isfinite
 
 from PySide6.QtCore import QPoint, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
+from widgets.basics.controls import button_with_tip, row_layout
 from widgets.basics.image import fitted_range, value_range
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.buffer import GridBuffer, number_text
@@ -35,18 +36,16 @@ class RangeControl(QWidget):
         self._high_edit = self._make_edit("High end of the colour range")
         self._histogram = Histogram(self)
         self._histogram.range_dragged.connect(self._choose)
-        self._fit_button = QPushButton("Fit", self)
-        self._fit_button.setToolTip("Fit the range to the values; right click: keep fitting")
+        self._fit_button = button_with_tip(
+            "Fit", "Fit the range to the values; right click: keep fitting", self
+        )
         self._fit_button.setAccessibleName("Fit the colour range to the values")
         self._fit_button.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self._fit_button.clicked.connect(self.fit)
         self._fit_button.customContextMenuRequested.connect(self._toggle_fitting)
-        self._reset_button = QPushButton("Reset", self)
-        self._reset_button.setToolTip("Back to the buffer's own range")
+        self._reset_button = button_with_tip("Reset", "Back to the buffer's own range", self)
         self._reset_button.clicked.connect(self._reset)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(2 * current_theme().unit)
+        row = row_layout(self, 2 * current_theme().unit)
         self._parts = (
             self._low_edit,
             self._histogram,

@@ -3,6 +3,7 @@
 from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QWidget
 
+from widgets.basics.controls import button_with_tip
 from widgets.basics.run_panel import RunPanel
 
 MOST_COLOR = 255
@@ -43,11 +44,11 @@ class PlanControls(RunPanel):
             "Rounds", "Rounds of measurement; more rounds take longer", 1, MOST_ROUNDS
         )
         self.rounds_box.setValue(3)
-        self.apply_button = self.button(
-            "Apply", "Use these settings for the scene (Ctrl+Return); Undo restores the old ones"
+        self.apply_button = button_with_tip(
+            "Apply", "Use these settings for the scene (Ctrl+Return); Undo restores the old ones", self
         )
-        self.chart_button = self.button(
-            "On the chart", "Show the plan among all methods: Whole pipeline, on the Compare page"
+        self.chart_button = button_with_tip(
+            "On the chart", "Show the plan among all methods: Whole pipeline, on the Compare page", self
         )
         self.add_row(
             (

@@ -5,8 +5,9 @@ from enum import Enum
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import set_role
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
@@ -53,8 +54,9 @@ class PlanRowView(QWidget):
         self.stage, self.chosen, self.instead = QLabel(self), QLabel(self), QLabel(self)
         self.reason, self.numbers, self.verdict = QLabel(self), QLabel(self), QLabel(self)
         self.mark = QLabel(self)
-        self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip("Draw this choice alone, the reference settings, and the difference")
+        self.picture_button = button_with_tip(
+            "Difference", "Draw this choice alone, the reference settings, and the difference", self
+        )
         self.picture_button.clicked.connect(self._ask)
         policy = self.picture_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)  # The columns of all rows stand under one another.
@@ -71,9 +73,7 @@ class PlanRowView(QWidget):
         theme_notifier().theme_changed.connect(self._paint_mark)
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 8, 8, 8)
-        row.setSpacing(12)
+        row = row_layout(self, 12, margins=(12, 8, 8, 8))
         row.addLayout(_stack(self.stage, self.chosen, self.instead), 5)
         row.addLayout(_stack(self.reason), 8)
         row.addLayout(_stack(self.numbers, self.verdict), 6)
@@ -118,8 +118,7 @@ class PlanRowView(QWidget):
 
 def _stack(*labels: QLabel) -> QVBoxLayout:
     """Return a column of labels that share the room of a row with the other columns."""
-    column = QVBoxLayout()
-    column.setSpacing(2)
+    column = column_layout(spacing=2)
     for label in labels:
         # Each row by itself must share its width in the same way, whatever is written in it.
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
@@ -138,9 +137,7 @@ class PlanRows(QScrollArea):
         super().__init__(parent)
         self.rows: dict[str, PlanRowView] = {}
         self._body = QWidget()
-        self._layout = QVBoxLayout(self._body)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(4)
+        self._layout = column_layout(self._body, 4)
         self.empty = QLabel(self._body)
         self.empty.setWordWrap(True)
         self.empty.setContentsMargins(12, 12, 12, 12)

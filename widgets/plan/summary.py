@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QScrollArea, QWidget
 
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.fold import Fold
 from widgets.basics.labels import ElidedLabel, set_role
 from widgets.basics.marks import Mark, mark_pixmap
@@ -52,19 +53,15 @@ class PlanSummary(QWidget):
         for label in (self.headline, self.details, self.stale):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.picture_button = QPushButton("Difference", self)
-        self.picture_button.setToolTip(
-            "Draw all choices together, the reference settings, and the difference (D)"
+        self.picture_button = button_with_tip(
+            "Difference", "Draw all choices together, the reference settings, and the difference (D)", self
         )
         self.picture_button.clicked.connect(self.picture_requested)
-        top = QHBoxLayout()
-        top.setSpacing(8)
+        top = row_layout(spacing=8)
         top.addWidget(self.mark, 0, Qt.AlignmentFlag.AlignTop)
         top.addWidget(self.headline, 1)
         top.addWidget(self.picture_button, 0, Qt.AlignmentFlag.AlignTop)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(12, 8, 8, 8)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4, margins=(12, 8, 8, 8))
         layout.addWidget(self.stale)
         layout.addLayout(top)
         layout.addWidget(self.details)
@@ -111,9 +108,7 @@ class PlanFindings(QScrollArea):
         self.hint.setWordWrap(True)
         self.hint.setProperty("role", "muted")
         self.hint.setContentsMargins(8, 8, 8, 8)
-        layout = QVBoxLayout(body)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        layout = column_layout(body, 4)
         for widget in (self.hint, self.findings, self.advice):
             layout.addWidget(widget)
         layout.addStretch(1)

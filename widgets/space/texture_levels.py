@@ -1,7 +1,8 @@
 """One texture view, or two side by side: the mipmap levels that a pixel reads."""
 
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from widgets.basics.controls import row_layout
 from widgets.space.texture_picture import TexturePicture
 from widgets.space.texture_view import TextureView
 
@@ -15,9 +16,7 @@ class TextureLevels(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._views = TextureView(), TextureView()
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(GAP)
+        layout = row_layout(self, GAP)
         for view in self._views:
             layout.addWidget(view)
         self.setAccessibleName("Texture space")

@@ -6,8 +6,9 @@ from enum import Enum
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
+from widgets.basics.controls import row_layout
 from widgets.basics.marks import blended
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -202,9 +203,7 @@ class PipelineRail(QWidget):
         self._buttons: list[StageButton] = []
         self._widest: list[int] = []
         """Room that each stage has needed so far: numbers that change many times a second must move nothing."""
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(2)
+        self._row = row_layout(self, 2)
         self.setAccessibleName("Pipeline")
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         theme_notifier().theme_changed.connect(self._follow_theme)

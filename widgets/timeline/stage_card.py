@@ -1,9 +1,10 @@
 """The purpose, input and output of a stage, and the lecture it is from."""
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from core.explain.records import StageCard
+from widgets.basics.controls import column_layout
 from widgets.basics.labels import set_role
 
 
@@ -49,9 +50,7 @@ class StageCardView(QWidget):
             self._labels.append(label)
             self._texts.append(text)
         self._texts[3].setProperty("role", "muted")
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
+        layout = column_layout(self, 0)
         layout.addWidget(self.fold_button)
         layout.addWidget(self._body)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)

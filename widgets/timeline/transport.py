@@ -7,16 +7,15 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import (
     QButtonGroup,
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from core.records.steps import Level
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 from widgets.timeline.bar import TimelineBar
@@ -196,8 +195,7 @@ class Timeline(QWidget):
         return button
 
     def _arrange(self) -> None:
-        row = QHBoxLayout()
-        row.setSpacing(4)
+        row = row_layout(spacing=4)
         for button in self.transport_buttons():
             row.addWidget(button)
         row.addSpacing(12)
@@ -207,16 +205,13 @@ class Timeline(QWidget):
         for level_button in self.level_buttons.values():
             row.addWidget(level_button)
         row.addStretch(1)
-        self._guests = QHBoxLayout()
-        self._guests.setSpacing(4)
+        self._guests = row_layout(spacing=4)
         row.addLayout(self._guests)
         row.addWidget(self.position_box)
         row.addWidget(self.count_label)
         row.addSpacing(12)
         row.addWidget(self.speed_box)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(4)
+        layout = column_layout(self, 4, margins=(8, 4, 8, 4))
         layout.addLayout(row)
         layout.addWidget(self.bar)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

@@ -1,7 +1,7 @@
 """The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QWidget
+from PySide6.QtWidgets import QSplitter, QTabWidget, QWidget
 
 from app.export.study import study_content
 from app.files.study_files import EXTENSION, load_study
@@ -11,6 +11,7 @@ from app.pages.compare.presenter import StudyPresenter
 from app.pages.page_bar import Handlers
 from app.pages.result_page import FileWords, ResultPage, splitter
 from app.session.session import Session
+from widgets.basics.controls import row_layout
 from widgets.charts.chart import Chart
 from widgets.charts.legend import ChartLegend
 from widgets.charts.study_controls import StudyControls
@@ -65,9 +66,7 @@ class ComparePage(ResultPage):
         self.tabs.addTab(self.charts, "Charts")
         self.tabs.addTab(self.table, "Numbers")
         corner = QWidget(self)
-        row = QHBoxLayout(corner)
-        row.setContentsMargins(0, 0, 0, 4)
-        row.setSpacing(8)
+        row = row_layout(corner, 8, margins=(0, 0, 0, 4))
         for button in (self.export_button, self.copy_button):
             row.addWidget(button)
         self.tabs.setCornerWidget(corner)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QHBoxLayout, QSplitter, QWidget
+from PySide6.QtWidgets import QSplitter, QWidget
 
 from app.export.atlas import atlas_content
 from app.files.atlas_files import EXTENSION, load_atlas
@@ -19,6 +19,7 @@ from app.session.session import Session
 from widgets.atlas.case_view import CaseView
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView
+from widgets.basics.controls import row_layout
 from widgets.charts.chart import Chart
 from widgets.charts.legend import ChartLegend
 
@@ -60,9 +61,7 @@ class StabilityPage(ResultPage):
 
     def _foot(self) -> QWidget:
         foot = QWidget(self)
-        row = QHBoxLayout(foot)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(8)
+        row = row_layout(foot, 8)
         row.addWidget(self.shown_text, 1)
         row.addWidget(self.export_button)
         row.addWidget(self.copy_button)

@@ -13,8 +13,6 @@ from PySide6.QtWidgets import (
     QStackedWidget,
     QTabBar,
     QTabWidget,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -29,6 +27,7 @@ from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
 from app.session.session import Session
 from app.views.stage_views import StageViews
+from widgets.basics.controls import column_layout, flat_button
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.theme import current_theme, theme_notifier
@@ -104,9 +103,7 @@ class StepPage(Page):
         self.columns.setStretchFactor(1, 1)
         self.columns.setSizes([296, 616, 352])
         self.columns.setChildrenCollapsible(True)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(8, 4, 8, 8)
-        page.setSpacing(8)
+        page = column_layout(self, 8, margins=(8, 4, 8, 8))
         page.addWidget(self.rail)
         page.addWidget(self.columns, 1)
         self._add_run_to()
@@ -129,9 +126,7 @@ class StepPage(Page):
 
     def _overlay_pane(self) -> QWidget:
         pane = QWidget(self)
-        layout = QVBoxLayout(pane)
-        layout.setContentsMargins(8, 8, 8, 8)
-        layout.setSpacing(8)
+        layout = column_layout(pane, 8, margins=(8, 8, 8, 8))
         layout.addWidget(self.legend)
         layout.addStretch(1)
         return pane
@@ -143,9 +138,7 @@ class StepPage(Page):
         self.view_bar.setAccessibleName("Main view")
         self.view_stack = QStackedWidget(self)
         pixels = QWidget(self)
-        under = QVBoxLayout(pixels)
-        under.setContentsMargins(0, 0, 0, 0)
-        under.setSpacing(4)
+        under = column_layout(pixels, 4)
         under.addWidget(self.grid, 1)
         under.addWidget(self.ranges)
         self._add_view("pixels", "Pixels", pixels)
@@ -154,9 +147,7 @@ class StepPage(Page):
         self._add_view("compare", "A | B", self.compare_view)
         self.view_bar.currentChanged.connect(self._show_view)
         top = QWidget(self)
-        layout = QVBoxLayout(top)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        layout = column_layout(top, 4)
         layout.addWidget(self.view_bar)
         layout.addWidget(self.view_stack, 1)
         layout.addWidget(self.prediction)
@@ -182,9 +173,7 @@ class StepPage(Page):
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.sentence.setAccessibleName("What the step did")
         self.step_pane = QWidget(self)
-        layout = QVBoxLayout(self.step_pane)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        layout = column_layout(self.step_pane, 4)
         layout.addWidget(self.card)
         layout.addWidget(self.sentence)
         layout.addWidget(self.formula)
@@ -258,11 +247,7 @@ class StepPage(Page):
         self.event_box.activated.connect(self._choose_event)
         buttons = []
         for text, name, key in (("<", "Previous event", "Shift+N"), (">", "Next event", "N")):
-            button = QToolButton(self)
-            button.setText(text)
-            button.setProperty("flat", True)
-            button.setAccessibleName(name)
-            button.setToolTip(f"{name} of this kind ({key})")
+            button = flat_button(text, name, f"{name} of this kind ({key})", self)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             buttons.append(button)
         self.previous_event_button, self.next_event_button = buttons

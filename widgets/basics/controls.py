@@ -1,0 +1,53 @@
+"""Rows and columns of widgets with their gaps, and buttons that say what they do."""
+
+from typing import TypeVar
+
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+Margins = tuple[int, int, int, int]
+"""Logical pixels at the left, top, right and bottom."""
+Box = TypeVar("Box", QHBoxLayout, QVBoxLayout)
+NO_MARGINS: Margins = (0, 0, 0, 0)
+
+
+def row_layout(
+    parent: QWidget | None = None, spacing: int | None = None, margins: Margins = NO_MARGINS
+) -> QHBoxLayout:
+    """Return an empty row, the layout of ``parent`` if there is one; ``spacing``: between two widgets."""
+    return _with_gaps(QHBoxLayout() if parent is None else QHBoxLayout(parent), spacing, margins)
+
+
+def column_layout(
+    parent: QWidget | None = None, spacing: int | None = None, margins: Margins = NO_MARGINS
+) -> QVBoxLayout:
+    """Return an empty column, as `row_layout`."""
+    return _with_gaps(QVBoxLayout() if parent is None else QVBoxLayout(parent), spacing, margins)
+
+
+def _with_gaps(box: Box, spacing: int | None, margins: Margins) -> Box:
+    box.setContentsMargins(*margins)
+    if spacing is not None:
+        box.setSpacing(spacing)
+    return box
+
+
+def button_with_tip(text: str, tip: str, parent: QWidget) -> QPushButton:
+    """Return a button that says what it does when it is pointed at."""
+    button = QPushButton(text, parent)
+    button.setToolTip(tip)
+    return button
+
+
+def flat_button(text: str, name: str, tip: str, parent: QWidget) -> QToolButton:
+    """Return a button without a frame: one sign, with a name for who does not see it, and a tip."""
+    button = QToolButton(parent)
+    button.setText(text)
+    button.setProperty("flat", True)
+    button.setAccessibleName(name)
+    button.setToolTip(tip)
+    return button
+
+
+def closing_button(what: str, parent: QWidget) -> QToolButton:
+    """Return the cross that closes ``what``, as ``the case``; Escape does the same."""
+    return flat_button("✕", f"Close {what}", f"Close {what} (Escape)", parent)
