@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import (
-    QLabel,
     QScrollArea,
     QSplitter,
     QTabWidget,
@@ -15,6 +14,7 @@ from PySide6.QtWidgets import (
 from widgets.atlas.format_probe import DialRow, DialView
 from widgets.basics.controls import button_with_tip, column_layout
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.labels import text_label
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.linked_grids import PinnedPictures, Pixel
 
@@ -51,13 +51,8 @@ class CaseView(PinnedPictures):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(WORDS, "the case", parent)
-        self.heading = QLabel(self)
-        self.heading.setWordWrap(True)
-        self.heading.setAccessibleName("Chosen cell")
-        self.verdict = QLabel(self)
-        self.verdict.setWordWrap(True)
-        self.verdict.setAccessibleName("Outcome")
-        self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.heading = text_label("", self, name="Chosen cell", wraps=True)
+        self.verdict = text_label("", self, name="Outcome", wraps=True, is_selectable=True)
         self.values.setWordWrap(True)
         self.formats = DialView(self)
         self.tabs = QTabWidget(self)

@@ -8,13 +8,13 @@ from PySide6.QtGui import QColor, QFontDatabase, QIcon
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
-    QLabel,
     QTableWidget,
     QTableWidgetItem,
     QWidget,
 )
 
 from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -118,10 +118,7 @@ class DialView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.sentence = QLabel(self)
-        self.sentence.setWordWrap(True)
-        self.sentence.setAccessibleName("What the table is about")
-        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.sentence = text_label("", self, name="What the table is about", wraps=True, is_selectable=True)
         self.table = DialTable(self)
         column = column_layout(self, 4, margins=(0, 4, 0, 0))
         column.addWidget(self.sentence)

@@ -1,8 +1,9 @@
 """What stands above the maps of an experiment: what it claims, how fine it is run, and running it."""
 
-from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QLabel, QWidget
 
+from widgets.basics.labels import text_label
 from widgets.basics.run_panel import Named, RunPanel, fill_box, set_number
 
 
@@ -33,10 +34,7 @@ class StabilityControls(RunPanel):
         self.show_progress(None)
 
     def _sentence(self, name: str) -> QLabel:
-        label = QLabel(self)
-        label.setWordWrap(True)
-        label.setAccessibleName(name)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        label = text_label("", self, name=name, wraps=True, is_selectable=True)
         self.rows.addWidget(label)
         return label
 

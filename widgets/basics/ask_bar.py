@@ -5,7 +5,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
-from widgets.basics.labels import set_role
+from widgets.basics.labels import set_role, text_label
 
 
 class AskBar(QWidget):
@@ -31,8 +31,7 @@ class AskBar(QWidget):
         self.close_button.setProperty("flat", True)
         self.close_button.setToolTip("Cancel (Escape)")
         self.close_button.clicked.connect(self._close)
-        self.hint = QLabel(self)
-        self.hint.setWordWrap(True)
+        self.hint = text_label("", self, wraps=True)
         self._hint = ""
         row = row_layout(spacing=8)
         row.addWidget(self.label)

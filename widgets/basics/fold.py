@@ -1,9 +1,10 @@
 """A part of a pane that is folded away under its title until it is opened."""
 
 from PySide6.QtCore import Qt, Slot
-from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
 
 
 class Fold(QWidget):
@@ -19,8 +20,7 @@ class Fold(QWidget):
         font = self.button.font()
         font.setBold(True)
         self.button.setFont(font)
-        self.text = QLabel(self)
-        self.text.setWordWrap(True)
+        self.text = text_label("", self, wraps=True)
         self.text.setTextFormat(Qt.TextFormat.RichText)
         self.text.setAccessibleName(title)
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 
 _COLUMN_WIDTH = 360
@@ -44,8 +45,7 @@ class KeyHelp(QWidget):
         self._entries: tuple[KeyEntry, ...] = ()
         self._columns = 0
         self._is_stale = True
-        title = QLabel("Keys", self)
-        title.setProperty("role", "title")
+        title = text_label("Keys", self, role="title")
         self.search = QLineEdit(self)
         self.search.setPlaceholderText("Find a key or what it does")
         self.search.setAccessibleName("Find a key")
@@ -55,8 +55,7 @@ class KeyHelp(QWidget):
         close = flat_button("✕", "Close the keys page", "Close (Escape)", self)
         close.clicked.connect(self.closed)
         self.close_button = close
-        self.none_found = QLabel("No key does that.", self)
-        self.none_found.setProperty("role", "muted")
+        self.none_found = text_label("No key does that.", self, role="muted")
         self.none_found.hide()
         self._scroll = QScrollArea(self)
         self._scroll.setWidgetResizable(True)
@@ -169,8 +168,7 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
     grid.setVerticalSpacing(6)
     grid.setColumnMinimumWidth(0, key_width)
     grid.setColumnStretch(1, 1)
-    heading = QLabel(name)
-    heading.setProperty("role", "title")
+    heading = text_label(name, None, role="title")
     grid.addWidget(heading, 0, 0, 1, 2)
     for number, entry in enumerate(entries, start=1):
         caps = QWidget()
@@ -183,8 +181,7 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
             )
             row.addWidget(cap)
         row.addStretch(1)
-        what = QLabel(entry.what)
-        what.setWordWrap(True)
+        what = text_label(entry.what, None, wraps=True)
         grid.addWidget(caps, number, 0, Qt.AlignmentFlag.AlignTop)
         grid.addWidget(what, number, 1)
     return box

@@ -5,6 +5,27 @@ from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QWidget
 
 
+def text_label(
+    text: str,
+    parent: QWidget | None,
+    role: str = "",
+    *,
+    name: str = "",
+    wraps: bool = False,
+    is_selectable: bool = False,
+) -> QLabel:
+    """Return a text: its role in the style sheet, its name for who does not see it, and what may be done with it."""
+    label = QLabel(text, parent) if parent is not None else QLabel(text)
+    label.setWordWrap(wraps)
+    if role:
+        label.setProperty("role", role)
+    if name:
+        label.setAccessibleName(name)
+    if is_selectable:
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    return label
+
+
 class ElidedLabel(QLabel):
     """A label of plain text that can be made as narrow as one likes."""
 

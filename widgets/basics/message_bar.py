@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
+from widgets.basics.labels import text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -64,9 +65,7 @@ class MessageBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._message: Message | None = None
         self._icon = QLabel(self)
-        self.text = QLabel(self)
-        self.text.setWordWrap(True)
-        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.text = text_label("", self, wraps=True, is_selectable=True)
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.progress = QProgressBar(self)
         self.progress.setTextVisible(False)
@@ -82,10 +81,7 @@ class MessageBar(QWidget):
         self.dismiss_button = flat_button("✕", "Dismiss the message", "Dismiss (Escape)", self)
         self.dismiss_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.dismiss_button.clicked.connect(self._dismiss)
-        self.details = QLabel(self)
-        self.details.setWordWrap(True)
-        self.details.setProperty("role", "muted")
-        self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.details = text_label("", self, role="muted", wraps=True, is_selectable=True)
         row = row_layout(spacing=8)
         row.addWidget(self._icon)
         row.addWidget(self.text, 1)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QSizePolicy, QTo
 
 from widgets.basics.controls import column_layout
 from widgets.basics.key_claim import KeyClaim
+from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import TypedValue
 
@@ -179,9 +180,12 @@ class SceneOutline(QScrollArea):
         content.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         layout = column_layout(content, 4, margins=(4, 4, 4, 8))
         if not self._groups:
-            hint = QLabel("The scene appears here: camera, lights, meshes and vertices with their numbers.")
-            hint.setProperty("role", "muted")
-            hint.setWordWrap(True)
+            hint = text_label(
+                "The scene appears here: camera, lights, meshes and vertices with their numbers.",
+                None,
+                role="muted",
+                wraps=True,
+            )
             hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
             layout.addWidget(hint, 1)
         for group in self._groups:
@@ -220,8 +224,7 @@ class SceneOutline(QScrollArea):
             if len(row_names) > 1 and row_names != names:
                 # Name the columns once for all rows that share them.
                 for column, name in enumerate(row_names, start=1):
-                    head = QLabel(name, body)
-                    head.setProperty("role", "muted")
+                    head = text_label(name, body, role="muted")
                     head.setAlignment(Qt.AlignmentFlag.AlignRight)
                     head.setContentsMargins(0, 0, 8, 0)
                     grid.addWidget(head, place, column)
@@ -234,9 +237,7 @@ class SceneOutline(QScrollArea):
                 for column, value in enumerate(row.values, start=1):
                     grid.addWidget(self._number(row, value, body), place, column)
             elif row.note:
-                note = QLabel(row.note, body)
-                note.setProperty("role", "muted")
-                note.setWordWrap(True)
+                note = text_label(row.note, body, role="muted", wraps=True)
                 grid.addWidget(note, place, 1, 1, 4)
             place += 1
         for column in range(1, 5):

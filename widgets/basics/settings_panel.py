@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
 
 
 @dataclass(frozen=True)
@@ -58,8 +59,7 @@ class SettingsPanel(QWidget):
         self._labels: dict[str, QLabel] = {}
         self._body: QWidget | None = None
         self._layout = column_layout(self)
-        self._empty = QLabel("Choose the methods of each stage here.", self)
-        self._empty.setProperty("role", "muted")
+        self._empty = text_label("Choose the methods of each stage here.", self, role="muted")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(8, 8, 8, 8)
@@ -104,8 +104,7 @@ class SettingsPanel(QWidget):
         row = 0
         for setting in settings:
             if setting.group:
-                heading = QLabel(setting.group, body)
-                heading.setProperty("role", "muted")
+                heading = text_label(setting.group, body, role="muted")
                 heading.setContentsMargins(0, 8 if row else 0, 0, 0)
                 grid.addWidget(heading, row, 0, 1, 2)
                 row += 1

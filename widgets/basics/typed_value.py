@@ -4,10 +4,11 @@ import math
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QLabel, QLineEdit, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLineEdit, QSizePolicy, QWidget
 
 from core.explain.number_text import full_text, number_text, parse_number
 from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 
 
@@ -38,9 +39,7 @@ class TypedValue(QWidget):
         self.edit.installEventFilter(self)
         self.edit.editingFinished.connect(self._commit)
         self.edit.textEdited.connect(self._clear_error)
-        self.error = QLabel(self)
-        self.error.setWordWrap(True)
-        self.error.setProperty("role", "bad")
+        self.error = text_label("", self, role="bad", wraps=True)
         self.error.hide()
         layout = column_layout(self, 2)
         layout.addWidget(self.edit)

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from widgets.basics.controls import closing_button
+from widgets.basics.labels import text_label
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.pixel_grid import PixelGrid
@@ -101,8 +102,7 @@ class PinnedPictures(QWidget):
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
         self.linked = LinkedGrids(names, self)
-        self.values = QLabel(self)
-        self.values.setProperty("role", "muted")
+        self.values = text_label("", self, role="muted")
         self.close_button = closing_button(closes, self)
         self.close_button.clicked.connect(self.closing_requested)
         self.linked.pixel_hovered.connect(self._hover_pixel)

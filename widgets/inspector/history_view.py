@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.key_claim import KeyClaim
-from widgets.basics.labels import set_role
+from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.history_row import EntryDelegate, ValueHeader
@@ -52,14 +52,8 @@ class PixelHistory(QWidget):
         self._filter = StoryFilter(self)
         self._filter.setSourceModel(self._model)
         self._icon = QLabel(self)
-        self.verdict = QLabel(self)
-        self.verdict.setProperty("role", "strong")
-        self.verdict.setWordWrap(True)
-        self.verdict.setAccessibleName("Verdict")
-        self.verdict.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.place = QLabel(self)
-        self.place.setWordWrap(True)
-        self.place.setProperty("role", "muted")
+        self.verdict = text_label("", self, role="strong", name="Verdict", wraps=True, is_selectable=True)
+        self.place = text_label("", self, role="muted", wraps=True)
         self.rejected_box = QCheckBox("Show rejected", self)
         self.rejected_box.setChecked(True)
         self.rejected_box.setToolTip("Also show rejected fragments")

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBox
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
-from widgets.basics.labels import set_role
+from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -27,8 +27,7 @@ class PredictionView(QWidget):
         self.setAccessibleName("Prediction")
         self._question: Question | None = None
         self._verdict: Verdict | None = None
-        self.question = QLabel(self)
-        self.question.setWordWrap(True)
+        self.question = text_label("", self, wraps=True)
         self.field = QLineEdit(self)
         self.field.setMaximumWidth(140)
         self.field.setAccessibleName("Your answer")
@@ -48,14 +47,10 @@ class PredictionView(QWidget):
         self.choice_buttons: tuple[QPushButton, ...] = ()
         self._choice_row = QHBoxLayout()
         self._choice_row.setSpacing(8)
-        self.hint = QLabel("Click the pixels in the grid.", self)
-        self.hint.setProperty("role", "muted")
+        self.hint = text_label("Click the pixels in the grid.", self, role="muted")
         self._icon = QLabel(self)
-        self.verdict = QLabel(self)
-        self.verdict.setWordWrap(True)
-        self.verdict.setAccessibleName("Verdict")
-        self.count = QLabel(self)
-        self.count.setProperty("role", "muted")
+        self.verdict = text_label("", self, name="Verdict", wraps=True)
+        self.count = text_label("", self, role="muted")
         self._arrange()
         theme_notifier().theme_changed.connect(self._follow_theme)
         self.show_question(None)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
-from widgets.basics.labels import set_role
+from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -138,8 +138,7 @@ class PlanRows(QScrollArea):
         self.rows: dict[str, PlanRowView] = {}
         self._body = QWidget()
         self._layout = column_layout(self._body, 4)
-        self.empty = QLabel(self._body)
-        self.empty.setWordWrap(True)
+        self.empty = text_label("", self._body, wraps=True)
         self.empty.setContentsMargins(12, 12, 12, 12)
         self.empty.setProperty("role", "muted")
         self._layout.addWidget(self.empty)

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QLabel, QScrollArea, QWidget
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.fold import Fold
-from widgets.basics.labels import ElidedLabel, set_role
+from widgets.basics.labels import ElidedLabel, set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -104,9 +104,7 @@ class PlanFindings(QScrollArea):
         super().__init__(parent)
         body = QWidget()
         self.findings, self.advice = Fold("Findings", body), Fold("Mesh detail", body)
-        self.hint = QLabel(body)
-        self.hint.setWordWrap(True)
-        self.hint.setProperty("role", "muted")
+        self.hint = text_label("", body, role="muted", wraps=True)
         self.hint.setContentsMargins(8, 8, 8, 8)
         layout = column_layout(body, 4)
         for widget in (self.hint, self.findings, self.advice):

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QToolButton, QWi
 
 from core.explain.records import StageCard
 from widgets.basics.controls import column_layout
-from widgets.basics.labels import set_role
+from widgets.basics.labels import set_role, text_label
 
 
 class StageCardView(QWidget):
@@ -39,12 +39,8 @@ class StageCardView(QWidget):
         self._labels: list[QLabel] = []
         self._texts: list[QLabel] = []
         for row, name in enumerate(("Purpose", "Input", "Output", "Source")):
-            label = QLabel(name, self._body)
-            label.setProperty("role", "muted")
-            text = QLabel(self._body)
-            text.setWordWrap(True)
-            text.setAccessibleName(name)
-            text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            label = text_label(name, self._body, role="muted")
+            text = text_label("", self._body, name=name, wraps=True, is_selectable=True)
             grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(text, row, 1)
             self._labels.append(label)

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from core.records.steps import Level
 from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 from widgets.timeline.bar import TimelineBar
@@ -199,8 +200,7 @@ class Timeline(QWidget):
         for button in self.transport_buttons():
             row.addWidget(button)
         row.addSpacing(12)
-        caption = QLabel("Step by", self)
-        caption.setProperty("role", "muted")
+        caption = text_label("Step by", self, role="muted")
         row.addWidget(caption)
         for level_button in self.level_buttons.values():
             row.addWidget(level_button)
