@@ -30,6 +30,8 @@ class Family(SettingField):
 
     stage: str
     """The stage that runs the method."""
+    is_look: bool = False
+    """Whether it chooses what is to be seen, not how well: references take it from the settings given."""
     asks: tuple[str, ...] = ()
     """Fields of `core.methods.Method` that every method of the family fills in, ``listing`` and ``operations``."""
     files: tuple[str, ...]

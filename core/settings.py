@@ -38,7 +38,7 @@ class Settings:
         If a value is not in the table; the message lists those that are.
     """
 
-    cull: str = choice("none", "Cull", "cull", "core.geometry.culling")
+    cull: str = choice("none", "Cull", "cull", "core.geometry.culling", is_look=True)
     clipping: str = choice("homogeneous", "Clipping", "clip", "core.geometry.polygon_clipping.methods")
     coverage: str = choice(
         "snapped",
@@ -68,7 +68,7 @@ class Settings:
         taken_by="polygon_mode",
         otherwise="Wireframes are not filled.",
     )
-    polygon_mode: str = choice("fill", "Polygons", "raster", "core.raster.polygon_mode")
+    polygon_mode: str = choice("fill", "Polygons", "raster", "core.raster.polygon_mode", is_look=True)
     line: str = choice(
         "bresenham",
         "Lines",
@@ -81,6 +81,7 @@ class Settings:
         taken_by="polygon_mode",
         otherwise="Only wireframes draw lines.",
         asks=("listing", "operations"),
+        is_look=True,
     )
     line_clipping: str = choice(
         "none",
@@ -94,7 +95,7 @@ class Settings:
         taken_by="polygon_mode",
         otherwise="Only wireframes draw lines.",
     )
-    pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs")
+    pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs", is_look=True)
     interpolation: str = choice(
         "perspective",
         "Interpolation",
@@ -110,6 +111,7 @@ class Settings:
         "core.fragments.interpolation",
         taken_by="interpolation",
         otherwise="Only flat interpolation takes one corner's value.",
+        is_look=True,
     )
     texture_filter: str = choice(
         "bilinear",
@@ -127,9 +129,16 @@ class Settings:
         "core.fragments.textures",
         reason=has_no_texture,
         asks=("traits",),
+        is_look=True,
     )
     shading: str = choice(
-        "phong", "Shading", "shade", "core.fragments.shading", reason=has_no_light, asks=("traits",)
+        "phong",
+        "Shading",
+        "shade",
+        "core.fragments.shading",
+        reason=has_no_light,
+        asks=("traits",),
+        is_look=True,
     )
     visibility: str = choice(
         "z-buffer", "Visibility", "depth", "core.visibility.painters", "core.visibility.ray_casting"
@@ -143,7 +152,12 @@ class Settings:
         "core.framebuffer.fixed_depth",
     )
     blend: str = choice(
-        "opaque", "Blending", "blend", "core.framebuffer.blending", asks=("operations", "traits")
+        "opaque",
+        "Blending",
+        "blend",
+        "core.framebuffer.blending",
+        asks=("operations", "traits"),
+        is_look=True,
     )
     antialiasing: str = choice("none", "Antialiasing", "resolve", "core.antialiasing.sampling")
     resolve_filter: str = choice(

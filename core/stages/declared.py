@@ -34,6 +34,12 @@ class Stage:
     """Whether its work is on triangles, before any pixel is looked at."""
     is_sampled: bool = True
     """Whether it is done anew for every sample of a pixel."""
+    at_centers: bool = False
+    """Whether multisampling does it once for a pixel and triangle, at the centre."""
+    is_schedule: bool = False
+    """Whether it only decides what is looked at: methods may differ there and still do the same."""
+    outcomes: tuple[str, ...] = ()
+    """What comes of a pixel, by columns of its trace."""
 
 
 DECLARED = (
@@ -118,6 +124,7 @@ DECLARED = (
         group="one block with its parts",
         group_label="Large block",
         row_label="Block",
+        is_schedule=True,
     ),
     Stage(
         name="raster",
@@ -131,6 +138,7 @@ DECLARED = (
         tracer="core.trace.raster.trace_raster",
         initial="No pixel has been tested yet.",
         group="one row or block",
+        outcomes=("covered",),
     ),
     Stage(
         name="interpolate",
@@ -143,6 +151,8 @@ DECLARED = (
         heading="Fragments",
         tracer="core.trace.interpolate.trace_interpolate",
         initial="No pixel has weights and values yet.",
+        at_centers=True,
+        outcomes=("values",),
     ),
     Stage(
         name="shade",
@@ -155,6 +165,8 @@ DECLARED = (
         heading="Fragments",
         tracer="core.trace.shade.trace_shade",
         initial="No fragment has a colour yet.",
+        at_centers=True,
+        outcomes=("color",),
     ),
     Stage(
         name="depth",
@@ -167,6 +179,7 @@ DECLARED = (
         heading="Framebuffer",
         tracer="core.trace.depth.trace_depth",
         initial="No fragment has been tested yet: the depth buffer is unchanged.",
+        outcomes=("stored", "passes"),
     ),
     Stage(
         name="blend",
@@ -179,6 +192,7 @@ DECLARED = (
         heading="Framebuffer",
         tracer="core.trace.blend.trace_blend",
         initial="No fragment has been written yet: the colour buffer is unchanged.",
+        outcomes=("after",),
     ),
     Stage(
         name="resolve",
@@ -191,6 +205,7 @@ DECLARED = (
         heading="Framebuffer",
         tracer="core.trace.resolve.trace_resolve",
         initial="No pixel has display bytes yet.",
+        outcomes=("bytes",),
     ),
 )
 """All stages, in pipeline order."""

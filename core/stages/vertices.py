@@ -21,7 +21,7 @@ from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene
-from core.settings import Settings, families
+from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances
 
@@ -294,8 +294,8 @@ def choose_clipping(settings: Settings, crosses_eye: bool) -> tuple[PolygonClipp
     clipping = resolve(settings).clipping
     if clipping.is_any or not crosses_eye:
         return clipping, ""
-    for family in ("coverage", "polygon_mode", "fill", "interpolation"):
+    for family in families():
         chosen = resolve(settings).method(family)
-        if {"projected", "positive-w"} & set(chosen.needs):
+        if {"projected", "positive-w"} & set(chosen.needs) and not no_effect(settings, family):
             return DEPTH_CLIPPING, chosen.name
     return clipping, ""

@@ -17,7 +17,7 @@ from core.raster.edges.edge_functions import edge_value
 from core.records.arrays import Floats, Integers
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
-from core.stages.declared import UNSAMPLED_STAGES
+from core.stages.declared import UNSAMPLED_STAGES, stage_of
 from core.trace.raster_rows import occurrence
 from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
 from core.trace.source import TraceSource
@@ -26,8 +26,6 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 Tracer = Callable[[TraceSource], StageTrace]
 OF_EVERY_SAMPLE = ("depth", "primitive", "color")
 """Tracks of the frame's buffers."""
-AT_CENTERS = ("interpolate", "shade")
-"""Stages that multisampling has once a pixel and triangle."""
 
 
 def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace:
@@ -40,7 +38,7 @@ def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace
     if stage == "edges":
         return tracer(source)
     sources = sources_of_samples(source)
-    if stage in AT_CENTERS:
+    if stage_of(stage).at_centers:
         centers = CenterSource(
             source.scene, source.settings, source.triangle, source.region, source.before, samples=sources
         )

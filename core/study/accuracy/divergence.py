@@ -15,21 +15,10 @@ from numpy.typing import NDArray
 from core.records.arrays import Flags, Integers
 from core.scene import AnyScene
 from core.settings import Settings
-from core.stages.declared import STAGES
+from core.stages.declared import STAGES, stage_of
 from core.trace import StageTrace, Trace, trace
 from core.trace.stage_trace import Value
 
-OUTCOMES: dict[str, tuple[str, ...]] = {
-    "raster": ("covered",),
-    "interpolate": ("values",),
-    "shade": ("color",),
-    "depth": ("stored", "passes"),
-    "blend": ("after",),
-    "resolve": ("bytes",),
-}
-"""What comes of a pixel in the stages that are about pixels, by columns of their traces."""
-SCHEDULE_STAGES = ("bin",)
-"""Stages that only say what is looked at: methods may differ there and still do the same."""
 NAMES = ("primitive", "segment", "node")
 """Columns that are numbers of records, not values."""
 
@@ -93,10 +82,11 @@ def stage_divergence(first: StageTrace, second: StageTrace) -> Divergence | None
             return None
         row = int(rows[0])
         return _at_rows(first, second, row, row, names)
-    if first.stage in SCHEDULE_STAGES:
+    stage = stage_of(first.stage)
+    if stage.is_schedule:
         return None
-    if first.stage in OUTCOMES:
-        return _pixel_divergence(first, second, OUTCOMES[first.stage])
+    if stage.outcomes:
+        return _pixel_divergence(first, second, stage.outcomes)
     return _triangle_divergence(first, second)
 
 

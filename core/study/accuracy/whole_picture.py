@@ -41,8 +41,6 @@ from core.study.accuracy.workloads import checkerboard, sphere_mesh, sphere_scen
 SAMPLED_COLOR = ErrorMeasure("sampled-color", "Mean difference from 256 samples in a pixel", "1/255")
 MEASURES = (MEAN_COLOR, LARGEST_COLOR, WRONG_VISIBLE, SAMPLED_COLOR)
 
-LOOKS = ("cull", "polygon_mode", "pixel_center", "provoking", "wrap", "shading", "blend", "line")
-"""Families that choose what is to be seen, not how well: the reference takes them from the settings given."""
 SCALES = Dial("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
 
 
@@ -61,7 +59,11 @@ class PictureTask(Task):
         self.scene = scene
         self.unit_count = 1
         self._last: tuple[Settings, Frame] | None = None
-        looks = {name: getattr(base, name) for name in LOOKS if name != varied}
+        looks = {
+            name: getattr(base, name)
+            for name, family in FAMILIES.items()
+            if family.is_look and name != varied
+        }
         self.reference_settings = replace(Settings(), **looks)
 
     def start(self, settings: Settings) -> Callable[[], Picture]:
