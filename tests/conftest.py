@@ -1,5 +1,6 @@
 """What every test stands on: Qt without a display, one font, reproducible examples, and an orderly end."""
 
+import gc
 import importlib.util
 import os
 import random
@@ -57,6 +58,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         slow = [item for item in items if item.get_closest_marker("slow")]
         config.hook.pytest_deselected(items=slow)
         items[:] = [item for item in items if not item.get_closest_marker("slow")]
+
+
+def pytest_collection_finish() -> None:
+    """Keep what is imported by now out of every later search for garbage: it lives to the end."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_terminal_summary(config: pytest.Config) -> None:

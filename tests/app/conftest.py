@@ -17,11 +17,13 @@ from widgets.basics.theme import LIGHT, current_theme
 def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[MainWindow]:
     """Return a shown window with two triangles that share an edge, in the middle of the raster stage."""
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "config"))
+    from PySide6.QtCore import QEvent
     from PySide6.QtWidgets import QApplication
 
     application = QApplication.instance()
     assert isinstance(application, QApplication)
-    apply_theme(application, LIGHT)
+    if current_theme() != LIGHT or application.style().name() != "fusion":
+        apply_theme(application, LIGHT)
     application.setStyleSheet("")  # half the time that a window takes goes into its style sheet
     scene = built_in_scene("shared-edge")
     made = MainWindow(open_document(scene.make(), scene.title))
@@ -33,7 +35,8 @@ def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
     made.session.set_stage("raster", 4000)
     yield made
     made.close()
+    made.deleteLater()
+    # At once: the windows of earlier tests would be styled and painted with the next one.
+    application.sendPostedEvents(made, QEvent.Type.DeferredDelete)
     if current_theme() != LIGHT:
         apply_theme(application, LIGHT)
-    made.deleteLater()
-    application.processEvents()

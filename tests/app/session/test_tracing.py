@@ -147,7 +147,7 @@ def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtB
     before = window.session.document
     settings = Settings(fill="brute-force")
     whole = replace(
-        before, raster=replace(before.raster, columns=96, rows=72, origin=None), settings=settings
+        before, raster=replace(before.raster, columns=56, rows=42, origin=None), settings=settings
     )
     window.edits.edit(whole)
     qtbot.waitUntil(window.messages.isVisible, timeout=5000)

@@ -215,7 +215,7 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
         ("painters-cycle", "visibility=painters", "depth"),
         pytest.param("opposite-normals", "shading=flat", "shade", marks=pytest.mark.slow),
         pytest.param("minification", "texture_filter=nearest", "shade", marks=pytest.mark.slow),
-        ("line-drift", "line=dda-float32", "raster"),
+        pytest.param("line-drift", "line=dda-float32", "raster", marks=pytest.mark.slow),
         pytest.param(
             "parallel-segments", "line_clipping=cyrus-beck-lecture", "raster", marks=pytest.mark.slow
         ),
