@@ -72,4 +72,4 @@ def test_clip_space_shows_the_triangle_that_the_division_made(clipping: str) -> 
     undefined = clip.copy()
     undefined[0, 2, 3] = 0
     traced = trace(ClipScene(undefined, size=SIZE), Settings(clipping=clipping))
-    assert clip_state(traced, 0, 3).sentence.endswith("the triangle is left out.")
+    assert clip_state(traced, 0, 3).sentence.endswith("the triangle is dropped.")
