@@ -107,7 +107,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
     KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
-    KeyAction("page_plan", ("Alt+4",), "What does this scene need?", PAGES, "View", is_checkable=True),
+    KeyAction("page_plan", ("Alt+4",), "Plan page", PAGES, "View", is_checkable=True),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Previous page", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
