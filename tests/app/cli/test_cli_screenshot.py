@@ -20,9 +20,8 @@ LINES = ["--page", "compare", "--show", "visibility", "--work", "cycle", "--roun
 DIAL = ["--page", "stability", "--show", "precision-dial"]
 SHOTS = {
     "dark": ["shared-edge", "--size", "1100x700", "--theme", "dark"],
-    "step": ["shared-edge"],
     "first": ["shared-edge", "--stage", "raster", "--step", "1"],
-    "last": ["shared-edge", "--stage", "raster"],
+    "last": ["shared-edge"],
     "space": ["shared-edge", "--stage", "raster", "--view", "pyramid"],
     "plain": ["shared-edge", "--stage", "resolve"],
     "smooth": ["shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16"],
@@ -101,7 +100,7 @@ def test_pictures_show_what_was_asked_for(tmp_path):
 
     assert pictures["dark"].shape == (700, 1100, 3)
     assert pictures["dark"].mean() < 90
-    assert pictures["step"].mean() > 180
+    assert pictures["last"].mean() > 180
 
     # Stage, step, view and method.
     first, last, space = (pictures[name] for name in ("first", "last", "space"))
@@ -111,13 +110,13 @@ def test_pictures_show_what_was_asked_for(tmp_path):
     assert differs(pictures["plain"], pictures["smooth"]) > 0.01
 
     # Every page is filled, and what is behind a mark is opened.
-    pages = [pictures[name] for name in ("step", "lines", "closed", "plan")]
+    pages = [pictures[name] for name in ("last", "lines", "closed", "plan")]
     for number, page in enumerate(pages):
         for other in pages[:number]:
             assert differs(page, other) > 0.05
     lower = slice(560, 760), slice(290, 1280)
     assert differs(pictures["closed"][lower], pictures["opened"][lower]) > 0.2
-    assert differs(pictures["saved"], pictures["step"]) > 0.05
+    assert differs(pictures["saved"], pictures["last"]) > 0.05
 
 
 @pytest.mark.parametrize(
