@@ -36,6 +36,21 @@ def test_known_bytes():
     assert encode_srgb(linear).tolist() == [0, 10, 118, 188, 218, 255, 0, 255, 255, 0]
 
 
+def test_the_curve_is_that_of_the_standard():
+    """Values of IEC 61966-2-1 in both directions, computed here with the standard's own constants."""
+    linear = np.array([0.001, 0.0031308, 0.004, 0.05, 0.5])
+    encoded = [
+        12.92 * 0.001,
+        12.92 * 0.0031308,
+        *(1.055 * x ** (1 / 2.4) - 0.055 for x in (0.004, 0.05, 0.5)),
+    ]
+    assert srgb(linear) == pytest.approx(encoded, rel=1e-12)
+    assert linear_light(np.array(encoded)) == pytest.approx(linear, rel=1e-12)
+    assert linear_light(np.array([0.04044, 0.04046])) == pytest.approx(
+        [0.04044 / 12.92, ((0.04046 + 0.055) / 1.055) ** 2.4]
+    )
+
+
 def test_all_bytes_survive_the_round_trip():
     every_byte = np.arange(256, dtype=np.uint8)
     assert np.array_equal(encode_srgb(srgb_decode_table()[every_byte]), every_byte)
