@@ -23,6 +23,8 @@ def in_turn(first: Iterable[First], second: Iterable[Second]) -> list[tuple[Firs
         return list(product(first, second))
     # The longer list goes round the shorter one, and a step further every time.
     rounds, count = sorted((len(first), len(second)))
+    if not rounds:
+        return []
     turns = [(k + k // rounds) % rounds for k in range(count)]
     if len(first) < len(second):
         return [(first[turn], second[k]) for k, turn in enumerate(turns)]

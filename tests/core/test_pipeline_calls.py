@@ -6,12 +6,21 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
 
+import pytest
+
 import core
 from core import ClipScene, render
+from core.resolved import resolve
 
 ROOT = str(Path(core.__file__).parent)
 CLIP = [[[-0.8, -0.7, 0, 1], [0.9, -0.5, 0, 1], [-0.1, 0.8, 0, 1]]]
 COLORS = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+
+
+@pytest.fixture(autouse=True)
+def only_these_settings() -> None:
+    """Forget settings of other tests: those that are equal but not the same are compared at every look-up."""
+    resolve.cache_clear()
 
 
 @contextmanager

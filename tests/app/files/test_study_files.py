@@ -4,7 +4,7 @@ import csv
 import io
 import json
 import re
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -59,8 +59,13 @@ def study() -> Study:
     )
 
 
+def field_values(record: Study | Point) -> dict:
+    """Return what a record was made of, without what it has computed since."""
+    return {field.name: getattr(record, field.name) for field in fields(record)}
+
+
 def as_dict(study: Study) -> dict:
-    found = dict(vars(study))
+    found = field_values(study)
     found["growth"] = {
         value: [point_dict(point) for point in points] for value, points in study.growth.items()
     }
@@ -69,7 +74,7 @@ def as_dict(study: Study) -> dict:
 
 
 def point_dict(point: Point) -> dict:
-    return vars(point) | {
+    return field_values(point) | {
         "seconds": point.seconds.tolist(),
         "errors": {k: repr(v) for k, v in point.errors.items()},
     }
