@@ -87,8 +87,9 @@ def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
      [ 0  0 -1 -1]
      [ 0  0  0 -1]]
     """
-    settings = settings or DEFAULTS
-    return draw(scene, settings, Raster(*scene.size, resolve(settings).center))
+    resolved = resolve(settings or DEFAULTS)
+    # Its settings, which are those it is kept by: looked up again by every stage, they need not be compared.
+    return draw(scene, resolved.settings, Raster(*scene.size, resolved.center))
 
 
 def draw_triangles(
