@@ -76,7 +76,7 @@ class BackgroundTask(QObject):
         self.progressed.emit(progress)
 
     def _doing(self, doing: str) -> str:
-        """Return what is being done as it is shown."""
+        """Return the words for the work in progress."""
         return doing
 
     @Slot(object)

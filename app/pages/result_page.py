@@ -142,7 +142,7 @@ class ResultPage(WorkPage):
         raise NotImplementedError
 
     def content_of(self, result: Any, ending: str) -> bytes | None:
-        """Return the content of a file of a result; ``None``: the view is written as it is seen."""
+        """Return the content of a file of a result; ``None``: the file is a picture of the view."""
         raise NotImplementedError
 
     # Results of other days.

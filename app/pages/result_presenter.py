@@ -193,7 +193,7 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
 
     @Slot()
     def start(self) -> None:
-        """Do what is shown, as it is chosen."""
+        """Start the chosen work."""
         if not self.choice.can_run:
             self.refused.emit(self._run_words.unknown)
             return

@@ -20,7 +20,7 @@ Say = TypeVar("Say", bound=Callable[[StepValues], Said])
 
 @dataclass(frozen=True)
 class Row:
-    """What there is to say about one operation."""
+    """The explanation of one operation."""
 
     say: Callable[[StepValues], Said]
     """Returns the sentence of a step, with its formula where the step computes something."""
