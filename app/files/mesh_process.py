@@ -19,6 +19,8 @@ POLL_SECONDS = 0.05
 """How often cancelling is asked for: well under the half second that a person notices."""
 
 START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from app.files.mesh_process import serve; serve()"
+PROJECT = Path(__file__).resolve().parents[2]
+"""The folder that ``app`` is imported from."""
 
 
 class OpeningCancelledError(Exception):
@@ -39,8 +41,10 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
     -----
     No thread can be stopped from outside while trimesh or NumPy works in it; a process can.
     """
+    # -P and no empty entry: a file of the current folder must not be taken for a module.
+    places = [*filter(None, sys.path), str(PROJECT)]
     process = subprocess.Popen(
-        [sys.executable, "-c", START, json.dumps(sys.path), os.fspath(path.absolute())],
+        [sys.executable, "-P", "-c", START, json.dumps(places), os.fspath(path.absolute())],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),

@@ -25,8 +25,9 @@ from core.records.arrays import Integers
 from core.scene import AnyScene
 from core.settings import Settings
 
-THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-"""A band is one thread's work; threads of the linear algebra would only spin beside it."""
+VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "PYTHONSAFEPATH")
+"""Set to 1 while a worker starts. A band is one thread's work; threads of the linear algebra would only spin beside it.
+A safe path: no file of the current folder is taken for a module."""
 SECONDS_TO_END = 2.0
 """A worker that has not ended by itself after this is killed."""
 SHARED_FOLDER = Path("/dev/shm")
@@ -175,17 +176,22 @@ def _start_of_a_worker() -> Iterator[None]:
     A spawned process imports the main module of the one that starts it, for functions that are defined there. Ours is
     not: without this a script that draws, and does not guard its main part, would run twice.
     """
-    with _starting, _without_interrupts():
+    if sys.flags.ignore_environment and not sys.flags.safe_path:
+        raise RuntimeError("with -E, Python would import from the current folder")
+    with _starting:
         main = sys.modules["__main__"]
-        missing = [name for name in THREAD_VARIABLES if name not in os.environ]
+        missing = {name: value for name in VARIABLES if not (value := os.environ.get(name))}
         sys.modules["__main__"] = ModuleType("__main__")
         os.environ.update(dict.fromkeys(missing, "1"))
         try:
-            yield
+            with _without_interrupts():
+                yield
         finally:
             sys.modules["__main__"] = main
-            for name in missing:
+            for name, value in missing.items():
                 del os.environ[name]
+                if value is not None:
+                    os.environ[name] = value
 
 
 @contextmanager
