@@ -108,26 +108,25 @@ class Mixer:
 def _distinct_values(rows: Floats) -> tuple[list[_Value], Integers]:
     """Return the values of rows (M, K) that differ, and the columns that have to be looked up for them.
 
-    Whether values are equal is decided by their bits: 0 and -0 are not.
+    Whether values are equal is decided by their bits: 0 and -0 are not. Most columns show in a few rows that they are
+    not another one or a number throughout.
     """
     bits = rows.view(np.int64)
+    few = bits[-8:]
+    looks_alike = (few[:, :, None] == few[:, None]).all(axis=0)
+    looks_shared = (few == bits[:1]).all(axis=0) & (len(bits) > 0)
     distinct: list[_Value] = []
     columns: list[int] = []
     for place in range(rows.shape[1]):
         for value in distinct:
-            if _is_same(bits[:, value.places[0]], bits[:, place]):
+            first = value.places[0]
+            if looks_alike[first, place] and (bits[:, first] == bits[:, place]).all():
                 value.places.append(place)
                 break
         else:
-            if len(bits) and _is_same(bits[:, place], bits[0, place]):
+            if looks_shared[place] and (bits[:, place] == bits[0, place]).all():
                 distinct.append(_Value(float(rows[0, place]), [place]))
             else:
                 distinct.append(_Value(len(columns), [place]))
                 columns.append(place)
     return distinct, np.array(columns, np.int64)
-
-
-def _is_same(a: Integers, b: Integers | np.int64) -> bool:
-    """Return whether a column (M,) is another one or a number throughout; most show in a few rows that they are not."""
-    b = np.broadcast_to(b, a.shape)
-    return bool((a[-8:] == b[-8:]).all()) and bool((a == b).all())

@@ -105,19 +105,19 @@ def cover(edges: EdgeFunctions, runs: Runs, raster: Raster) -> Iterator[tuple[Fr
     -----
     The same decision as ``examine_pixels``: what depends on the row alone is computed once a run.
     """
-    end = np.cumsum(runs.lengths)
+    length = runs.lengths
+    end = np.cumsum(length)
     first, count = 0, len(end)
     while first < count:
         done = int(end[first - 1]) if first else 0
         last = max(int(np.searchsorted(end, done + BATCH, "right")), first + 1)
         whole = first == 0 and last == count
-        yield _cover_batch(edges, runs if whole else runs.part(first, last), raster)
+        yield _cover_batch(edges, runs if whole else runs.part(first, last), length[first:last], raster)
         first = last
 
 
-def _cover_batch(edges: EdgeFunctions, runs: Runs, raster: Raster) -> tuple[Fragments, int]:
-    count = runs.lengths
-    run, place = expand(count)
+def _cover_batch(edges: EdgeFunctions, runs: Runs, length: Integers, raster: Raster) -> tuple[Fragments, int]:
+    run, place = expand(length)
     column = runs.start.take(run)
     column += place
     primitive, row = runs.triangle.take(run), runs.row.take(run)

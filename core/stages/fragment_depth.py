@@ -40,7 +40,11 @@ def fragment_depth(
     depth = line_depth(outlines, fragments, raster.center)
     depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
     plane = _plane_along(geometry, fragments, raster, depth_format.quantity, depth)
-    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
+    return (
+        depth,
+        _in_front(keeps, plane, depth_format),
+        depth_format.store(_converted(geometry, plane, depth_format.quantity)),
+    )
 
 
 def depth_at(
@@ -50,7 +54,11 @@ def depth_at(
     depth = plane_value(geometry.depth_plane, primitive, x, y)
     depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
     plane = _plane_at(geometry, primitive, (x, y), depth_format.quantity, depth)
-    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
+    return (
+        depth,
+        _in_front(keeps, plane, depth_format),
+        depth_format.store(_converted(geometry, plane, depth_format.quantity)),
+    )
 
 
 def fragment_quantity(
@@ -88,10 +96,6 @@ def _plane_along(
 def _in_front(keeps: Flags, plane: Floats, depth_format: DepthFormat) -> Flags:
     """Drop fragments (F,) whose interpolated 1/w shows a point behind the eye."""
     return keeps & (plane > 0) if depth_format.quantity.plane == "inverse-w" else keeps
-
-
-def _stored(geometry: Geometry, plane: Floats, depth_format: DepthFormat) -> Stored:
-    return depth_format.store(_converted(geometry, plane, depth_format.quantity))
 
 
 def _converted(geometry: Geometry, plane: Floats, quantity: DepthQuantity) -> Floats:

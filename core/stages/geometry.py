@@ -107,17 +107,14 @@ class Geometry:
     @cached_property
     def is_in_range(self) -> Flags:
         """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
-        with self.count:
-            return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
+        return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
 
     @cached_property
     def corners(self) -> CornerPositions:
         """The corners of the primitives in the homogeneous window and on the grid."""
-        with self.count:
-            placed = place_corners_in(
-                self.primitives.clip, self.vertices.size, resolve(self.settings).numbers
-            )
-            return placed.moved(*self.shift) if any(self.shift) else placed
+        numbers = resolve(self.settings).numbers
+        placed = place_corners_in(self.primitives.clip, self.vertices.size, numbers)
+        return placed.moved(*self.shift) if any(self.shift) else placed
 
     @cached_property
     def edges(self) -> EdgeFunctions:

@@ -177,10 +177,6 @@ class ListingView(QPlainTextEdit):
         self._breakpoints = frozenset(lines)
         self._margin.update()
 
-    def current_line(self) -> int | None:
-        """Return the marked line, from 1."""
-        return self._line
-
     def line_at(self, y: int) -> int | None:
         """Return the line (from 1) drawn at height `y` of the viewport; None below the last."""
         block = self.firstVisibleBlock()

@@ -7,7 +7,7 @@ from app.pages.step.grid_records import grid_buffer
 from app.session.session import Session
 from core.explain import question
 from core.explain.records import Asked, Verdict
-from core.explain.subjects.fills import COVERAGE_QUESTION, coverage_reveal
+from core.explain.subjects.fills import COVERAGE_QUESTION, coverage_result, coverage_reveal, covered_pixels
 from core.records.steps import Level
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.prediction import PredictionView
@@ -76,10 +76,11 @@ class PredictionPresenter(QObject):
         session = self._session
         trace = session.stage_trace
         track = next(track for track in trace.buffers if track.name == "coverage")
-        buffer = grid_buffer(track, trace.steps.row_count, session.trace.source.raster.bounds[:2])
+        first_column, first_row = origin = session.trace.source.raster.bounds[:2]
+        buffer = grid_buffer(track, trace.steps.row_count, origin)
         hidden = np.ones((buffer.rows, buffer.columns), bool)
         for column, row in self._found:
-            hidden[row, column] = False
+            hidden[row - first_row, column - first_column] = False
         self._grid.show_buffer(buffer)
         self._grid.show_hidden(hidden)
 
@@ -95,19 +96,9 @@ class PredictionPresenter(QObject):
         if self._asked is not None:
             self._view.show_verdict(Verdict(None, self._asked.reveal))
         elif self._is_active:
-            covered = self._covered()
-            found = len(covered & self._found)
-            wrong = len(self._found - covered)
-            text = f"{found} of {len(covered)} covered pixels found, {wrong} clicks wrong."
+            text = coverage_result(self._found, covered_pixels(self._session.stage_trace))
             self._session.go_to(self._session.stage_trace.steps.count)
             self._view.show_verdict(Verdict(None, text))
-
-    def _covered(self) -> set[tuple[int, int]]:
-        """Return the pixels of the grid that are covered in the end."""
-        trace = self._session.stage_trace
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        pixels = trace.pixel[trace.marks["covered"]] - (first_column, first_row)
-        return {(column, row) for column, row in pixels.tolist()}
 
     @Slot()
     def _next(self) -> None:
@@ -120,13 +111,14 @@ class PredictionPresenter(QObject):
         is_asked = (
             self._is_active and self._asked is None and cursor.stage == "raster" and cursor.position == 0
         )
-        if not is_asked or (column, row) in self._found:
-            return
-        self._found.add((column, row))
-        self._hide_coverage()
-        is_covered = (column, row) in self._covered()
         first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        self._judge(is_covered, coverage_reveal(column + first_column, row + first_row, is_covered))
+        pixel = column + first_column, row + first_row
+        if not is_asked or pixel in self._found:
+            return
+        self._found.add(pixel)
+        self._hide_coverage()
+        is_covered = pixel in covered_pixels(self._session.stage_trace)
+        self._judge(is_covered, coverage_reveal(*pixel, is_covered))
 
     def _judge(self, is_right: bool, text: str) -> None:
         self._count += 1

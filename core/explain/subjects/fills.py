@@ -32,6 +32,7 @@ from core.raster.edges.edge_functions import is_inside
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
 from core.records.words import counted, joined
+from core.trace import StageTrace
 
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
@@ -45,6 +46,17 @@ COVERAGE_QUESTION = Question(
 def coverage_reveal(column: int, row: int, is_covered: bool) -> str:
     """Return whether a clicked pixel is covered."""
     return f"({column}, {row}) is {'covered' if is_covered else 'not covered'}."
+
+
+def covered_pixels(trace: StageTrace) -> set[tuple[int, int]]:
+    """Return column and row of every pixel that is covered when the stage is done: the right answer."""
+    return {(column, row) for column, row in trace.pixel[trace.marks["covered"]].tolist()}
+
+
+def coverage_result(found: set[tuple[int, int]], covered: set[tuple[int, int]]) -> str:
+    """Return how the clicked pixels compare with the covered ones."""
+    wrong = counted(len(found - covered), "wrong click")
+    return f"{len(found & covered)} of {counted(len(covered), 'covered pixel')} found, {wrong}."
 
 
 def covered(step: StepValues) -> Asked:

@@ -140,12 +140,13 @@ def _from_lowest_corner(
     """Return x and y (3, L) of the corners of ``order`` (L,), counter-clockwise from the lowest one."""
     total, count = x.shape[1], len(order)
     y0, y1, y2 = y
-    turn, flag = scratch("turn", total, dtype=np.int8), scratch("flag", total, dtype=np.bool_)
-    np.less(y1, y0, out=turn, casting="unsafe")
-    np.less(y2, np.minimum(y0, y1, out=scratch("lower", total)), out=flag)
-    np.maximum(turn, flag.view(np.int8) << 1, out=turn)
-    np.less(doubled_area, 0, out=flag)
-    turn += flag.view(np.int8) * np.int8(3)
+    turn, flag = scratch("turn", 2, total, dtype=np.int8)
+    holds = flag.view(np.bool_)
+    np.less(y1, y0, out=turn.view(np.bool_))
+    np.less(y2, np.minimum(y0, y1, out=scratch("lower", total)), out=holds)
+    np.maximum(turn, flag << 1, out=turn)
+    np.less(doubled_area, 0, out=holds)
+    turn += flag * np.int8(3)
     turn = turn.take(order)
 
     place = scratch("place", count, dtype=np.int64)

@@ -94,7 +94,7 @@ def bounds_of_rows(
     """
     groups = _groups(lanes.taller)
     total = sum([count * levels for count, levels in groups])
-    left, right = scratch("left", total), scratch("right", total)
+    left, right = scratch("bounds", 2, total)
     values = [scratch(f"row_carried_{k}", total, dtype=np.int64) for k in range(len(carried))]
     done = row = 0
     for (count, levels), (further, _) in pairwise((*groups, (0, 0))):
