@@ -1,7 +1,7 @@
 """The Compare page's measuring: which family, on what work, its charts and numbers as they come."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from PySide6.QtCore import Slot
@@ -41,6 +41,22 @@ WORK_WORDS = ResultWords(
 )
 
 
+@dataclass(frozen=True)
+class Measurement:
+    """A study that is being measured: its own record, whatever family is shown meanwhile."""
+
+    study: Study
+    """What has been measured so far."""
+    numbers: Mapping[str, int]
+    """Number of every method in the charts, in the order that they are listed in."""
+
+    def with_point(self, point: Point) -> "Measurement":
+        """Return the measurement with a point added, or replaced."""
+        points = {each.method: each for each in self.study.points} | {point.method: point}
+        in_order = sorted(points.values(), key=lambda each: self.numbers[each.method])
+        return replace(self, study=replace(self.study, points=tuple(in_order)))
+
+
 class StudyPresenter(ResultPresenter[FamilyChoice]):
     """Keeps the choices and results of all families and shows those of one."""
 
@@ -59,9 +75,8 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         super().__init__(jobs.measuring, WORK_WORDS, choices_of_all(), families, controls, readout, page)
         self._session, self._jobs, self._controls = session, jobs, controls
         self._charts, self._legend, self._table = charts, legend, numbers
-        self._partial: Study | None = None
-        """What has been measured so far, of the family that is being measured."""
-        self._numbers: Mapping[str, int] = {}
+        self._measurement: Measurement | None = None
+        """What runs, or ran last."""
         self._pointed = ""
         self._chosen = ""
         controls.work_chosen.connect(self._choose_work)
@@ -89,6 +104,12 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
             return self._partial
         return None if self.result is None else self.result.study
 
+    @property
+    def _partial(self) -> Study | None:
+        """What has been measured so far of what runs; ``None``: no point yet."""
+        measured = self._measurement
+        return measured.study if measured is not None and measured.study.points else None
+
     def point(self, method: str) -> Point | None:
         """Return a point of the study that is shown."""
         points = () if self.study is None else self.study.points
@@ -113,8 +134,6 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
 
     def _show_result(self) -> None:
         study, choice = self.study, self.choice
-        if not self.is_partial and study is not None:
-            self._numbers = numbers_of(study.points)
         scatter: ChartPicture | ChartEmpty
         growth: ChartPicture | ChartEmpty
         if study is None:
@@ -122,11 +141,11 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
             growth = ChartEmpty(NO_GROWTH)
             self._table.show_table(TableRecord((), (), ()))
         else:
-            scatter = scatter_of(study, choice.measure, choice.cost, self._numbers, self._ringed(study))
+            running = self._measurement if self.is_partial else None
+            numbers = numbers_of(study.points) if running is None else running.numbers
+            scatter = scatter_of(study, choice.measure, choice.cost, numbers, self._ringed(study))
             growth = (
-                GROWTH_COMES
-                if self.is_partial and choice.grow
-                else growth_of(study, choice.cost, self._numbers)
+                GROWTH_COMES if self.is_partial and choice.grow else growth_of(study, choice.cost, numbers)
             )
             self._table.show_table(table_of(study))
         for chart, picture in zip(self._charts, (scatter, growth), strict=True):
@@ -241,12 +260,9 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
             if plan is not None:
                 others = choice.family.candidates(settings)
                 order = replace(order, extra=plan_candidates(plan.plan, settings, others))
-        self._partial = None
-        self._numbers = {
-            each.method: number
-            for number, each in enumerate((*choice.family.candidates(settings), *order.extra))
-        }
-        self._blank = _unmeasured(choice, order)
+        methods = [each.method for each in (*choice.family.candidates(settings), *order.extra)]
+        numbers = {method: number for number, method in enumerate(methods)}
+        self._measurement = Measurement(_unmeasured(choice, order), numbers)
         return partial(self._jobs.measure, order)
 
     def measure_scene(self) -> None:
@@ -257,9 +273,8 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         self.start()
 
     def _keep_part(self, part: Point) -> None:
-        points = {each.method: each for each in (self._partial or self._blank).points} | {part.method: part}
-        in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
-        self._partial = replace(self._blank, points=tuple(in_order))
+        assert self._measurement is not None
+        self._measurement = self._measurement.with_point(part)
 
     def _done_text(self, result: StudyResult) -> str:
         return f"Measured {self._choices[result.name].title.lower()}."

@@ -56,6 +56,21 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
     assert not page.controls.cancel_button.isVisible()
 
 
+def test_a_family_that_has_a_result_can_be_shown_while_another_is_measured(
+    page: ComparePage, qtbot: QtBot
+) -> None:
+    page.results.take_saved(hand_made(), "lines.json")
+    page.results.show_named("visibility")
+    page.jobs.measuring.part_done.connect(lambda _: page.results.show_named("line"))
+    QTest.keyClick(page.window(), Qt.Key.Key_F5)
+    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
+    assert [key for key, _ in page.scatter.places()] == ["line=bresenham", "line=dda"]
+    page.results.show_named("visibility")
+    study = page.results.study
+    assert study is not None
+    assert [key for key, _ in page.scatter.places()] == [point.method for point in study.points]
+
+
 def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
     picture = page.scatter.picture
