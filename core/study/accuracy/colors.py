@@ -1,8 +1,11 @@
-"""Studies of colours: texture filters and antialiasing against 256 samples, shading against the sphere itself."""
+"""Studies of colours: texture filters against 256 samples, antialiasing against areas, shading against the sphere."""
 
 import numpy as np
 
+from core.methods import table
+from core.records.arrays import Floats
 from core.records.frame import Frame
+from core.scene import ClipScene, Scene
 from core.settings import Settings
 from core.study.accuracy.family import Assignment, StudyFamily
 from core.study.accuracy.frame_task import LARGEST_COLOR, MEAN_COLOR, ColorTask
@@ -16,6 +19,7 @@ from core.study.accuracy.workloads import (
     textured_quad,
     window_mesh,
 )
+from core.study.exact.areas import area_in_pixels
 from core.study.exact.sphere import sphere_picture
 from core.trace import trace
 
@@ -68,10 +72,23 @@ TEXTURE_FILTER = StudyFamily(
 def make_antialiasing(assignment: Assignment) -> ColorTask:
     """Make a mesh of flat colours with edges in all directions."""
     side = int(assignment.dials["side"])
-    window = window_mesh((side, side), 6, assignment.seed)
+    # On the 1/256-pixel grid: samples and areas see the same triangles, as nothing is snapped.
+    window = window_mesh((side, side), 6, assignment.seed, 256)
     level = np.ones(window.shape[:2])
     scene = flat_scene(clip_of_window(window, (side, side), 0.5 * level, level), (side, side))
-    return ColorTask(scene, side * side, "resolve", lambda: (sampled_picture(scene, Settings()), None))
+    return ColorTask(scene, side * side, "resolve", lambda: (mean_of_areas(window, scene), None))
+
+
+def mean_of_areas(window: Floats, scene: ClipScene) -> Floats:
+    """Return the colours (H, W, 4) float64 of triangles (T, 3, 2) in pixels side by side, by their exact areas."""
+    row, column = (index.ravel() for index in np.mgrid[: scene.size[1], : scene.size[0]])
+    assert scene.attributes is not None
+    colors = np.zeros((len(row), 4))
+    for corners, color in zip(window, scene.attributes[:, 0], strict=True):
+        (ax, ay), (bx, by) = corners[1] - corners[0], corners[2] - corners[0]
+        turned = corners if ax * by > ay * bx else corners[::-1]
+        colors += area_in_pixels(turned, column, row)[:, None] * color
+    return colors.reshape(*scene.size[::-1], 4)
 
 
 ANTIALIASING = StudyFamily(
@@ -84,10 +101,26 @@ ANTIALIASING = StudyFamily(
 )
 
 
-def make_shading(assignment: Assignment) -> ColorTask:
-    """Make a sphere of triangles; the reference is the sphere itself, met by every pixel's ray."""
+class ShadingTask(ColorTask):
+    """A sphere of triangles; the reference is the sphere itself, met by every pixel's ray."""
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the counts of the frame, and how often the lighting rule is evaluated."""
+        assert isinstance(self.scene, Scene)
+        (mesh,), counts = self.scene.meshes, super().counts(settings, made)
+        lit = {
+            "fragments": counts["pixels shaded"],
+            "vertices": len(mesh.positions),
+            "faces": len(mesh.triangles),
+            "nothing": 0,
+        }
+        return counts | {"lights evaluated": lit[table.get("shading", settings.shading).traits]}
+
+
+def make_shading(assignment: Assignment) -> ShadingTask:
+    """Make a sphere of triangles."""
     scene = sphere_scene(int(assignment.dials["rings"]), int(assignment.dials["side"]))
-    return ColorTask(scene, 1, "shade", lambda: sphere_picture(scene, 1.0)[::-1])
+    return ShadingTask(scene, 1, "shade", lambda: sphere_picture(scene, 1.0)[::-1])
 
 
 SHADING = StudyFamily(

@@ -32,6 +32,9 @@ class CountedNumber:
 
     def _done(self, name: str, rule: Callable[[Any, Any], Any], first: Any, second: Any) -> CountedNumber:
         result = rule(plain(first), plain(second))
+        written = [each for each in (first, second) if not isinstance(each, CountedNumber)]
+        if rule is operator.mul and type(result) is int and written == [2]:
+            name = "doublings"  # A shift or an addition: Bresenham (1965) counts no multiplication.
         exact = KINDS.get(type(result), "rational")
         self.tally[f"{exact} {name}"] += 1
         return CountedNumber(result, self.tally)

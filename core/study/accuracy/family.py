@@ -84,6 +84,8 @@ class StudyFamily:
     """What all points share."""
     takes_scene: bool = False
     """Whether it measures on a scene, and with settings, that are given."""
+    more: tuple[Candidate, ...] = ()
+    """Points after those of the table: a method with other numbers."""
 
     def candidates(self, base: Settings) -> tuple[Candidate, ...]:
         """Return the points in the order of the table."""
@@ -94,7 +96,7 @@ class StudyFamily:
             for name in table.names(family):
                 if place == 0 or name != getattr(base, family):
                     found.append(Candidate(f"{family}={name}", table.get(family, name).title))
-        return tuple(found)
+        return (*found, *self.more)
 
     def work(self, name: str | None = None) -> WorkKind:
         """Return the work of a name, or the first; ValueError lists those that there are."""

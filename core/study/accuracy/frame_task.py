@@ -237,5 +237,6 @@ def per_million(wrong: int, count: int) -> float:
 
 
 def depth_bits(settings: Settings) -> int:
-    """Return the bits that a depth is kept in."""
-    return int(table.get("depth", settings.depth).function().nearness_bits)
+    """Return the bits that a depth is kept in: of its whole numbers, or of a float32."""
+    scale = table.get("depth", settings.depth).function().scale
+    return 32 if scale == 1 else int(np.ceil(np.log2(scale)))

@@ -4,11 +4,12 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.records.frame import Frame
+from core.records.primitives import interpolation_form
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Errors, StudyFamily
+from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily
 from core.study.accuracy.frame_task import FrameTask, scalar_pictures
 from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
-from core.study.accuracy.workloads import textured_quad
+from core.study.accuracy.workloads import receding_quad
 from core.study.exact.values import exact_values
 from core.trace import trace
 
@@ -27,8 +28,9 @@ class InterpolationTask(FrameTask):
     stage = "interpolate"
 
     def __init__(self, assignment: Assignment) -> None:
-        side = int(assignment.dials["side"])
-        self._quad = textured_quad(side, assignment.dials["w-ratio"], 1.0, None)
+        side, far = int(assignment.dials["side"]), assignment.dials["w-ratio"]
+        w = np.array([1.0, 1.0, far, far] if assignment.work == "square" else [1.0, far, far, 1.0])
+        self._quad = receding_quad((side, side), w)
         super().__init__(self._quad, side * side, ("interpolate",))
 
     def _coordinates(self, settings: Settings) -> tuple[Floats, Floats]:
@@ -53,6 +55,17 @@ class InterpolationTask(FrameTask):
             )
         return TEXELS * result, TEXELS * exact
 
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the counts of the frame, and how often 1/w is divided by: once for each pixel or anchor."""
+        divisions = 0
+        if interpolation_form(settings.interpolation) == "perspective":
+            traced = trace(self._quad, settings)
+            fragments, (x, _) = traced.source.fragments, traced.source.centers
+            places = traced.stage("interpolate").columns.get("anchor_x", x[:, None])
+            rows = np.broadcast_to((fragments.primitive * len(x) + fragments.row)[:, None], places.shape)
+            divisions = len(np.unique(np.stack([rows.ravel(), places.ravel()]), axis=1).T)
+        return super().counts(settings, made) | {"divisions by 1/w": divisions}
+
     def errors(self, settings: Settings, made: Frame) -> Errors:
         """Return how far the coordinates are off."""
         result, exact = self._coordinates(settings)
@@ -61,16 +74,30 @@ class InterpolationTask(FrameTask):
         return {MEAN_TEXEL.name: float(distance.mean()), LARGEST_TEXEL.name: float(distance.max())}
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
-        """Return the coordinate v, which runs towards the far side, in texels."""
+        """Return the sum of u and v, of which one runs towards the far side, in texels."""
         result, exact = self._coordinates(settings)
-        return scalar_pictures(result[..., 1], exact[..., 1])
+        return scalar_pictures(result.sum(axis=2), exact.sum(axis=2))
 
 
 INTERPOLATION = StudyFamily(
     "interpolation",
     "Interpolation",
     ("interpolation",),
-    (WorkKind("square", "A square in perspective", "pixel", (RATIOS, SIDES)),),
+    (
+        WorkKind(
+            "aside", "A square that recedes to the right: w changes along each row", "pixel", (RATIOS, SIDES)
+        ),
+        WorkKind(
+            "square", "A square that leans back: w is the same along each row", "pixel", (RATIOS, SIDES)
+        ),
+    ),
     (MEAN_TEXEL, LARGEST_TEXEL),
     InterpolationTask,
+    more=tuple(
+        Candidate(
+            f"interpolation=affine-n correction_interval={interval}",
+            f"Affine, corrected every {interval} pixels",
+        )
+        for interval in (4, 64)
+    ),
 )

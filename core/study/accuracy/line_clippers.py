@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from core.geometry.line_clipping.clipping import clip_lines
-from core.geometry.line_clipping.records import ClippedLines
+from core.geometry.line_clipping.records import CUT, ClippedLines, OutcodeRows
 from core.raster.lines.drawing import draw_lines
 from core.records.arrays import Flags, Floats
 from core.records.cached import cached_property
@@ -72,10 +72,25 @@ class LineClippingTask(Task):
         return ends, ~np.isnan(ends[:, 0, 0])
 
     def counts(self, settings: Settings, made: ClippedLines) -> dict[str, int]:
-        """Return segments that are left, and how often an edge of the window was looked at."""
-        steps = 0 if made.rows is None else len(made.rows.segment)
+        """Return segments that are left, and how often an edge was looked at and a crossing divided for.
+
+        Notes
+        -----
+        An outcode looks at the four edges, and every pass of Cohen-Sutherland finds that of both ends.
+        """
+        rows, tested, crossings = made.rows, 0, 0
+        if isinstance(rows, OutcodeRows):
+            tested, crossings = 8 * len(rows.segment), int(np.count_nonzero(rows.case == CUT))
+        elif rows is not None:
+            tested = int(np.count_nonzero(rows.edge >= 0))
+            crossings = int(np.count_nonzero((rows.edge >= 0) & ~np.isnan(rows.t)))
         kept = int(np.count_nonzero(made.is_kept))
-        return {"segments kept": kept, "edges tested": steps, "bytes": made.segments.nbytes}
+        return {
+            "segments kept": kept,
+            "edges tested": tested,
+            "crossings found": crossings,
+            "bytes": made.segments.nbytes,
+        }
 
     def errors(self, settings: Settings, made: ClippedLines) -> Errors:
         """Compare with the exact ends and decisions."""

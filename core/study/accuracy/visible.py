@@ -3,6 +3,7 @@
 import numpy as np
 
 from core.geometry.vertex_stage import transform_vertices
+from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import Frame
@@ -22,7 +23,7 @@ from core.study.accuracy.workloads import (
     sphere_mesh,
     wall_scene,
 )
-from core.study.exact.coverage import count_pixels
+from core.study.exact.coverage import count_pixels, facing, whole_corner
 from core.study.exact.values import exact_fragments, exact_visible
 
 SIZE = (128, 128)
@@ -38,22 +39,46 @@ def nearest(clip: Floats, size: tuple[int, int]) -> Integers:
     return exact_visible(exact_fragments(clip, size), size)
 
 
-def nearest_task(clip: Floats) -> SeenTask:
-    """Return triangles (T, 3, 4) in clip space, of which the nearest is to be seen."""
-    return SeenTask(flat_scene(clip, SIZE), 1, "depth", lambda: nearest(clip, SIZE))
+class VisibilityTask(SeenTask):
+    """Triangles (T, 3, 4) in clip space, of which the nearest is to be seen."""
+
+    def __init__(self, clip: Floats) -> None:
+        super().__init__(flat_scene(clip, SIZE), 1, "depth", lambda: nearest(clip, SIZE))
+        self._clip = clip
+
+    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+        """Return the counts of the frame, and what each method does in place of another's depth tests.
+
+        Notes
+        -----
+        Ray casting as the lectures have it (for each pixel, for each object) tests every ray against every triangle.
+        This program finds the same hits by filling triangles, which are the pixels tested and covered, and compares
+        them.
+        """
+        counts, drawing = super().counts(settings, made), table.get("visibility", settings.visibility)
+        order = drawing.function(self._clip)
+        compared = counts.pop("depth tests")
+        return counts | {
+            "depth tests": compared if order.uses_depth_test and not order.casts_rays else 0,
+            "hits compared": compared if order.casts_rays else 0,
+            "rays times triangles": SIZE[0] * SIZE[1] * len(self._clip) if order.casts_rays else 0,
+            "triangles sorted": 0
+            if order.uses_depth_test or settings.visibility == "last-drawn"
+            else len(self._clip),
+        }
 
 
-def make_visibility(assignment: Assignment) -> SeenTask:
+def make_visibility(assignment: Assignment) -> VisibilityTask:
     """Make triangles that hide each other."""
     if assignment.work == "cycle":
-        return nearest_task(cyclic_triangles(SIZE))
+        return VisibilityTask(cyclic_triangles(SIZE))
     count = int(assignment.dials["count"])
     if assignment.work == "layers":
         window = random_triangles(SIZE, count, 0.6 * min(SIZE), assignment.seed)
         depth = random_source(assignment.seed + 1).permutation(count) / max(count, 1) * 0.8 + 0.1
         clip = clip_of_window(window, SIZE, np.repeat(depth[:, None], 3, axis=1), np.ones((count, 3)))
-        return nearest_task(clip)
-    return nearest_task(overlapping_triangles(SIZE, count, assignment.seed))
+        return VisibilityTask(clip)
+    return VisibilityTask(overlapping_triangles(SIZE, count, assignment.seed))
 
 
 VISIBILITY = StudyFamily(
@@ -71,7 +96,7 @@ VISIBILITY = StudyFamily(
 
 
 def make_culling(assignment: Assignment) -> SeenTask:
-    """Make a sphere, whole or without its upper part; the reference sees both sides."""
+    """Make a sphere, whole or without its upper part; of a closed surface the reference sees the front."""
     mesh = sphere_mesh(int(assignment.dials["rings"]))
     if assignment.work == "open":
         lower = mesh.positions[mesh.triangles][..., 1].mean(axis=1) < 0.4
@@ -81,7 +106,12 @@ def make_culling(assignment: Assignment) -> SeenTask:
 
     def reference() -> Integers:
         vertices = transform_vertices(scene)
-        return nearest(vertices.clip[vertices.corners], scene.size)
+        clip = vertices.clip[vertices.corners]
+        seen = np.arange(len(clip))
+        if assignment.work == "closed":
+            turns = [facing([whole_corner(corner, scene.size, True) for corner in each]) for each in clip]
+            seen = np.flatnonzero(np.array(turns) > 0)
+        return np.append(seen, -1)[nearest(clip[seen], scene.size)]
 
     return SeenTask(scene, len(mesh.triangles), "cull", reference)
 

@@ -1,7 +1,7 @@
 """Study of the whole pipeline on one scene, where each point changes one setting; and of families without a study.
 
-What is timed is `draw_picture`, the bytes that a screen shows; what it drew is compared with the reference picture, the
-full buffers of `render` with the first method of every family, except for those that choose what is to be seen.
+What is timed is `draw_picture`, the bytes that a screen shows; what it drew is compared with the full buffers of
+`render`: for the whole pipeline with the first method of every family, except for those that choose what is to be seen.
 """
 
 from collections.abc import Callable
@@ -21,7 +21,7 @@ from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene, DirectionalLight, Mesh, Scene
 from core.settings import FAMILIES, Settings, families, no_effect
-from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task
+from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task, settings_of
 from core.study.accuracy.frame_task import (
     LARGEST_COLOR,
     MEAN_COLOR,
@@ -50,21 +50,14 @@ class PictureTask(Task):
     Parameters
     ----------
     scene : Scene or ClipScene
-    base : Settings
-    varied : str
-        The family that the points differ in; the reference has its first method. Empty: any.
+    reference_settings : Settings
+        Of the picture that the others are compared with.
     """
 
-    def __init__(self, scene: AnyScene, base: Settings, varied: str = "") -> None:
-        self.scene = scene
+    def __init__(self, scene: AnyScene, reference_settings: Settings) -> None:
+        self.scene, self.reference_settings = scene, reference_settings
         self.unit_count = 1
         self._last: tuple[Settings, Frame] | None = None
-        looks = {
-            name: getattr(base, name)
-            for name, family in FAMILIES.items()
-            if family.is_look and name != varied
-        }
-        self.reference_settings = replace(Settings(), **looks)
 
     def start(self, settings: Settings) -> Callable[[], Picture]:
         """Prepare one picture of a scene that is new to the pipeline."""
@@ -139,7 +132,12 @@ def scaled(scene: AnyScene, scale: float) -> AnyScene:
 def make_pipeline(assignment: Assignment) -> PictureTask:
     """Make the picture of the scene that is given, or of a textured sphere."""
     scene = standard_scene() if assignment.scene is None else assignment.scene
-    return PictureTask(scaled(scene, assignment.dials["scale"]), assignment.settings)
+    return PictureTask(scaled(scene, assignment.dials["scale"]), same_look(assignment.settings))
+
+
+def same_look(base: Settings) -> Settings:
+    """Return the first method of every family, but for those that choose what is to be seen."""
+    return Settings(**{name: getattr(base, name) for name, family in FAMILIES.items() if family.is_look})
 
 
 class _Pipeline(StudyFamily):
@@ -179,16 +177,48 @@ def standard_scene(side: int = 128) -> Scene:
     return Scene((*scene.meshes, small), scene.camera, light, (side, side))
 
 
-def standing_in(family: str) -> StudyFamily:
-    """Return the study of a family of settings that has none of its own: a standard scene with that setting varied.
+class ChoiceTask(PictureTask):
+    """A scene that is drawn with one setting varied.
 
     Notes
     -----
-    The reference is the family's first method. Line clippers show in outlines.
+    Of a family that chooses what is to be seen no method is wrong: the picture is compared with all buffers of that
+    same choice. In other families the first method is the reference.
     """
-    base = Settings(polygon_mode="wireframe") if "line" in family else Settings()
 
-    def make(assignment: Assignment) -> PictureTask:
-        return PictureTask(scaled(standard_scene(), assignment.dials["scale"]), assignment.settings, family)
+    def __init__(self, scene: AnyScene, family: str, base: Settings) -> None:
+        super().__init__(scene, base)
+        self._family = family
+        self._judges: dict[Settings, PictureTask] = {}
 
+    def _judge(self, settings: Settings) -> PictureTask:
+        name = self._family
+        first = f"{name}={table.names(name)[0]}"
+        kept = settings if FAMILIES[name].is_look else settings_of(settings, first)
+        return self._judges.setdefault(kept, PictureTask(self.scene, kept))
+
+    def errors(self, settings: Settings, made: Picture) -> Errors:
+        """Compare with the reference of these settings."""
+        return self._judge(settings).errors(settings, made)
+
+    def pictures(self, settings: Settings, made: Picture) -> Pictures:
+        """Return the bytes over 255, and those of the reference of these settings."""
+        return self._judge(settings).pictures(settings, made)
+
+
+SHOWS_IN = {
+    "provoking": Settings(interpolation="flat"),
+    "resolve_filter": Settings(antialiasing="ssaa-4"),
+}
+"""Settings that a family's choice shows in, where the defaults hide it."""
+
+
+def standing_in(family: str) -> StudyFamily:
+    """Return the study of a family of settings that has none of its own: a standard scene with that setting varied."""
+
+    def make(assignment: Assignment) -> ChoiceTask:
+        scene = scaled(standard_scene(), assignment.dials["scale"])
+        return ChoiceTask(scene, family, assignment.settings)
+
+    base = SHOWS_IN.get(family, Settings())
     return StudyFamily(family, FAMILIES[family].title, (family,), (PICTURE,), MEASURES, make, base)

@@ -119,9 +119,15 @@ def outline_scene(ends: Floats, size: tuple[int, int], third: Floats | None = No
 
 
 def overlapping_triangles(size: tuple[int, int], count: int, seed: int) -> Floats:
-    """Return clip corners (count, 3, 4) of large triangles at all depths, which pass through each other."""
+    """Return clip corners (count, 3, 4) of large triangles at all depths, which pass through each other.
+
+    Notes
+    -----
+    Corners are on the 1/256-pixel grid. Halfway between two of its places the rounding of x / w would decide where a
+    corner is snapped to, and a picture and its exact reference would cover other pixels.
+    """
     source = random_source(seed)
-    window = on_grid(source.uniform(0.02, 0.98, (count, 3, 2)) * np.array(size))
+    window = on_grid(source.uniform(0.02, 0.98, (count, 3, 2)) * np.array(size), 256)
     return clip_of_window(
         window, size, source.uniform(0.1, 0.9, (count, 3)), source.uniform(1, 4, (count, 3))
     )
@@ -223,10 +229,15 @@ def textured_quad(size: int, w_ratio: float, repeats: float, texture: Texture | 
     -----
     The texture is repeated ``repeats`` times each way; without one, the coordinates are attributes.
     """
-    reach = 1.0
-    x, y = np.array([-reach, reach, reach, -reach]), np.array([-reach, -reach, reach, reach])
-    w = np.array([1.0, 1.0, w_ratio, w_ratio])
+    return receding_quad((size, size), np.array([1.0, 1.0, w_ratio, w_ratio]), repeats, texture)
+
+
+def receding_quad(
+    size: tuple[int, int], w: Floats, repeats: float = 1.0, texture: Texture | None = None
+) -> ClipScene:
+    """Return a rectangle that fills the picture, with ``w`` (4,) at its corners, counter-clockwise from below left."""
+    x, y = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
     corners = np.stack([x * w, y * w, np.zeros(4), w], axis=1)
     uv = np.array([[0.0, 0.0], [repeats, 0.0], [repeats, repeats], [0.0, repeats]])
     index = np.array([[0, 1, 2], [0, 2, 3]])
-    return ClipScene(corners[index], uv[index], (size, size), texture, shared=index)
+    return ClipScene(corners[index], uv[index], size, texture, shared=index)

@@ -13,6 +13,7 @@ from core.records.arrays import Flags, Floats
 from core.records.cached import cached_property
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.workloads import receding_quad
 from core.study.exact.values import exact_values
 from core.study.stability.case_text import pixels_text
 from core.study.stability.experiment import Case, Experiment, Judgement, check_in_view_volume
@@ -82,12 +83,7 @@ class StripCase(Case):
 
 def leaning_strip(w_ratio: float, width: int) -> ClipScene:
     """Return a rectangle of ``width`` x 4 pixels whose right side is ``w_ratio`` times as far as its left side."""
-    x, y = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
-    w = np.array([1.0, w_ratio, w_ratio, 1.0])
-    corners: Floats = np.stack([x * w, y * w, np.zeros(4), w], axis=1)
-    u = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    index = np.array([[0, 1, 2], [0, 2, 3]])
-    return ClipScene(corners[index], u[index], (width, ROWS), shared=index)
+    return receding_quad((width, ROWS), np.array([1.0, w_ratio, w_ratio, 1.0]))
 
 
 AFFINE = Experiment(

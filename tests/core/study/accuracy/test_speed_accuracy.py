@@ -24,7 +24,7 @@ from core.study import (
 from core.study.accuracy import speed_accuracy as module
 from core.study.accuracy.family import settings_of
 from core.study.accuracy.frame_task import check_pixel_tests
-from core.study.accuracy.whole_picture import SAMPLED_COLOR, PictureTask, scaled, standard_scene
+from core.study.accuracy.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
 from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
@@ -221,7 +221,7 @@ def test_outlines_with_samples_are_as_bright_whatever_the_blending_keeps() -> No
     scene = scaled(standard_scene(), 0.25)
     for name in ("msaa-4", "ssaa-16"):
         base = Settings(antialiasing=name)
-        task = PictureTask(scene, base)
+        task = PictureTask(scene, same_look(base))
         opaque, over = (
             task.errors(settings, task.start(settings)())[SAMPLED_COLOR.name]
             for settings in (base, replace(base, blend="over"))

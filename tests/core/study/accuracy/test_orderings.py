@@ -1,0 +1,239 @@
+"""What every chart shows, derived by hand for one case of each family: errors and work counts, never times."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from core.methods import table
+from core.settings import no_effect
+from core.study import study_families, study_family
+from core.study.accuracy.family import Assignment, chosen_dials, settings_of
+from core.study.accuracy.whole_picture import PICTURE
+
+CHOICES = {"polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
+"""Families that choose what is to be seen, and share one derivation."""
+
+
+class Found(NamedTuple):
+    counts: Mapping[str, int]
+    errors: Mapping[str, float | str]
+
+
+def run(family: str, work: str = "", seed: int = 0, **dials: float) -> dict[str, Found]:
+    """Run every method of a family once, without a clock; by the method's name."""
+    study = study_family(family)
+    kind = study.work(work or None)
+    task = study.make(Assignment(kind.name, chosen_dials(kind, dials), seed, study.base))
+    found = {}
+    for candidate in study.candidates(study.base):
+        settings = settings_of(study.base, candidate.method)
+        made = task.start(settings)()
+        name = candidate.method.removeprefix(f"{study.varies[0]}=") if study.varies else candidate.method
+        found[name] = Found(task.counts(settings, made), task.errors(settings, made))
+    return found
+
+
+def test_every_family_has_its_derivation() -> None:
+    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
+    assert {family.name.replace("-", "_") for family in study_families()} <= tested | CHOICES
+
+
+def test_a_setting_is_varied_where_it_shows() -> None:
+    drawn = [family for family in study_families() if family.works == (PICTURE,)]
+    assert not [family.name for family in drawn for name in family.varies if no_effect(family.base, name)]
+
+
+def test_line() -> None:
+    # 100 lines of 16 columns, the last pixel left to the next line: 1,600 pixels, each within half a pixel.
+    # Bresenham looks at the sign of D once a column, and three times before; he doubles, but never multiplies (1965).
+    # DDA divides once a line, for the slope, and rounds every column (and the two ends of the loop).
+    lines = run("line", "pixel-ends", length=16)
+    bresenham, dda = lines["bresenham"], lines["dda"]
+    assert bresenham.counts["pixels drawn"] == dda.counts["pixels drawn"] == 1600
+    assert bresenham.counts["integer comparisons"] == 100 * (16 + 3)
+    assert not {"integer multiplications", "integer divisions", "roundings"} & set(bresenham.counts)
+    assert not [name for name in bresenham.counts if name.startswith("float")]
+    assert dda.counts["float divisions"] == 100
+    assert bresenham.errors["largest-distance"] == pytest.approx(0.5)
+    assert bresenham.errors["not-nearest"] == 0
+
+
+def test_fill() -> None:
+    # 48 boxes of 4 x 4 pixels hold 16 centres each, wherever they lie; brute force tests all 256 x 256.
+    fills = run("fill", "triangles", size=4)
+    assert fills["brute-force"].counts["pixels tested"] == 48 * 256 * 256
+    assert fills["bounding-box"].counts["pixels tested"] == 48 * 16
+    assert fills["blocks"].counts["pixels tested"] <= 48 * 16
+    assert fills["spans"].counts["pixels tested"] == 0
+    for name in table.names("fill"):
+        assert (fills[name].errors["misclassified"] == 0) == (name != "scanline-lecture")
+
+
+def test_coverage() -> None:
+    # A centre on an edge is drawn more than once with >= 0, never with > 0, once with the rule of shared edges: both
+    # wrong rules are wrong on the very same pixels. Where six triangles meet the first is off by 5 and the second by 1.
+    ties = run("coverage", "ties")
+    inclusive, exclusive = ties["fill_rule=inclusive"].errors, ties["fill_rule=exclusive"].errors
+    assert inclusive["cracks"] == exclusive["cracks"] > 0
+    assert inclusive["misclassified"] > exclusive["misclassified"]
+    assert ties["snapped"].errors["cracks"] == ties["exact"].errors["cracks"] == 0
+
+
+def test_line_clipping() -> None:
+    # Cyrus-Beck looks at all four edges; Liang-Barsky stops where nothing is left; both divide once for every edge
+    # that is not parallel. Cohen-Sutherland finds two outcodes of four comparisons in every pass, and divides only
+    # where an end moves: at most twice for each end.
+    clippers = {name: found.counts for name, found in run("line_clipping", "around", count=100).items()}
+    assert clippers["none"]["edges tested"] == clippers["none"]["crossings found"] == 0
+    assert clippers["cyrus-beck"]["edges tested"] == clippers["cyrus-beck"]["crossings found"] == 400
+    assert 300 < clippers["liang-barsky"]["edges tested"] < 400
+    cohen = clippers["cohen-sutherland"]
+    assert cohen["edges tested"] == 8 * (100 + cohen["crossings found"])
+    assert cohen["crossings found"] < clippers["liang-barsky"]["crossings found"] / 2
+
+
+def test_clipping() -> None:
+    # Homogeneous edges need no new corners. Projected first, corners with w > 0 land on the same places; one behind
+    # the eye lands mirrored through the centre. Pieces have new corners, and each is snapped: half a step of 1/256.
+    near, eye = run("clipping", "near"), run("clipping", "eye")
+    assert near["homogeneous"].errors == near["project-first"].errors == eye["homogeneous"].errors
+    assert set(near["homogeneous"].errors.values()) == {0}
+    assert eye["project-first"].errors["wrong-visible"] > 500_000
+    for pieces in (near["sutherland-hodgman"], eye["sutherland-hodgman"]):
+        assert pieces.counts["triangles drawn"] > 16
+        assert pieces.errors["misclassified"] < 50
+
+
+def test_interpolation() -> None:
+    # Along the bottom row 1/w runs evenly from 1 to 1/4, so u = t / (4 - 3 t) at the share t of the row. Between two
+    # anchors a straight line strays by (sqrt r - 1)/(sqrt r + 1) of their difference, r being the ratio of their w: by
+    # a third of 256 texels with 64 pixels between them, by most in the last interval, where w changes fastest.
+    side, ratio = 64, 4.0
+    square = run("interpolation", "aside", side=side, **{"w-ratio": ratio})
+
+    def strays(interval: int) -> float:
+        t = np.minimum(np.arange(0.0, side + 1, interval) + 0.5, side) / side
+        w, u = 1 / (1 - (1 - 1 / ratio) * t), t / (ratio - (ratio - 1) * t)
+        root = np.sqrt(w[1:] / w[:-1])
+        return 256 * float(((u[1:] - u[:-1]) * (root - 1) / (root + 1)).max())
+
+    errors = {name: found.errors["largest-texel"] for name, found in square.items()}
+    assert errors["perspective"] < 1e-9
+    for interval in (4, 16):
+        name = "affine-n" if interval == 16 else f"affine-n correction_interval={interval}"
+        assert errors[name] == pytest.approx(strays(interval), rel=0.1)
+    assert errors["affine-n"] < errors["affine-n correction_interval=64"] <= errors["affine"]
+    assert errors["affine"] == pytest.approx(256 / 3, rel=0.01)
+    # One division a pixel, none without perspective, and with correction one for every anchor of a row.
+    divisions = {name: found.counts["divisions by 1/w"] for name, found in square.items()}
+    assert divisions["perspective"] == side * side
+    assert divisions["affine"] == divisions["flat"] == 0
+    assert divisions["affine-n correction_interval=64"] < divisions["affine-n"] < side * side / 4
+    # Leaning back, w is the same along each row: nothing is left to correct, as Wolfenstein's floors knew.
+    assert run("interpolation", "square", side=16)["affine-n"].errors["largest-texel"] < 1e-9
+
+
+def test_texture_filter() -> None:
+    # A fragment reads one texel, four, four of one level, four of each of two levels. Facing the camera with 2^k texels
+    # for a pixel, level k holds the very mean that a pixel shows; one texel out of 4^k does not.
+    facing = run("texture_filter", "facing", density=4, side=32)
+    read = {name: found.counts["texels read"] for name, found in facing.items()}
+    assert read == {"nearest": 1024, "bilinear": 4096, "mipmap-nearest": 4096, "trilinear": 8192}
+    errors = {name: found.errors["mean-color"] for name, found in facing.items()}
+    assert (
+        max(errors["trilinear"], errors["mipmap-nearest"]) < 1e-3 < min(errors["nearest"], errors["bilinear"])
+    )
+
+
+def test_depth() -> None:
+    # With the near plane at 1 two walls a part g of their distance d apart differ by g/d in window depth: by a step of
+    # 2^-24 up to d = g 2^24. That is 16,777 for g = 1/1000, beyond the far plane, and 168 for g = 1/100,000. In 16 bits
+    # it is 65. 1/w in float32 tells parts of 2^-23 apart at any distance.
+    formats = run("depth", gap=1e-3, far=1e4, side=32)
+    assert formats["z-24"].errors["wrong-visible"] == 0 < formats["z-16"].errors["wrong-visible"]
+    formats = run("depth", gap=1e-5, far=1e4, side=32)
+    assert formats["z-24"].errors["wrong-visible"] > 0 == formats["inverse-w"].errors["wrong-visible"]
+    bits = {name: found.counts["bits of a depth"] for name, found in formats.items()}
+    floats = dict.fromkeys(("z-float32", "inverse-w", "reversed-z", "logarithmic"), 32)
+    assert bits == {**floats, "z-16": 16, "z-24": 24, "fixed-38": 38}
+
+
+def test_antialiasing() -> None:
+    # Every pixel's colour is the mean of flat colours by area. Areas in closed form leave nothing but float32; n
+    # samples leave an error that falls with n; a sample each is tested for depth.
+    methods = run("antialiasing", side=32)
+    error = {name: found.errors["mean-color"] for name, found in methods.items()}
+    assert error["area"] < 1e-3 < error["ssaa-16"] < error["ssaa-n"] < error["ssaa-4"] < error["none"]
+    tests = {name: found.counts["depth tests"] for name, found in methods.items()}
+    assert (tests["none"], tests["ssaa-4"], tests["ssaa-16"]) == (1024, 4096, 16384)
+
+
+def test_shading() -> None:
+    # A sphere of 4 rings and 8 columns: 5 x 9 vertices, 8 x (4 + 4 - 2) faces. Flat lights a face, Gouraud a vertex,
+    # Phong a fragment; the finer the light is followed, the nearer is the sphere.
+    shadings = run("shading", rings=4, side=64)
+    lights = {name: found.counts["lights evaluated"] for name, found in shadings.items()}
+    assert lights["phong"] == shadings["phong"].counts["pixels shaded"] > lights["flat"]
+    assert (lights["gouraud"], lights["flat"], lights["unlit"]) == (45, 48, 0)
+    error = {name: found.errors["mean-color"] for name, found in shadings.items()}
+    assert error["phong"] < error["gouraud"] < error["flat"] < error["unlit"]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_visibility(seed: int) -> None:
+    # Ray casting compares exactly, on the pixels that every method covers: nothing can be wrong. Its loop over rays and
+    # triangles is pixels times triangles; the z-buffer tests each covered pixel; the painter sorts, and tests nothing.
+    count, pixels = 16, 128 * 128
+    for work in ("crossing", "layers"):
+        found = run("visibility", work, seed, count=count)
+        assert found["ray-casting"].errors["wrong-visible"] == 0
+        counts = {name: each.counts for name, each in found.items()}
+        covered = counts["z-buffer"]["pixels covered"]
+        assert counts["ray-casting"]["rays times triangles"] == count * pixels
+        assert counts["ray-casting"]["hits compared"] == counts["z-buffer"]["depth tests"] == covered
+        assert counts["ray-casting"]["depth tests"] == counts["painters"]["depth tests"] == 0
+        assert (counts["painters"]["triangles sorted"], counts["last-drawn"]["triangles sorted"]) == (
+            count,
+            0,
+        )
+    # Each at one depth: sorted by it, the last drawn is the nearest.
+    assert found["painters"].errors["wrong-visible"] == 0 < found["last-drawn"].errors["wrong-visible"]
+
+
+def test_cull() -> None:
+    # A ray enters a closed convex surface once and leaves it once: half of what is covered faces away, and is hidden.
+    closed = run("cull", "closed", rings=6)
+    covered = {name: found.counts["pixels covered"] for name, found in closed.items()}
+    assert covered["none"] == 2 * covered["back"] == 2 * covered["front"]
+    assert closed["back"].errors["wrong-visible"] == 0
+    # Nothing culled, a back may show at the rim: snapping gives the centre to both, and beyond its edge it is nearer.
+    assert closed["none"].errors["wrong-visible"] < 500 < closed["front"].errors["wrong-visible"]
+    # Without its upper part the surface shows its inside, which is a back.
+    assert run("cull", "open", rings=6)["back"].errors["wrong-visible"] > 0
+
+
+@pytest.mark.parametrize("family", sorted(CHOICES))
+def test_choices_of_what_is_seen(family: str) -> None:
+    # None of them is wrong: bytes differ from the full buffers by a rounding at most.
+    for found in run(family, scale=0.125).values():
+        assert found.errors["wrong-visible"] == 0
+        assert found.errors["largest-color"] <= 1 + 1e-9
+
+
+def test_resolve_filter() -> None:
+    # A box takes a pixel's own samples, a tent its neighbours' too: it blurs. Fewer than a byte is rounding.
+    filters = run("resolve_filter", scale=0.125)
+    assert filters["box"].errors["mean-color"] < 1 < filters["tent"].errors["mean-color"]
+    assert filters["tent"].counts["pixels covered"] >= filters["box"].counts["pixels covered"]
+
+
+def test_pipeline() -> None:
+    # Two closed spheres: backs are half of what is covered. Four samples of each pixel: four times the depth tests.
+    points = run("pipeline", scale=0.125)
+    covered = {name: found.counts["pixels covered"] for name, found in points.items()}
+    unchanged = covered["fill=spans"]
+    assert unchanged == covered["cull=back"] + covered["cull=front"] == 2 * covered["cull=back"]
+    assert covered["antialiasing=ssaa-4"] == pytest.approx(4 * unchanged, rel=0.1)
+    assert points["cull=back"].errors["wrong-visible"] == 0 < points["cull=front"].errors["wrong-visible"]
