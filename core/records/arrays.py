@@ -65,8 +65,8 @@ def checked(
             raise ValueError(f"{name} must be finite, got {array[where]} at {where}")
         if np.issubdtype(dtype, np.integer) and (array != np.floor(array)).any():
             raise ValueError(f"{name} must be whole numbers, got {array.dtype}")
-    if limit is not None and array.size and float(np.abs(array).max()) > limit:
-        raise ValueError(f"{name} must be at most {limit:g} in size, got {np.abs(array).max():g}")
+    if limit is not None and array.size and (largest := max(float(array.max()), -float(array.min()))) > limit:
+        raise ValueError(f"{name} must be at most {limit:g} in size, got {largest:g}")
     copy = np.array(array, dtype=dtype, order="C")
     copy.flags.writeable = False
     return copy

@@ -1,6 +1,6 @@
 """Readers of mesh files: a file goes in, meshes of the core and warnings come out.
 
-Formats made of polygons (OBJ, PLY, OFF) are read here, line by line, because every triangle must keep its
+Formats made of polygons (OBJ, PLY, OFF) are read here, because every triangle must keep its
 place in the file and know its polygon, and a broken line must be named. trimesh's readers of these three
 sort triangles before quads, regroup them by material and leave out what they do not understand. Formats made
 of triangles (STL, GLB, glTF) go through trimesh.
@@ -30,6 +30,9 @@ READERS: dict[str, Reader] = {
 
 EXTENSIONS = tuple(READERS)
 """Endings of the files that open, in lower case with their dot."""
+
+TOGETHER = 4096
+"""Triangles looked at together: nearly always some of the first have an area."""
 
 __all__ = ["EXTENSIONS", "READERS", "LoadedMeshes", "MeshFileError", "Reader", "Report", "read_file"]
 
@@ -68,13 +71,16 @@ def read_file(path: Path, report: Report) -> LoadedMeshes:
 
 def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:
     """Raise MeshFileError if a vertex is too far away or no triangle has an area."""
-    has_area = False
     for mesh in meshes:
         check_positions(path, mesh.positions)
-        corners = mesh.positions[mesh.triangles]
-        sides = corners[:, 1:] - corners[:, :1]
-        longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
-        sides = sides / np.where(longest > 0, longest, 1)
-        has_area |= bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())
-    if not has_area:
+    if not any(has_area(mesh, first) for mesh in meshes for first in range(0, len(mesh.triangles), TOGETHER)):
         raise MeshFileError(f"{path.name} has only degenerate faces: no triangle has an area")
+
+
+def has_area(mesh: Mesh, first: int) -> bool:
+    """Whether some of the triangles looked at together, from ``first`` on, has an area."""
+    corners = mesh.positions[mesh.triangles[first : first + TOGETHER]]
+    sides = corners[:, 1:] - corners[:, :1]
+    longest = np.abs(sides).max(axis=(1, 2), keepdims=True)
+    sides /= np.where(longest > 0, longest, 1)
+    return bool((np.abs(np.cross(sides[:, 0], sides[:, 1])) > 1e-12).any())

@@ -101,7 +101,7 @@ def read_off(path: Path, report: Report) -> LoadedMeshes:
     corners = np.array(found.corners, np.int64)
     check_positions(path, positions)
     check_polygons(path, sizes, corners, len(positions))
-    places, faces = triangulate_polygons(positions[corners], sizes)
+    places, faces = triangulate_polygons(positions, corners, sizes)
     mesh = Mesh(
         positions=positions,
         triangles=corners[places],

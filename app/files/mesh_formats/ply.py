@@ -106,7 +106,7 @@ def build_mesh(path: Path, header: Header, vertex: Rows, face: Rows, polygons: C
     check_positions(path, positions)
     check_polygons(path, polygons.sizes, polygons.items, len(positions))
     indices = polygons.items.astype(np.int64)
-    corners, faces = triangulate_polygons(positions[indices], polygons.sizes)
+    corners, faces = triangulate_polygons(positions, indices, polygons.sizes)
     triangles = indices[corners]
     warnings: list[str] = []
     normals = stacked(vertex, ("nx", "ny", "nz")) if "nx" in vertex.columns else None

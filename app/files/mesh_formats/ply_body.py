@@ -137,53 +137,28 @@ def read_element(
     path: Path, element: Element, layout: Layout, start: int, report: Report
 ) -> tuple[Rows, int]:
     """Read the rows of ``element`` from cell ``start``; returns them and the cell behind them."""
-    starts, lengths, end = find_rows(path, element, layout, start, report)
-    names = [p.name for p in element.properties if p.count_kind]
-    sizes = dict(zip(names, lengths.T, strict=True))
-    firsts = {name: np.cumsum(size) - size for name, size in sizes.items()}
-    columns: dict[str, Cells] = {}
-    for p in element.properties:
-        count = int(sizes[p.name].sum()) if p.count_kind else element.count
-        columns[p.name] = np.zeros(count, np.float64 if layout.order == "ascii" else p.kind)
-
-    # Rows with lists of the same lengths have the same layout: read them together.
-    shapes, which = np.unique(lengths, axis=0, return_inverse=True)
-    for number, shape in enumerate(shapes.tolist()):
-        chosen = np.nonzero(which.reshape(-1) == number)[0]
-        length_of = dict(zip(names, shape, strict=True))
-        width = sum(
-            cells_before(p, layout) + layout.width(p.kind) * length_of.get(p.name, 1)
-            for p in element.properties
-        )
-        if len(shapes) == 1:
-            block = layout.cells[start:end].reshape(element.count, width)
-        else:
-            block = layout.cells[starts[chosen][:, None] + np.arange(width)]
-        place = 0
-        for p in element.properties:
-            place += cells_before(p, layout)
-            length = length_of.get(p.name, 1)
-            values = layout.values(block[:, place : place + layout.width(p.kind) * length], p.kind)
-            place += layout.width(p.kind) * length
-            if p.count_kind:
-                columns[p.name][firsts[p.name][chosen][:, None] + np.arange(length)] = values
-            else:
-                columns[p.name][chosen] = values[:, 0]
+    # Nearly always all rows are as long as the first.
+    _, lengths, first_end = walk_rows(path, element, layout, start, min(element.count, 1), report)
+    end = start + (first_end - start) * element.count
+    values = None
+    if end <= len(layout.cells):
+        block = layout.cells[start:end].reshape(element.count, first_end - start)
+        values = row_values(element, layout, block, lengths.ravel().tolist())
+    if values is not None:
+        lengths = np.repeat(lengths, element.count, axis=0)
+    else:
+        starts, lengths, end = walk_rows(path, element, layout, start, element.count, report)
+        values = values_by_length(element, layout, starts, lengths)
+    list_names = [p.name for p in element.properties if p.count_kind]
+    lists = {name: Column(sizes, values.pop(name)) for name, sizes in zip(list_names, lengths.T, strict=True)}
     scales = {p.name: float(np.iinfo(p.kind).max) if p.kind[0] in "iu" else 1.0 for p in element.properties}
-    lists = {name: Column(sizes[name], columns.pop(name)) for name in names}
-    return Rows(element.count, columns, lists, scales), end
+    return Rows(element.count, values, lists, scales), end
 
 
-def cells_before(p: Property, layout: Layout) -> int:
-    """Cells of the count that stands before the values of a list."""
-    return layout.width(p.count_kind) if p.count_kind else 0
-
-
-def find_rows(
-    path: Path, element: Element, layout: Layout, start: int, report: Report
+def walk_rows(
+    path: Path, element: Element, layout: Layout, start: int, count: int, report: Report
 ) -> tuple[Integers, Integers, int]:
-    """Return first cells (n,) of the rows, lengths (n, lists) of their lists, and the cell behind all."""
-    counts = [p for p in element.properties if p.count_kind]
+    """Return first cells (count,) of rows, lengths (count, lists) of their lists, and the cell behind the last."""
     steps = [
         (
             cells_before(p, layout),
@@ -193,8 +168,13 @@ def find_rows(
         for p in element.properties
     ]
     total = len(layout.cells)
-
-    def row_end(place: int, lengths: list[int]) -> int:
+    places: list[int] = []
+    lengths: list[int] = []
+    place = start
+    for row in range(count):
+        if row % ROWS_PER_REPORT == 0 and count > 1:
+            report(row / count, f"finding rows of {element.name}")
+        places.append(place)
         for count_width, width, counter in steps:
             length = 1
             if counter is not None:
@@ -207,42 +187,60 @@ def find_rows(
             raise MeshFileError(
                 f"{path.name} is cut short: it ends within its {element.count} x {element.name}"
             )
-        return place
-
-    if not element.count:
-        return np.zeros(0, np.int64), np.zeros((0, len(counts)), np.int64), start
-
-    # Nearly always all rows are as long as the first.
-    first: list[int] = []
-    stride = row_end(start, first) - start
-    end = start + stride * element.count
-    if end <= total:
-        block = layout.cells[start:end].reshape(element.count, stride)
-        if has_equal_counts(element, layout, block, first):
-            lengths = np.tile(np.array(first, np.int64).reshape(1, -1), (element.count, 1))
-            return start + stride * np.arange(element.count), lengths, end
-
-    # Lists of several lengths: only a walk finds where the rows begin.
-    places: list[int] = []
-    walked: list[int] = []
-    place = start
-    for row in range(element.count):
-        if row % ROWS_PER_REPORT == 0:
-            report(row / element.count, f"finding rows of {element.name}")
-        places.append(place)
-        place = row_end(place, walked)
-    return np.array(places), np.array(walked, np.int64).reshape(element.count, len(counts)), place
+    list_count = sum(counter is not None for _, _, counter in steps)
+    return np.array(places, np.int64), np.array(lengths, np.int64).reshape(count, list_count), place
 
 
-def has_equal_counts(element: Element, layout: Layout, block: Cells, first: list[int]) -> bool:
-    """Whether all rows of ``block`` (rows, cells) have the list lengths of the ``first`` row."""
-    place, lengths = 0, iter(first)
+def row_values(element: Element, layout: Layout, block: Cells, lengths: list[int]) -> dict[str, Cells] | None:
+    """Return the values of each property in ``block`` (rows, cells), row after row, with lists of these ``lengths``.
+
+    ``None`` if a list of some row has another length.
+    """
+    place, expected = 0, iter(lengths)
+    values: dict[str, Cells] = {}
     for p in element.properties:
         length = 1
         if p.count_kind:
-            length = next(lengths)
+            length = next(expected, 0)
             counts = layout.values(block[:, place : place + cells_before(p, layout)], p.count_kind)
             if (counts != length).any():
-                return False
-        place += cells_before(p, layout) + layout.width(p.kind) * length
-    return True
+                return None
+            place += cells_before(p, layout)
+        end = place + layout.width(p.kind) * length
+        values[p.name] = layout.values(block[:, place:end], p.kind).reshape(-1)
+        place = end
+    return values
+
+
+def values_by_length(
+    element: Element, layout: Layout, starts: Integers, lengths: Integers
+) -> dict[str, Cells]:
+    """Return the values of each property in rows that begin at cells ``starts`` (n,), with ``lengths`` (n, lists)."""
+    counts = dict.fromkeys((p.name for p in element.properties), np.ones(len(starts), np.int64))
+    counts |= zip((p.name for p in element.properties if p.count_kind), lengths.T, strict=True)
+    firsts = {name: np.cumsum(count) - count for name, count in counts.items()}
+    columns = {
+        p.name: np.zeros(int(counts[p.name].sum()), np.float64 if layout.order == "ascii" else p.kind)
+        for p in element.properties
+    }
+    # Rows with lists of the same lengths have the same layout: read them together.
+    shapes, which = np.unique(lengths, axis=0, return_inverse=True)
+    for number, shape in enumerate(shapes.tolist()):
+        chosen = np.nonzero(which.reshape(-1) == number)[0]
+        left = iter(shape)
+        width = sum(
+            cells_before(p, layout) + layout.width(p.kind) * (next(left) if p.count_kind else 1)
+            for p in element.properties
+        )
+        block = layout.cells[starts[chosen][:, None] + np.arange(width)]
+        values = row_values(element, layout, block, shape)
+        assert values is not None
+        for name, part in values.items():
+            places = firsts[name][chosen][:, None] + np.arange(len(part) // len(chosen))
+            columns[name][places] = part.reshape(places.shape)
+    return columns
+
+
+def cells_before(p: Property, layout: Layout) -> int:
+    """Cells of the count that stands before the values of a list."""
+    return layout.width(p.count_kind) if p.count_kind else 0

@@ -59,13 +59,15 @@ def fan(sizes: Integers) -> tuple[Integers, Integers]:
     return np.stack([start, start + turn + 1, start + turn + 2], axis=1), faces
 
 
-def triangulate_polygons(positions: Floats, sizes: Integers) -> tuple[Integers, Integers]:
+def triangulate_polygons(vertices: Floats, indices: Integers, sizes: Integers) -> tuple[Integers, Integers]:
     """Split polygons into triangles: by a fan, or by cutting ears where a polygon is not convex.
 
     Parameters
     ----------
-    positions : (C, 3) float64
-        Positions of the corners of all polygons, one polygon after the other.
+    vertices : (N, 3) float64
+        Positions.
+    indices : (C,) int64
+        Vertices of the corners of all polygons, one polygon after the other.
     sizes : (P,) int64
 
     Returns
@@ -74,9 +76,10 @@ def triangulate_polygons(positions: Floats, sizes: Integers) -> tuple[Integers, 
     faces : (T,) int64
         As ``fan``.
     """
-    corners, faces = fan(sizes)
     if (sizes == 3).all():
-        return corners, faces
+        return np.arange(len(indices)).reshape(-1, 3), np.arange(len(sizes))
+    corners, faces = fan(sizes)
+    positions = vertices[indices]
     a, b, c = (positions[corners[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     count = len(sizes)
@@ -156,5 +159,11 @@ def share_vertices(*indices: Integers) -> tuple[Integers, tuple[Integers, ...]]:
     for more in indices[1:]:
         width = int(more.max()) + 2
         code = np.unique(code * width + more.ravel() + 1, return_inverse=True)[1]
-    _, first, triangles = np.unique(code, return_index=True, return_inverse=True)
-    return triangles.reshape(-1, 3), tuple(more.ravel()[first] for more in indices)
+    if np.ptp(code) > 8 * len(code):
+        code = np.unique(code, return_inverse=True)[1]
+    code = code - code.min()
+    corner_of = np.full(int(code.max()) + 1, -1)
+    corner_of[code] = np.arange(len(code))
+    is_used = corner_of >= 0
+    triangles = (np.cumsum(is_used) - 1)[code].reshape(-1, 3)
+    return triangles, tuple(more.ravel()[corner_of[is_used]] for more in indices)

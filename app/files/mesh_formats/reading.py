@@ -55,9 +55,8 @@ def check_positions(path: Path, positions: Floats, first: int = 0) -> None:
     first : int
         What the file calls the first vertex.
     """
-    is_placed = (np.abs(positions) <= LARGEST).all(axis=1)
-    if not is_placed.all():
-        where = int(np.argmin(is_placed))
+    if not (positions.min(initial=0) >= -LARGEST and positions.max(initial=0) <= LARGEST):
+        where = int(np.argmin((np.abs(positions) <= LARGEST).all(axis=1)))
         raise MeshFileError(
             f"{path.name}: vertex {where + first} is at {positions[where].tolist()}, "
             f"which is not a number or beyond {LARGEST:.3g}"

@@ -188,7 +188,8 @@ def test_corners_without_what_others_have_are_a_warning(tmp_path):
         ),
         ("", "has no faces"),
         ("f 1 1 2\nf 3 3 3\n", "only degenerate faces"),
-        ("f 1 2 99999999999999999999\n", "cannot be used"),
+        ("f 1 2 99999999999999999999\n", "line 5: 99999999999999999999 is not a corner of a face"),
+        ("vt\n", "line 5: a texture coordinate needs 1 number or more, got 0"),
     ],
 )
 def test_a_broken_file_says_where(tmp_path, lines, wanted):
