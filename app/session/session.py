@@ -239,11 +239,16 @@ class Session(QObject):
     # Stepping.
 
     def step(self, direction: int, level: Level | None = None) -> None:
-        """Go one step forward (1) or back (-1), at the present level or another one."""
-        steps = self.stage_trace.steps
-        level = self._cursor.level if level is None else level
+        """Go one step forward (1) or back (-1), at the present level or another one, from stage to stage."""
+        cursor, steps = self._cursor, self.stage_trace.steps
+        level = cursor.level if level is None else level
         move = steps.forward if direction > 0 else steps.back
-        self._move(replace(self._cursor, position=move(self._cursor.position, level)))
+        position, index = move(cursor.position, level), STAGES.index(cursor.stage) + direction
+        if position != cursor.position:
+            self._move(replace(cursor, position=position))
+        elif 0 <= index < len(STAGES):
+            end = 0 if direction > 0 else self._trace.stage(STAGES[index]).steps.count
+            self._move(replace(cursor, stage=STAGES[index], position=end))
 
     def go_to(self, position: int) -> None:
         """Go to a position of the present stage; the jump can be undone by ``go_back``."""
@@ -263,10 +268,10 @@ class Session(QObject):
         )
 
     def next_stage(self, direction: int) -> None:
-        """Go to the neighbouring stage."""
+        """Go to the start of the neighbouring stage."""
         index = STAGES.index(self._cursor.stage) + direction
         if 0 <= index < len(STAGES):
-            self.set_stage(STAGES[index])
+            self.set_stage(STAGES[index], 0)
 
     def set_level(self, level: Level) -> None:
         """Choose how large a step is."""

@@ -229,7 +229,7 @@ _SIDEWAYS = frozenset({Qt.Key.Key_Left, Qt.Key.Key_Right})
 _UP_DOWN = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down})
 KEYS: tuple[tuple[type[QWidget], frozenset[Qt.Key]], ...] = (
     (QAbstractButton, _PRESS),
-    (QComboBox, _PRESS | _UP_DOWN),
+    (QComboBox, _PRESS),
     (QAbstractSpinBox, _UP_DOWN),
     (QTabBar, _SIDEWAYS),
     (QSplitterHandle, _SIDEWAYS | _UP_DOWN),

@@ -30,6 +30,8 @@ class Stage:
     """The same on a button."""
     row_label: str = ""
     """What a step of level PIXEL is, where it is not a pixel."""
+    view: str = "pixels"
+    """The main view that shows its work, in which it opens."""
     of_triangles: bool = False
     """Whether its work is on triangles, before any pixel is looked at."""
     is_sampled: bool = True
@@ -59,6 +61,7 @@ DECLARED = (
         row_label="Matrix",
         of_triangles=True,
         is_sampled=False,
+        view="scene",
     ),
     Stage(
         name="cull",
@@ -76,6 +79,7 @@ DECLARED = (
         row_label="Plane",
         of_triangles=True,
         is_sampled=False,
+        view="scene",
     ),
     Stage(
         name="clip",
@@ -93,6 +97,7 @@ DECLARED = (
         row_label="Edge",
         of_triangles=True,
         is_sampled=False,
+        view="clip",
     ),
     Stage(
         name="edges",

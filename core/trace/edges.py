@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients, edge_value
 from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
+from core.records.arrays import Floats
 from core.records.listing import listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
@@ -24,14 +25,35 @@ KINDS = (
 )
 
 
+ROWS = 7
+"""Rows of a primitive: three corners, the orientation, three edges."""
+
+
+def known_edges(rows_done: int) -> tuple[int, int]:
+    """Return the primitive that the last of ``rows_done`` rows is about, and how many of its edges are set up."""
+    primitive = max(rows_done - 1, 0) // ROWS
+    return primitive, max(rows_done - ROWS * primitive - 4, 0)
+
+
+def half_plane(source: TraceSource, primitive: int, edge: int) -> Floats:
+    """Return (H, W) float64, the value of an edge function at every pixel's centre, as a pixel's test shows it."""
+    edges, raster = source.geometry.edges, source.raster
+    first_column, first_row, end_column, end_row = raster.bounds
+    x = edges.numbers.of_pixels(raster.along(np.arange(first_column, end_column)))
+    y = edges.numbers.of_pixels(raster.along(np.arange(first_row, end_row)))
+    a, b, c = (part[primitive, edge] for part in (edges.a, edges.b, edges.c))
+    with np.errstate(over="ignore", invalid="ignore"):
+        return edges.numbers.shown_values(edge_value(a, b, c, x, y[:, None]))
+
+
 def trace_edges(source: TraceSource) -> StageTrace:
     """Return seven rows for every primitive: three corners, orientation, three edges."""
     geometry = source.geometry
     edges, corners, numbers = geometry.edges, geometry.edges.corners, geometry.edges.numbers
     ends = numbers.shown_ends(corners)
     count = len(edges)
-    primitive = np.repeat(np.arange(count), 7)
-    place = np.tile(np.arange(7), count)
+    primitive = np.repeat(np.arange(count), ROWS)
+    place = np.tile(np.arange(ROWS), count)
     index = np.array([0, 1, 2, 0, 0, 1, 2])[place]
     left_alone = KINDS.index("rounded" if numbers.corner_kind == "rounded" else "homogeneous")
     corner_kind = np.where(corners.is_projected[primitive, index], KINDS.index("snapped"), left_alone)

@@ -38,6 +38,7 @@ class TypedValue(QWidget):
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.installEventFilter(self)
         self.edit.editingFinished.connect(self._commit)
+        self.edit.returnPressed.connect(self.edit.clearFocus)
         self.edit.textEdited.connect(self._clear_error)
         self.error = text_label("", self, role="bad", wraps=True)
         self.error.hide()

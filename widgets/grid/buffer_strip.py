@@ -195,11 +195,6 @@ class BufferStrip(QWidget):
         for tile in self._tiles.values():
             tile.grid.show_overlays(self._overlays)
 
-    def show_covered(self, name: str, hidden: NDArray[np.bool_] | None) -> None:
-        """Cover the cells of an (H, W) mask in one buffer until they are predicted; None covers none."""
-        self._tiles[name].grid.show_hidden(hidden)
-        self._show_values()
-
     def set_view(self, view: GridView) -> None:
         """Zoom and pan every grid; emits nothing."""
         self._view = view

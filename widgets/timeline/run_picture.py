@@ -30,6 +30,10 @@ class TimelineRun:
     """Number of steps; positions go from 0 to `count`."""
     marks: Mapping[Mark, NDArray[np.int64]] = field(default_factory=dict)
     """Step numbers (n,) per kind of mark, each sorted in ascending order."""
+    has_before: bool = False
+    """Whether a step back from the start leads to another run."""
+    has_after: bool = False
+    """Whether a step from the end leads on to another run."""
 
     def lanes(self) -> tuple[Mark, ...]:
         """Return the outcomes that get a lane, top down."""

@@ -56,6 +56,7 @@ class Timeline(QWidget):
         super().__init__(parent)
         self._count = 0
         self._position = 0
+        self._has_before = self._has_after = False
         self._level = Level.PIXEL
         self.clock = QTimer(self)
         self.clock.setInterval(round(1000 / SPEEDS[2]))
@@ -84,6 +85,7 @@ class Timeline(QWidget):
         self.position_box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.position_box.setFont(tabular_font(self.position_box.font()))
         self.position_box.editingFinished.connect(self._request_position)
+        self.position_box.returnPressed.connect(self.position_box.clearFocus)
         self.count_label = QLabel("/ 0", self)
         self.speed_box = QComboBox(self)
         for speed in SPEEDS:
@@ -102,7 +104,7 @@ class Timeline(QWidget):
     @Slot(object)
     def show_run(self, run: TimelineRun) -> None:
         """Show another run; the position is kept inside it."""
-        self._count = run.count
+        self._count, self._has_before, self._has_after = run.count, run.has_before, run.has_after
         self._position = min(self._position, run.count)
         self._fit_position_box()
         self.count_label.setText(f"/ {run.count:,}")
@@ -111,9 +113,11 @@ class Timeline(QWidget):
 
     @Slot(int)
     def show_position(self, position: int) -> None:
-        """Show how many steps are done; playing stops at the end."""
+        """Show how many steps are done; playing stops at the end of the last run."""
         self._position = position
         self.bar.show_position(position)
+        if not self._can_go_on():
+            self.clock.stop()
         self._update_state()
 
     @Slot(object)
@@ -138,7 +142,7 @@ class Timeline(QWidget):
     @Slot(bool)
     def show_playing(self, is_playing: bool) -> None:
         """Start or stop the clock."""
-        if is_playing and self._position < self._count:
+        if is_playing and self._can_go_on():
             self.clock.start()
         else:
             self.clock.stop()
@@ -148,7 +152,7 @@ class Timeline(QWidget):
     def toggle_play(self) -> None:
         """Start or pause playing as the user; at the end nothing starts."""
         is_playing = not self.clock.isActive()
-        if is_playing and self._position >= self._count:
+        if is_playing and not self._can_go_on():
             return
         self.show_playing(is_playing)
         self.play_toggled.emit(is_playing)
@@ -216,21 +220,22 @@ class Timeline(QWidget):
         layout.addWidget(self.bar)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
+    def _can_go_on(self) -> bool:
+        return self._position < self._count or self._has_after
+
     def _fit_position_box(self) -> None:
         text = "0" * (len(str(self._count)) + 1)
         self.position_box.setFixedWidth(self.position_box.fontMetrics().horizontalAdvance(text) + 16)
 
     def _update_state(self) -> None:
-        can_go_back, can_go_on = self._position > 0, self._position < self._count
-        self.first_button.setEnabled(can_go_back)
-        self.back_button.setEnabled(can_go_back)
-        self.forward_button.setEnabled(can_go_on)
-        self.last_button.setEnabled(can_go_on)
-        self.play_button.setEnabled(can_go_on)
+        is_after_start, is_before_end = self._position > 0, self._position < self._count
+        self.first_button.setEnabled(is_after_start)
+        self.back_button.setEnabled(is_after_start or self._has_before)
+        self.forward_button.setEnabled(self._can_go_on())
+        self.last_button.setEnabled(is_before_end)
+        self.play_button.setEnabled(self._can_go_on())
         if not (self.position_box.hasFocus() and self.position_box.isModified()):
             self.position_box.setText(str(self._position))
-        if not can_go_on and self.clock.isActive():
-            self.clock.stop()
         self._follow_play()
 
     def _follow_play(self) -> None:

@@ -29,11 +29,11 @@ from widgets.grid.range_control import RangeControl
 
 HIGHLIGHT_LIMIT = 4096
 """Pixels of a step that are outlined."""
-RESULTS = ("picture", "triangles")
-"""Buffers that show how everything ends, in every stage."""
 DEFAULT_OVERLAYS = {
+    "edges": frozenset({"edge lines"}),
     "bin": frozenset({"blocks"}),
-    "raster": frozenset({"tie", "nan", "spans", "clip window", "clipped lines"}),
+    "raster": frozenset({"rejected", "tie", "nan", "spans", "clip window", "clipped lines"}),
+    "depth": frozenset({"failed", "nan"}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
 """Overlays that are on at first, by stage."""
@@ -113,6 +113,7 @@ class GridPresenter(QObject):
         main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
         self._strip.show_chosen(main.name)
         self._grid.show_buffer(main)
+        self._grid.show_hidden(None)
         stage_trace, at = session.stage_trace, session.cursor.position
         self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
         self._ranges.show_buffer(main)
@@ -123,7 +124,6 @@ class GridPresenter(QObject):
         pixels = self._step_pixels()
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
-        self._hide_results(buffers, main)
 
     def _stepped_triangle(self) -> int:
         return self._focus
@@ -145,15 +145,6 @@ class GridPresenter(QObject):
         self._geometry = geometry
         self._grid.show_geometry(geometry)
         self._strip.show_geometry(geometry)
-
-    def _hide_results(self, buffers: list[GridBuffer], main: GridBuffer) -> None:
-        """Cover the finished picture while it is to be predicted."""
-        is_hidden = self._session.is_predicting
-        everything = np.ones((main.rows, main.columns), bool) if is_hidden else None
-        for buffer in buffers:
-            if buffer.name in RESULTS:
-                self._strip.show_covered(buffer.name, everything)
-        self._grid.show_hidden(everything if main.name in RESULTS else None)
 
     @Slot()
     def refresh_pointing(self) -> None:

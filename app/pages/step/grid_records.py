@@ -13,7 +13,8 @@ from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.records.arrays import Integers
 from core.resolved import resolve
-from core.trace import BufferTrack, StageTrace
+from core.trace import BufferTrack, StageTrace, TraceSource
+from core.trace.edges import half_plane, known_edges
 from widgets.grid.buffer import BufferKind, GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import (
@@ -49,15 +50,40 @@ STATES = {
 
 
 def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffer]:
-    """Return the buffers of a stage at a position, then the finished picture and its triangles."""
+    """Return the buffers of a stage at a position: what is known by then, and nothing that comes later."""
     done = stage.steps.rows_done(position)
-    picture, origin = trace.source.picture, trace.source.raster.bounds[:2]
-    depth = trace.source.settings.depth
-    buffers = [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
-    buffers.append(GridBuffer("picture", to_display(picture.color).pixels, "color", origin=origin))
-    if not any(track.name == "primitive" for track in stage.buffers):
-        buffers.append(GridBuffer("triangles", picture.primitive, "ids", origin=origin))
-    return buffers
+    source = trace.source
+    if stage.stage == "edges" and resolve(source.settings).sampling.count == 1 and known_edges(done)[1]:
+        return half_planes(source, done)
+    if not stage.buffers:
+        return [_cleared(source)]
+    origin, depth = source.raster.bounds[:2], source.settings.depth
+    return [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
+
+
+def half_planes(source: TraceSource, rows_done: int) -> list[GridBuffer]:
+    """Return the values of the edge functions that are set up of the triangle at hand, the latest one first."""
+    primitive, count = known_edges(rows_done)
+    return [
+        GridBuffer(
+            f"edge {edge}",
+            half_plane(source, primitive, edge),
+            "signed",
+            unit="px²",
+            description=f"Edge function {edge} at every pixel's centre: positive on the inner side of the edge.",
+            origin=source.raster.bounds[:2],
+        )
+        for edge in reversed(range(count))
+    ]
+
+
+def _cleared(source: TraceSource) -> GridBuffer:
+    """Return the colour buffer before the first triangle."""
+    color = np.empty((*source.raster.shape, 4), np.float32)
+    color[:] = source.scene.background
+    description = "Nothing is drawn yet: the colour buffer holds the background."
+    pixels, origin = to_display(color).pixels, source.raster.bounds[:2]
+    return GridBuffer("color", pixels, "color", title="colour", description=description, origin=origin)
 
 
 def _described(buffer: GridBuffer, depth: str) -> GridBuffer:

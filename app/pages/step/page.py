@@ -27,6 +27,7 @@ from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
 from app.session.session import Session
 from app.views.stage_views import StageViews
+from core.stages.declared import stage_of
 from widgets.basics.controls import column_layout, flat_button
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
@@ -146,6 +147,10 @@ class StepPage(Page):
             self._add_view(name, title, widget)
         self._add_view("compare", "A | B", self.compare_view)
         self.view_bar.currentChanged.connect(self._show_view)
+        self._views_by_hand: dict[str, str] = {}
+        self._viewed_stage = self.session.cursor.stage
+        self.view_bar.tabBarClicked.connect(self._choose_view)
+        self.session.cursor_changed.connect(self._follow_stage)
         top = QWidget(self)
         layout = column_layout(top, 4)
         layout.addWidget(self.view_bar)
@@ -280,6 +285,22 @@ class StepPage(Page):
             self.views.show(name)
         self.comparing.set_active(name == "compare")
 
+    @Slot(int)
+    def _choose_view(self, index: int) -> None:
+        """Show a main view, and again whenever the stage is entered: the user's wish."""
+        if index >= 0:
+            self._views_by_hand[self.session.cursor.stage] = self.view_bar.tabData(index)
+            self.view_bar.setCurrentIndex(index)
+
+    @Slot()
+    def _follow_stage(self) -> None:
+        """Show a stage that is entered in the view that was chosen for it, or else in its own; A | B stays."""
+        stage = self.session.cursor.stage
+        if stage != self._viewed_stage:
+            self._viewed_stage = stage
+            if self.current_view() != "compare":
+                self.show_view(self._views_by_hand.get(stage, stage_of(stage).view))
+
     def view_names(self) -> list[str]:
         """Return the names of the main views."""
         return [self.view_bar.tabData(index) for index in range(self.view_bar.count())]
@@ -310,7 +331,7 @@ class StepPage(Page):
 
     def next_view(self) -> None:
         """Show the next main view."""
-        self.view_bar.setCurrentIndex((self.view_bar.currentIndex() + 1) % self.view_bar.count())
+        self._choose_view((self.view_bar.currentIndex() + 1) % self.view_bar.count())
 
     def toggle_compare(self) -> None:
         """Show A | B | difference, or the pixels again."""

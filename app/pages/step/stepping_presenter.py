@@ -38,6 +38,8 @@ EVENT_TITLES = {
     "nan": "NaN or infinity",
     "depth-failed": "depth failed",
 }
+LAST_STEP = "The picture is finished. Press Home for the start of this stage, 1 for the first stage."
+FIRST_STEP = "Nothing comes before this. Press Right for the first step."
 
 
 @dataclass(frozen=True)
@@ -150,7 +152,8 @@ class SteppingPresenter(QObject):
         marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
         here = [mark.position - 1 for mark in self.bookmarks if mark.stage == trace.stage]
         marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
-        self._timeline.show_run(TimelineRun(trace.steps.count, marks))
+        place, last = STAGES.index(trace.stage), len(STAGES) - 1
+        self._timeline.show_run(TimelineRun(trace.steps.count, marks, place > 0, place < last))
         self._timeline.show_position(self._session.cursor.position)
 
     @Slot(object)
@@ -185,11 +188,12 @@ class SteppingPresenter(QObject):
 
     @Slot(int)
     def step(self, direction: int) -> None:
-        """Step once at the present level; playing stops at the end."""
+        """Step once at the present level, from stage to stage; playing stops at the end of the last one."""
         before = self._session.cursor
         self._session.step(direction)
-        if self._session.cursor == before and self._timeline.is_playing():
+        if self._session.cursor == before:
             self._timeline.show_playing(False)
+            self._tell(LAST_STEP if direction > 0 else FIRST_STEP)
 
     @Slot(int)
     def go_to_end(self, direction: int) -> None:
@@ -198,14 +202,15 @@ class SteppingPresenter(QObject):
 
     @Slot(int)
     def choose_stage(self, index: int) -> None:
-        """Go to a stage by its place in the rail."""
-        self._session.set_stage(STAGES[index])
+        """Go to the start of a stage, by its place in the rail."""
+        self._session.set_stage(STAGES[index], 0)
 
     def toggle_play(self) -> None:
-        """Play or pause; at the end, play from the start."""
+        """Play or pause; at the end of the last stage, play from the first."""
         trace, cursor = self._session.stage_trace, self._session.cursor
-        if not self._timeline.is_playing() and cursor.position >= trace.steps.count:
-            self._session.go_to(0)
+        is_at_end = cursor.stage == STAGES[-1] and cursor.position >= trace.steps.count
+        if is_at_end and not self._timeline.is_playing():
+            self._session.set_stage(STAGES[0], 0)
         self._timeline.toggle_play()
 
     def change_level(self, direction: int) -> None:

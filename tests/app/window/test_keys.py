@@ -89,6 +89,9 @@ def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:
     assert has_use_for(button, pressed(Qt.Key.Key_Space))
     assert not has_use_for(button, pressed(Qt.Key.Key_Right))
     assert not has_use_for(button, pressed(Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier))
-    assert has_use_for(combo, pressed(Qt.Key.Key_Down))
+    assert has_use_for(combo, pressed(Qt.Key.Key_Space))
+    assert not has_use_for(combo, pressed(Qt.Key.Key_Down)), (
+        "Down makes steps smaller, also after a look at a list"
+    )
     assert has_use_for(tabs, pressed(Qt.Key.Key_Left))
     assert not has_use_for(None, pressed(Qt.Key.Key_Space))

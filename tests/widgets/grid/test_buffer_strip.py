@@ -119,16 +119,6 @@ def test_hidden_buffers_are_remembered(strip: BufferStrip, qtbot) -> None:
     assert strip.tile("c").isVisible()
 
 
-def test_a_covered_value_is_a_question_mark(strip: BufferStrip) -> None:
-    hidden = np.zeros((3, 4), np.bool_)
-    hidden[1, 2] = True
-    strip.show_pin((2, 1))
-    strip.show_covered("z", hidden)
-    assert strip.tile("z").value.text() == "?"
-    strip.show_covered("z", None)
-    assert strip.tile("z").value.text() == "6"
-
-
 def test_vector_values_lose_digits_before_they_are_cut(strip: BufferStrip) -> None:
     strip.show_pin((1, 2))
     tile = strip.tile("w")

@@ -19,10 +19,6 @@ def asking(window: MainWindow) -> MainWindow:
 def test_results_are_hidden_while_asking(asking: MainWindow) -> None:
     page = asking.page
     assert page.prediction.isVisible()
-    for name in ("picture", "triangles"):
-        hidden = page.strip.tile(name).grid.hidden()
-        assert hidden is not None
-        assert hidden.all()
     assert all(len(places) == 0 for places in page.timeline.bar.run().marks.values())
     asking.session.set_pin((30, 20))
     page.detail_tabs.setCurrentWidget(page.history)
@@ -34,7 +30,6 @@ def test_everything_is_shown_again(asking: MainWindow) -> None:
     asking.run_action("predict")
     page = asking.page
     assert not page.prediction.isVisible()
-    assert page.strip.tile("picture").grid.hidden() is None
     assert page.grid.hidden() is None
     assert any(len(places) for places in page.timeline.bar.run().marks.values())
 

@@ -1,13 +1,17 @@
 """The stepping presenter: runs to events, pins, breakpoints, lines and bookmarks; what the rail and timeline show."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.pages.step.grid_records import buffers_of
 from app.pages.step.stepping_presenter import EVENT_TITLES
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
+from core.stages.declared import stage_of
 from widgets.basics.marks import Mark
 
 
@@ -160,7 +164,76 @@ def test_a_level_button_changes_how_far_a_step_goes(window: MainWindow) -> None:
     assert session.cursor.position == session.stage_trace.steps.boundaries(Level.TRIANGLE)[1]
     window.page.timeline.back_button.click()
     assert session.cursor.position == 0
+    window.page.timeline.back_button.click()
+    assert session.cursor.stage == "bin"
+    session.set_stage(STAGES[0], 0)
     assert not window.page.timeline.back_button.isEnabled()
+
+
+def test_right_and_left_walk_the_whole_run(window: MainWindow) -> None:
+    session = window.session
+    session.set_stage(STAGES[0], 0)
+    window.run_action("step_back")
+    assert "Nothing comes before this" in window.statusBar().currentMessage()
+    for level in (Level.STAGE, Level.TRIANGLE):
+        session.set_level(level)
+        visited = [session.cursor]
+        while len(visited) < 1000:
+            window.run_action("step_forward")
+            if session.cursor == visited[-1]:
+                break
+            visited.append(session.cursor)
+        assert list(dict.fromkeys(cursor.stage for cursor in visited)) == list(STAGES)
+        for before, after in pairwise(visited):
+            assert after.position == 0 if after.stage != before.stage else after.position > before.position
+        assert "The picture is finished" in window.statusBar().currentMessage()
+        for cursor in reversed(visited[:-1]):
+            window.run_action("step_back")
+            assert session.cursor == cursor
+
+
+def test_a_stage_is_entered_at_its_start_in_the_view_that_shows_it(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    for number, stage in enumerate(STAGES[:10]):
+        window.run_action(f"stage_{number}")
+        assert (session.cursor.stage, session.cursor.position) == (stage, 0)
+        assert page.current_view() == stage_of(stage).view
+    window.run_action("stage_2")
+    page.view_bar.tabBarClicked.emit(page.view_names().index("pyramid"))
+    window.run_action("stage_5")
+    assert page.current_view() == "pixels"
+    window.run_action("stage_2")
+    assert page.current_view() == "pyramid", "chosen by hand for this stage"
+
+
+def test_buffers_hold_nothing_that_comes_later(window: MainWindow) -> None:
+    session = window.session
+    for stage in STAGES:
+        session.set_stage(stage, 0)
+        trace = session.stage_trace
+        shown = buffers_of(trace, session.trace, 0)
+        if trace.buffers:
+            assert [buffer.name for buffer in shown] == [track.name for track in trace.buffers]
+            for buffer, track in zip(shown, trace.buffers, strict=True):
+                assert np.array_equal(np.asarray(buffer.known), track.known_at(0))
+        else:
+            (cleared,) = shown
+            assert (cleared.values == cleared.values[0, 0]).all(), "only the background"
+
+
+def test_half_planes_are_the_values_that_pixels_are_tested_with(window: MainWindow) -> None:
+    session = window.session
+    session.set_stage("edges", 0)
+    raster = session.trace.stage("raster")
+    tested = raster.triangle == session.stage_trace.triangle[0]
+    column, row = raster.pixel[tested].T
+    for count in (4, 5, 7):
+        session.go_to(int(session.stage_trace.steps.starts[count]))
+        shown = buffers_of(session.stage_trace, session.trace, session.cursor.position)
+        assert len(shown) == max(count - 4, 1)
+        for buffer in shown if count > 4 else ():
+            edge = int(buffer.name[-1])
+            assert np.array_equal(buffer.values[row, column], raster.columns["values"][tested, edge])
 
 
 def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
