@@ -7,11 +7,20 @@ from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, progress
 from app.cli.commands import UsageError, output_folder
 from app.cli.window import load_qt
 from app.files.open_any import open_any
-from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
+from app.pages.words import (
+    digits,
+    interval_text,
+    machine_sentence,
+    place_text,
+    settings_sentence,
+    time_text,
+    work_sentence,
+)
 from core import Settings
 from core.study import Study, machine, measure, pareto_front, study_families, study_family
 from core.study.accuracy.family import chosen_dials
 from core.study.accuracy.speed_accuracy import ROUNDS
+from core.study.accuracy.timing import ranks
 
 DESCRIPTION = """Measure every method of a family on the same work: time, work counts and errors against an exact
 reference. If a method cannot do the work, the reason is printed."""
@@ -48,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=rounds_from_text,
         default=ROUNDS,
-        help=f"rounds of measurement ({ROUNDS})",
+        help=f"rounds of measurement, more until the order is stable ({ROUNDS})",
     )
     parser.add_argument(
         "--seed", metavar="N", type=seed_from_text, default=0, help="seed of the random work (0)"
@@ -153,25 +162,25 @@ def list_text() -> list[str]:
 
 def table_text(study: Study) -> list[str]:
     """Return the table that is printed: a star before a method that is on the Pareto front of the first error."""
-    front = pareto_front(study.points, study.measures[0].name)
+    front, places = pareto_front(study.points, study.measures[0].name), ranks(study.points)
     head = [
         "",
         "method",
         f"time/{study.work.unit}",
-        "quartiles",
+        "least",
+        "interval",
+        "place",
         *(measure.name for measure in study.measures),
     ]
     rows = [head]
     for point in study.points:
         if not point.is_measured:
-            rows.append(["", point.method, "–", "", *[""] * len(study.measures)])
+            rows.append(["", point.method, "–", "", "", "", *[""] * len(study.measures)])
             continue
-        low, high = point.spread
+        times = [time_text(point.least), interval_text(point.interval), place_text(places[point.method])]
         errors = [digits(point.errors[measure.name]) for measure in study.measures]
         mark = "*" if point in front else ""
-        rows.append(
-            [mark, point.method, time_text(point.median), f"{time_text(low)} to {time_text(high)}", *errors]
-        )
+        rows.append([mark, point.method, time_text(point.median), *times, *errors])
     lines = [f"{study.title}: {work_sentence(study)}", *aligned(rows)]
     lines += [f"{point.method}: {point.refused}" for point in study.points if point.refused]
     reasons = dict.fromkeys(
@@ -180,6 +189,7 @@ def table_text(study: Study) -> list[str]:
     lines += [*reasons, "", *count_lines(study)]
     units = ", ".join(f"{measure.name} in {measure.unit}" for measure in study.measures if measure.unit)
     lines += [f"* on the Pareto front of time and {study.measures[0].name}. Errors: {units}."]
+    lines += ["Time: the median. Methods whose places overlap are not told apart."]
     return [*lines, settings_sentence(study), machine_sentence(study)]
 
 

@@ -17,11 +17,12 @@ ENDINGS = (".svg", ".png", ".csv", EXTENSION)
 """Of the files that a study is written to."""
 CHART_HEIGHT = 460
 EXPLANATION = (
-    "A bar runs from the lower to the upper quartile. The dashed line is the Pareto front: no other method beats a "
-    "method on it in both."
+    "A mark stands at the median of the times, its bar from the least to the end of the interval that holds the true "
+    "median. Methods whose intervals overlap are not told apart. The dashed line is the Pareto front: no other method "
+    "beats a method on it in both."
 )
 FIXED = ("method", "title", "rounds", "unit", "units")
-TIMES = ("median_seconds_per_unit", "lower_quartile", "upper_quartile")
+TIMES = ("median_seconds_per_unit", "least", "interval_low", "interval_high")
 
 
 def study_csv(study: Study) -> str:
@@ -65,9 +66,9 @@ def point_cells(study: Study, point: Point) -> dict[str, object]:
     cells: dict[str, object] = {"method": point.method, "title": point.title, "refused": point.refused}
     if not point.is_measured:
         return cells
-    low, high = point.spread
+    times = (point.median, point.least, *point.interval)
     cells |= {"rounds": len(point.seconds), "unit": study.work.unit, "units": point.unit_count}
-    cells |= dict(zip(TIMES, (repr(point.median), repr(low), repr(high)), strict=True))
+    cells |= dict(zip(TIMES, map(repr, times), strict=True))
     cells |= {name: "" if isnan(value) else repr(value) for name, value in point.errors.items()}
     cells |= dict(point.counts)
     cells["not_defined"] = " ".join(f"{name}: {reason}" for name, reason in point.reasons.items())

@@ -17,6 +17,17 @@ def time_text(seconds: float) -> str:
     return f"{digits(seconds / 1e-9)} ns"
 
 
+def interval_text(interval: tuple[float, float]) -> str:
+    """Return two times: ``1.2 ms to 1.4 ms``."""
+    return " to ".join(map(time_text, interval))
+
+
+def place_text(places: tuple[int, int]) -> str:
+    """Return the places that a method may have by its time: ``3``, or ``3–5`` where it is not told apart."""
+    first, last = places
+    return str(first) if first == last else f"{first}–{last}"
+
+
 def digits(number: float, count: int = 3) -> str:
     """Return a number with ``count`` digits, without an exponent where it stays short."""
     if number == 0:
@@ -50,6 +61,7 @@ def machine_words(here: Mapping[str, str]) -> str:
     return (
         f"{here.get('processor', '?')}, {here.get('system', '?')}; Python {here.get('python', '?')}, "
         f"NumPy {here.get('numpy', '?')}, Rasterscope {here.get('rasterscope', '?')}; {here.get('date', '?')}"
+        + (f"; {here['load']}" if "load" in here else "")
     )
 
 

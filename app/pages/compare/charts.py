@@ -35,6 +35,11 @@ def cost_value(point: Point, cost: str) -> float:
     return float(point.counts[cost]) if point.is_measured and cost in point.counts else np.nan
 
 
+def bar_of(point: Point) -> tuple[float, float]:
+    """Return the ends of a measured point's bar: its least time, and the end of the interval of the median."""
+    return point.least, point.interval[1]
+
+
 def measure_of(study: Study, name: str) -> ErrorMeasure:
     """Return an error measure by its name, or the first."""
     return next((measure for measure in study.measures if measure.name == name), study.measures[0])
@@ -75,7 +80,7 @@ def scatter_of(
             numbers[point.method],
             np.array([cost_value(point, cost)]),
             np.array([point.errors[measure.name]]),
-            np.array([point.spread]) if cost == TIME else None,
+            np.array([bar_of(point)]) if cost == TIME else None,
         )
         for point in study.points
         if not np.isnan(cost_value(point, cost)) and not np.isnan(point.errors.get(measure.name, np.nan))
@@ -136,7 +141,7 @@ def _growing(
     for value in sorted(growth):
         here = next((each for each in growth[value] if each.method == point.method), None)
         if here is not None and not np.isnan(cost_value(here, cost)):
-            found.append((value, cost_value(here, cost), here.spread))
+            found.append((value, cost_value(here, cost), bar_of(here)))
     if not found:
         return None
     return ChartSeries(

@@ -1,14 +1,23 @@
 """The figures of a study in words: of one method, of the whole, and as a table."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from html import escape
 from math import isinf, isnan
 
 from app.pages.compare.charts import costs_of, title_of
-from app.pages.words import digits, machine_sentence, settings_sentence, time_text, work_sentence
+from app.pages.words import (
+    digits,
+    interval_text,
+    machine_sentence,
+    place_text,
+    settings_sentence,
+    time_text,
+    work_sentence,
+)
 from core.methods import table
 from core.records.words import counted
 from core.study.accuracy.record import ErrorMeasure, Point, Study
+from core.study.accuracy.timing import ranks
 from widgets.charts.study_table import Cell, TableRecord
 
 
@@ -36,10 +45,11 @@ def point_text(study: Study, point: Point) -> str:
     elif not point.is_measured:
         parts.append("Not measured yet.")
     else:
-        low, high = point.spread
         rows = [
             (f"time per {study.work.unit}", time_text(point.median)),
-            ("quartiles", f"{time_text(low)} to {time_text(high)}"),
+            ("least", time_text(point.least)),
+            ("interval of the median", interval_text(point.interval)),
+            ("place by time", place_text(ranks(study.points)[point.method])),
             ("rounds", f"{len(point.seconds)} of {counted(point.unit_count, study.work.unit)} each"),
         ]
         rows += [
@@ -96,29 +106,34 @@ def study_text(study: Study, path: str = "") -> str:
 def table_of(study: Study) -> TableRecord:
     """Return the numbers of all methods; each cell has the full value too."""
     costs = costs_of(study.points)[1:]
-    head = ["Method", f"Time per {study.work.unit}", "Lower quartile", "Upper quartile"]
+    head = ["Method", f"Time per {study.work.unit}", "Least", "Interval from", "Interval to", "Place by time"]
     head += [
         f"{measure.title} ({measure.unit})" if measure.unit else measure.title for measure in study.measures
     ]
     head += [cost[:1].upper() + cost[1:] for cost in costs]
     head.append("Note")
-    rows = tuple(_row(study, point, costs) for point in study.points)
+    places = ranks(study.points)
+    rows = tuple(_row(study, point, costs, places) for point in study.points)
     return TableRecord(tuple(head), tuple(point.method for point in study.points), rows)
 
 
-def _row(study: Study, point: Point, costs: list[str]) -> tuple[Cell, ...]:
+def _row(
+    study: Study, point: Point, costs: list[str], places: Mapping[str, tuple[int, int]]
+) -> tuple[Cell, ...]:
     name = Cell(title_of(point, [each.method for each in study.points]))
     if not point.is_measured:
         empty = Cell("–")
         return (
             name,
-            *[empty] * (3 + len(study.measures) + len(costs)),
+            *[empty] * (5 + len(study.measures) + len(costs)),
             Cell(point.refused or "Not measured."),
         )
-    times = (point.median, *point.spread)
+    times = (point.median, point.least, *point.interval)
+    place = places[point.method]
     return (
         name,
         *(Cell(time_text(seconds), seconds, repr(seconds)) for seconds in times),
+        Cell(place_text(place), sum(place) / 2),
         *(_error_cell(point.errors.get(measure.name, float("nan"))) for measure in study.measures),
         *(_count_cell(point.counts.get(cost)) for cost in costs),
         Cell(" ".join(dict.fromkeys(point.reasons.values()))),

@@ -13,6 +13,7 @@ from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.accuracy.timing import is_faster, median_interval
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Point:
     """``family=name`` of the table, as ``line=dda``; several joined by a blank where a point is a choice of several."""
     title: str
     seconds: Floats = field(default_factory=lambda: np.empty(0))
-    """(R,) float64 seconds of one run each, in the R interleaved rounds; empty: not measured."""
+    """(R,) float64 seconds of one run, the least of a block, in the R interleaved rounds; empty: not measured."""
     unit_count: int = 0
     """Units of work (`WorkKind.unit`) in one run."""
     counts: Mapping[str, int] = field(default_factory=dict)
@@ -88,11 +89,20 @@ class Point:
         """Median of the seconds per unit."""
         return float(np.median(self.seconds_per_unit))
 
+    @property
+    def run_count(self) -> int:
+        """How many blocks were timed."""
+        return len(self.seconds)
+
     @cached_property
-    def spread(self) -> tuple[float, float]:
-        """Lower and upper quartile of the seconds per unit."""
-        low, high = np.quantile(self.seconds_per_unit, [0.25, 0.75])
-        return float(low), float(high)
+    def least(self) -> float:
+        """Least of the seconds per unit: what a machine that does something else cannot lengthen."""
+        return float(self.seconds_per_unit.min())
+
+    @cached_property
+    def interval(self) -> tuple[float, float]:
+        """Seconds per unit between which the true median lies, with a chance of 95 % from six rounds on."""
+        return median_interval(self.seconds_per_unit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,22 +161,35 @@ def pareto_front(points: tuple[Point, ...], measure: str, count: str = "") -> tu
     measure : str
         Key of `Point.errors`.
     count : str, optional
-        What the methods are charged with: a key of `Point.counts`; their median time by default.
+        What the methods are charged with: a key of `Point.counts`; their time by default.
+
+    Notes
+    -----
+    Of two methods whose times are not told apart, the one with the larger error is beaten.
     """
-    ranked = sorted(
-        (
-            (float(point.counts[count]) if count else point.median, point.errors[measure], place)
-            for place, point in enumerate(points)
-            if point.is_measured
-            and np.isfinite(point.errors.get(measure, np.nan))
-            and (not count or count in point.counts)
-        ),
-    )
+    known = [
+        point
+        for point in points
+        if point.is_measured
+        and np.isfinite(point.errors.get(measure, np.nan))
+        and (not count or count in point.counts)
+    ]
+
+    def cost(point: Point) -> float:
+        return float(point.counts[count]) if count else point.median
+
+    def is_cheaper(first: Point, second: Point) -> bool:
+        return cost(first) < cost(second) if count else is_faster(first, second)
+
     front: list[Point] = []
-    for _, error, place in ranked:
-        if not front or error < front[-1].errors[measure]:
-            front.append(points[place])
-    return tuple(front)
+    for point in sorted(known, key=lambda each: (each.errors[measure], cost(each))):
+        error = point.errors[measure]
+        if not any(
+            is_cheaper(other, point) or (other.errors[measure] < error and not is_cheaper(point, other))
+            for other in front
+        ):
+            front.append(point)
+    return tuple(sorted(front, key=cost))
 
 
 def machine(program_version: str) -> dict[str, str]:

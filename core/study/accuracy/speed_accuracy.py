@@ -1,15 +1,17 @@
 """Measure all methods of a family on the same work: time in interleaved rounds, work counts, errors.
 
 Every method first runs once untimed (what it made then is counted and compared), then all take turns: round by round,
-each round beginning with another one, with the garbage collector off. Of a method whose runs are slow fewer are timed:
-it takes part in the first round, and in another one only while all its timed runs stay below `BUDGET` seconds together.
+each round beginning with another one, with the garbage collector off. A turn is a block of runs, of which the shortest
+counts. While methods are not told apart whose times differ, or their order changes, there are more rounds. Of a method
+whose runs are slow fewer are timed: it takes part in the first round, and in another one only while all its blocks stay
+below `BUDGET` seconds together.
 """
 
 import gc
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from time import perf_counter
+from time import perf_counter, thread_time
 
 import numpy as np
 
@@ -18,13 +20,16 @@ from core.settings import Settings
 from core.study.accuracy.families import study_family
 from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task, chosen_dials, settings_of
 from core.study.accuracy.record import Dial, Opening, Pictures, Point, Study, WorkKind
+from core.study.accuracy.timing import SURE, Load, is_settled, ranks
 
 ROUNDS = 9
 GROWTH_ROUNDS = 3
+MOST_TIMES = 4
+"""So many times the rounds asked for are measured at most, until the order is stable."""
 BUDGET = 2.0
-"""Seconds of timed runs of one method."""
-SHORT = 0.005
-"""Seconds: a run that is shorter is preceded by an untimed one, as the method before it has filled the caches."""
+"""Seconds of timed blocks of one method."""
+BLOCK = 0.003
+"""Seconds: a block goes on while it is shorter, so that the caches that another method has filled do not count."""
 
 Progress = Callable[[float, str], None]
 
@@ -41,14 +46,16 @@ class _Turn:
     settings: Settings
     point: Point
     last: float = 0.0
-    """Seconds of the run before."""
+    """Seconds of the run, or block, before."""
+    spent: float = 0.0
+    """Seconds of all blocks."""
     seconds: list[float] = field(default_factory=list)
 
     def takes_part(self) -> bool:
         """Whether another run fits the method's time."""
         if self.point.refused:
             return False
-        return not self.seconds or sum(self.seconds) + self.last <= BUDGET
+        return not self.seconds or self.spent + self.last <= BUDGET
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +68,7 @@ class _Watch:
     run_count: int
     done: list[str] = field(default_factory=list)
     """What has been run."""
+    load: Load = field(default_factory=Load)
 
     def next(self, doing: str) -> None:
         """Say what is run next; raise StudyCancelledError if nobody wants it any more."""
@@ -109,14 +117,15 @@ def measure(
     extra : tuple of Candidate
         Settings that are measured along with the family's own, as the choice of a plan.
     rounds : int
-        Timed runs of every method, fewer of slow ones.
+        Timed blocks of every method, fewer of slow ones; from `core.study.accuracy.timing.SURE` on up to `MOST_TIMES`
+        as many, until the order is stable.
     grow : bool
         Measure, with three rounds and without errors, at all values of the cost dial too. A method whose run takes more
         than `BUDGET` seconds, or that is refused, is left out at larger values.
     seed : int
         Of the random numbers that the work is made from.
     machine : mapping of str to str, optional
-        Kept in the study, see `core.study.accuracy.record.machine`.
+        Kept in the study, see `core.study.accuracy.record.machine`; how busy it was is added.
     progress : callable, optional
         Called before every run with the fraction done and what is being done.
     is_cancelled : callable, optional
@@ -170,7 +179,7 @@ def measure(
         measures=found.measures,
         points=points,
         growth=dict(sorted(growth.items())),
-        machine=dict(machine or {}),
+        machine=dict(machine or {}) | {"load": watch.load.sentence()},
         settings=base,
         scene=scene_title,
     )
@@ -210,13 +219,22 @@ def _measure_points(
         if turn.point.refused:
             watch.show(turn.point)
         turns.append(turn)
-    for number in range(rounds):
+    order: dict[str, tuple[int, int]] = {}
+    for number in range(rounds * MOST_TIMES):
         first = number % max(len(turns), 1)
         for turn in turns[first:] + turns[:first]:
             if turn.takes_part():
                 watch.next(f"{turn.candidate.title}{where}, round {number + 1} of {rounds}")
-                _timed_run(task, turn)
+                _timed_block(task, turn, watch.load)
                 watch.show(turn.point)
+        if number + 2 < rounds:
+            continue
+        points = [turn.point for turn in turns]
+        before, order = order, ranks(points)
+        is_stable = order == before and is_settled(points)
+        is_spent = rounds < SURE or not any(turn.takes_part() for turn in turns)
+        if number + 1 >= rounds and (is_stable or is_spent):
+            break
     return tuple(turn.point for turn in turns)
 
 
@@ -244,17 +262,20 @@ def _sentence(problem: Exception) -> str:
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 
-def _timed_run(task: Task, turn: _Turn) -> None:
-    """Run a method once more, and add its time to its point."""
-    if turn.last < SHORT:
-        task.start(turn.settings)()
-    call = task.start(turn.settings)
-    with collector_off():
-        start = perf_counter()
-        made = call()
-        elapsed = perf_counter() - start
-    turn.last = elapsed
-    turn.seconds.append(task.seconds(made, elapsed))
+def _timed_block(task: Task, turn: _Turn, load: Load) -> None:
+    """Run a method until a block is full, and add its shortest run to its point."""
+    spent, least = 0.0, np.inf
+    while least == np.inf or spent < BLOCK:
+        call = task.start(turn.settings)
+        with collector_off():
+            own, start = thread_time(), perf_counter()
+            made = call()
+            elapsed = perf_counter() - start
+            load.add(elapsed, thread_time() - own)
+        spent += elapsed
+        least = min(least, task.seconds(made, elapsed))
+    turn.last, turn.spent = spent, turn.spent + spent
+    turn.seconds.append(least)
     turn.point = replace(turn.point, seconds=np.array(turn.seconds))
 
 

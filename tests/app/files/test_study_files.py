@@ -143,7 +143,8 @@ def test_the_table_has_the_numbers_of_the_study(study: Study) -> None:
             assert row["median_seconds_per_unit"] == row["wrong"] == ""
             continue
         assert float(row["median_seconds_per_unit"]) == point.median
-        assert (float(row["lower_quartile"]), float(row["upper_quartile"])) == point.spread
+        assert float(row["least"]) == point.least
+        assert (float(row["interval_low"]), float(row["interval_high"])) == point.interval
         for name, value in point.errors.items():
             assert row[name] == ("" if np.isnan(value) else repr(value))
         for name, count in point.counts.items():

@@ -49,7 +49,7 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
     for series, point in zip(picture.series, study.points, strict=True):
         assert (series.x[0], series.y[0]) == (point.median, point.errors[WRONG])
         assert series.x_spread is not None
-        assert tuple(series.x_spread[0]) == point.spread
+        assert tuple(series.x_spread[0]) == (point.least, point.interval[1])
     exact = [point for point in study.points if point.errors[WRONG] == 0]
     assert min(exact, key=lambda point: point.median).method in picture.front
     assert page.entries.currentItem().text() == "Hidden surfaces"
