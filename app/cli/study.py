@@ -189,7 +189,7 @@ def table_text(study: Study) -> list[str]:
     lines += [*reasons, "", *count_lines(study)]
     units = ", ".join(f"{measure.name} in {measure.unit}" for measure in study.measures if measure.unit)
     lines += [f"* on the Pareto front of time and {study.measures[0].name}. Errors: {units}."]
-    lines += ["Time: the median. Methods whose places overlap are not told apart."]
+    lines += ["Time: the median. The order of methods whose places overlap is undecided."]
     return [*lines, settings_sentence(study), machine_sentence(study)]
 
 
