@@ -1,7 +1,6 @@
 """The window, opened from the command line."""
 
 import os
-import signal
 import sys
 from importlib import import_module
 
@@ -27,8 +26,6 @@ def run(target: str | None) -> int:
     load_qt()
     from app.window.start import run_window
 
-    # Qt's event loop is not Python: Ctrl+C in the terminal ends the process, as the shell expects.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run_window(target)
 
 

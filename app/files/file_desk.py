@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.background.progress import WorkProgress
 from app.background.workers import Job, Progress
 from app.export.views import copy_widget, export_widget
+from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError
 from app.files.open_any import Opened, open_any
 from app.files.save_dialog import SaveDialog
@@ -78,7 +79,7 @@ class FileActions(QObject):
         self._messages.clear()
         if opened.warnings:
             self._tell(opened.warnings[0], MessageKind.WARNING, "\n".join(opened.warnings[1:]))
-        if opened.document.path:
+        if is_text(opened.document.path) and opened.document.path:
             self.file_used.emit(opened.document.path)
 
     def show_opened(self, opened: Opened, trace: Trace | None = None) -> None:

@@ -1,10 +1,11 @@
 """Where the arrays of a mesh come from: fingerprints tell whether a file or built-in scene still has them."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
+from weakref import ReferenceType, ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,10 @@ class _Remembered:
     fingerprints: Fingerprints
 
 
+LARGE = 1 << 16
+"""Bytes of an array whose fingerprint is worth remembering."""
+_fingerprints: dict[int, tuple[ReferenceType[NDArray[Any]], str]] = {}
+"""By identity of the array."""
 _remembered: dict[Path, _Remembered] = {}
 """What the opened files hold, so that saving need not read them again."""
 
@@ -40,10 +45,25 @@ def array_of(mesh: Mesh, name: str) -> NDArray[Any] | None:
 
 
 def fingerprint(array: NDArray[Any]) -> str:
-    """Return a text that is the same for arrays of the same type, shape and bits, and for no others."""
+    """Return a text that is the same for arrays of the same type, shape and bits, and for no others.
+
+    That of a large array that cannot change is computed once.
+    """
+    known = _fingerprints.get(id(array))
+    if known is not None and known[0]() is array:
+        return known[1]
     digest = sha256(f"{array.dtype.str} {array.shape} ".encode())
     digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()[:32]
+    text = digest.hexdigest()[:32]
+    if array.nbytes >= LARGE and not array.flags.writeable:
+        _fingerprints[id(array)] = ref(array, partial(_forget, id(array))), text
+    return text
+
+
+def _forget(identity: int, gone: ReferenceType[NDArray[Any]]) -> None:
+    # Another array may have the same identity by now.
+    if identity in _fingerprints and _fingerprints[identity][0] is gone:
+        del _fingerprints[identity]
 
 
 def fingerprints_of(meshes: tuple[Mesh, ...]) -> Fingerprints:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.files.file_names import shown_name
 from app.files.mesh_files import MeshFileError, open_mesh
 from app.files.mesh_formats import Report
 from app.files.mesh_sources import remember_file
@@ -59,4 +60,6 @@ def open_any(
         return Opened(state.document, warnings, state, str(path))
     opened = open_mesh(target, progress, is_cancelled)
     remember_file(path, opened.scene.meshes)
-    return Opened(open_document(opened.scene, path.stem, str(path)), opened.warnings, None, str(path))
+    return Opened(
+        open_document(opened.scene, shown_name(path.stem), str(path)), opened.warnings, None, str(path)
+    )

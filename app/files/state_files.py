@@ -14,8 +14,9 @@ from typing import Any
 from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
+from app.files.state_arrays import array_record
 from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
-from app.files.state_scenes import StateFileError, in_field, scene_from_record, scene_record
+from app.files.state_scenes import Keep, StateFileError, in_field, scene_from_record, scene_record
 from app.session.document import VIEWS, Document, TeachingRaster
 from core import STAGES
 from core.scene import AnyScene
@@ -49,7 +50,7 @@ class State:
     """Name of the main view."""
 
 
-def save_state(path: str | Path, state: State) -> None:
+def save_state(path: str | Path, state: State, keep: Keep = array_record) -> None:
     """Write a state file.
 
     Parameters
@@ -57,6 +58,8 @@ def save_state(path: str | Path, state: State) -> None:
     path : str or Path
         The ending is not added.
     state : State
+    keep : callable, optional
+        Makes the record of a mesh's array that has no source; by default it stands in the file.
 
     Raises
     ------
@@ -73,7 +76,7 @@ def save_state(path: str | Path, state: State) -> None:
         program="rasterscope",
         version=VERSION,
         title=document.title,
-        scene=scene_record(document.scene, document.path, path.resolve().parent),
+        scene=scene_record(document.scene, document.path, path.resolve().parent, keep),
         settings=settings,
         raster=RasterRecord(
             columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
@@ -120,9 +123,7 @@ def load_state(
         record = read_record(
             path, StateRecord, "rasterscope", "a state file", VERSION, limit=SIZE_LIMIT, union="scene"
         )
-        scene, mesh_path, warnings = scene_from_record(
-            record.scene, path.resolve().parent, progress, is_cancelled
-        )
+        scene, mesh_path, warnings = scene_from_record(record.scene, path.resolve(), progress, is_cancelled)
         state = _state(record, scene, mesh_path)
         return without_stray_pin(state, warnings)
     except (SavedRecordError, StateFileError) as problem:

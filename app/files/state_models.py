@@ -22,7 +22,7 @@ Size = tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]]
 
 
 class ArrayRecord(Record):
-    """An array: as rows of numbers that can be read or, if there are many, as compressed bytes."""
+    """An array: as rows of numbers that can be read or, if there are many, as bytes; see ``app.files.state_arrays``."""
 
     dtype: Literal["float64", "float32", "int64"]
     shape: list[Count]
@@ -30,11 +30,13 @@ class ArrayRecord(Record):
     """Numbers in row-major order, one list for each run along the last axis."""
     zlib: str | None = None
     """Little-endian bytes in row-major order, compressed by zlib, in base 64."""
+    file: Annotated[str, Field(pattern=r"^[0-9a-f]{32}$")] | None = None
+    """Name of the file that has these bytes: their fingerprint. It stands in the folder of the state's arrays."""
 
     @model_validator(mode="after")
     def _has_one_content(self) -> "ArrayRecord":
-        if (self.rows is None) == (self.zlib is None):
-            raise ValueError("an array must have either rows or zlib")
+        if sum(content is not None for content in (self.rows, self.zlib, self.file)) != 1:
+            raise ValueError("an array must have either rows, zlib or file")
         if self.rows is not None:
             count = sum(map(len, self.rows))
             if count != math.prod(self.shape):

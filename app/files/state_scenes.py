@@ -1,11 +1,6 @@
 """Scenes in state files: what stands in the file, and what is taken from a mesh file or built-in scene."""
 
-import binascii
-import math
 import os
-import sys
-import zlib
-from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -15,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from app.files.file_names import is_text, shown_name
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.mesh_formats import Report
 from app.files.mesh_sources import (
@@ -27,6 +23,7 @@ from app.files.mesh_sources import (
     remember_file,
     remembered_fingerprints,
 )
+from app.files.state_arrays import array_folder, array_from, array_of_record, array_record
 from app.files.state_models import (
     ArrayRecord,
     CameraRecord,
@@ -51,10 +48,8 @@ from core.scene import (
 )
 from lessons.scenes import make_scene
 
-READABLE_COUNT = 1200
-"""Arrays of no more numbers are written so that they can be read."""
-ARRAY_LIMIT = 4 << 30
-"""Largest array in bytes."""
+Keep = Callable[[NDArray[Any]], ArrayRecord]
+"""Returns the record of an array of a mesh, and keeps its bytes elsewhere if it is to be."""
 
 
 class StateFileError(ValueError):
@@ -76,7 +71,9 @@ def in_field(name: str) -> Iterator[None]:
 # To a record.
 
 
-def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | ClipSceneRecord:
+def scene_record(
+    scene: AnyScene, path: str, folder: Path, keep: Keep = array_record
+) -> MeshSceneRecord | ClipSceneRecord:
     """Return the record of a scene.
 
     Parameters
@@ -85,6 +82,8 @@ def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | 
         The mesh file that it came from, or empty.
     folder : Path
         Where the state file will stand.
+    keep : callable, optional
+        Makes the record of an array that has no source.
     """
     if isinstance(scene, ClipScene):
         return _clip_record(scene)
@@ -93,7 +92,7 @@ def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | 
     return MeshSceneRecord(
         kind="meshes",
         source=source,
-        meshes=[_mesh_record(mesh, k, own[k], theirs) for k, mesh in enumerate(scene.meshes)],
+        meshes=[_mesh_record(mesh, k, own[k], theirs, keep) for k, mesh in enumerate(scene.meshes)],
         camera=CameraRecord(**{name: _plain(value) for name, value in vars(scene.camera).items()}),
         lights=[_light_record(light) for light in scene.lights],
         size=scene.size,
@@ -104,9 +103,9 @@ def scene_record(scene: AnyScene, path: str, folder: Path) -> MeshSceneRecord | 
 def _source_of(own: Fingerprints, path: str, folder: Path) -> tuple[SourceRecord | None, Fingerprints]:
     """Return the first source that has an array of these meshes, and what it has."""
     if path:
-        found = remembered_fingerprints(path)
-        if _shares(own, found):
-            return SourceRecord(file=_relative(Path(path).resolve(), folder)), found
+        found, name = remembered_fingerprints(path), _relative(Path(path).resolve(), folder)
+        if _shares(own, found) and is_text(name):
+            return SourceRecord(file=name), found
     for name, found in built_in_fingerprints().items():
         if _shares(own, found):
             return SourceRecord(built_in=name), found
@@ -124,19 +123,19 @@ def _relative(path: Path, folder: Path) -> str:
         return path.as_posix()
 
 
-def _mesh_record(mesh: Mesh, index: int, own: dict[str, str], theirs: Fingerprints) -> MeshRecord:
+def _mesh_record(mesh: Mesh, index: int, own: dict[str, str], theirs: Fingerprints, keep: Keep) -> MeshRecord:
     there = theirs[index] if index < len(theirs) else {}
     taken = {name: text for name, text in own.items() if there.get(name) == text}
     arrays = {name: array_of(mesh, name) for name in own if name not in taken}
     rows = [_numbers(row) for row in mesh.transform]
     return MeshRecord(
-        name=mesh.name,
+        name=shown_name(mesh.name),
         transform=(rows[0], rows[1], rows[2], rows[3]),
         material=MaterialRecord(**{name: float(value) for name, value in asdict(mesh.material).items()}),
         source_mesh=index if taken else None,
         from_source=taken,
-        arrays={name: array_record(array) for name, array in arrays.items() if array is not None},
-        texture_name=mesh.texture.name if mesh.texture is not None else "texture",
+        arrays={name: keep(array) for name, array in arrays.items() if array is not None},
+        texture_name=shown_name(mesh.texture.name) if mesh.texture is not None else "texture",
     )
 
 
@@ -156,21 +155,10 @@ def _clip_record(scene: ClipScene) -> ClipSceneRecord:
         attributes=array_record(scene.attributes),
         shared=None if scene.shared is None else array_record(scene.shared),
         texture=None if scene.texture is None else array_record(scene.texture.pixels),
-        texture_name=scene.texture.name if scene.texture is not None else "texture",
+        texture_name=shown_name(scene.texture.name) if scene.texture is not None else "texture",
         size=scene.size,
         background=_numbers(scene.background),
     )
-
-
-def array_record(array: NDArray[Any]) -> ArrayRecord:
-    """Return the record of a float64, float32 or int64 array; it gives back the same bits."""
-    dtype: Any = array.dtype.name
-    shape = list(array.shape)
-    if array.size <= READABLE_COUNT:
-        rows = array.reshape(-1, array.shape[-1]) if array.size else array.reshape(0, 1)
-        return ArrayRecord(dtype=dtype, shape=shape, rows=rows.tolist())
-    content = array.astype(array.dtype.newbyteorder("<")).tobytes()
-    return ArrayRecord(dtype=dtype, shape=shape, zlib=b64encode(zlib.compress(content, 6)).decode())
 
 
 def _numbers(values: NDArray[Any]) -> Any:
@@ -189,11 +177,11 @@ def _plain(value: Any) -> Any:
 
 def scene_from_record(
     record: MeshSceneRecord | ClipSceneRecord,
-    folder: Path,
+    state: Path,
     progress: Report | None,
     is_cancelled: Callable[[], bool] | None,
 ) -> tuple[AnyScene, str, tuple[str, ...]]:
-    """Return the scene, the mesh file that it is from (or empty), and warnings of that file.
+    """Return the scene of the file ``state``, the mesh file that it is from (or empty), and warnings of that file.
 
     Raises
     ------
@@ -202,8 +190,8 @@ def scene_from_record(
     """
     if isinstance(record, ClipSceneRecord):
         return _clip_scene(record), "", ()
-    sources, path, warnings = _open_source(record.source, folder, progress, is_cancelled)
-    meshes = tuple(_mesh(k, mesh, sources, record.source) for k, mesh in enumerate(record.meshes))
+    sources, path, warnings = _open_source(record.source, state.parent, progress, is_cancelled)
+    meshes = tuple(_mesh(k, mesh, sources, record.source, state) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
         camera_values: dict[str, Any] = {
             name: np.array(value) if isinstance(value, tuple) else value for name, value in record.camera
@@ -251,7 +239,9 @@ def _open_source(
     return loaded.meshes, str(path), loaded.warnings
 
 
-def _mesh(index: int, record: MeshRecord, sources: tuple[Mesh, ...], source: SourceRecord | None) -> Mesh:
+def _mesh(
+    index: int, record: MeshRecord, sources: tuple[Mesh, ...], source: SourceRecord | None, state: Path
+) -> Mesh:
     field = f"scene.meshes.{index}"
     arrays: dict[str, Any] = {}
     for name, expected in record.from_source.items():
@@ -268,7 +258,7 @@ def _mesh(index: int, record: MeshRecord, sources: tuple[Mesh, ...], source: Sou
     for name, array in record.arrays.items():
         _check_name(field, name)
         with in_field(f"{field}.arrays.{name}"):
-            arrays[name] = array_from(array)
+            arrays[name] = array_of_record(array, array_folder(state))
     for name in ("positions", "triangles"):
         if name not in arrays:
             raise StateFileError(f"{field}.arrays.{name} is missing")
@@ -288,28 +278,3 @@ def _light(index: int, record: LightRecord) -> Light:
     make = DirectionalLight if record.kind == "directional" else PointLight
     with in_field(f"scene.lights.{index}"):
         return make(np.array(record.vector), np.array(record.color))
-
-
-def array_from(record: ArrayRecord) -> NDArray[Any]:
-    """Return the array of a record, or raise ValueError."""
-    dtype = np.dtype(record.dtype)
-    size = math.prod(record.shape) * dtype.itemsize
-    if size > ARRAY_LIMIT:
-        raise ValueError(
-            f"an array must not be larger than {ARRAY_LIMIT >> 30} GiB, got shape {record.shape}"
-        )
-    if record.rows is not None:
-        numbers = [number for row in record.rows for number in row]
-        if dtype.kind == "i" and not all(isinstance(number, int) for number in numbers):
-            raise ValueError(f"numbers of {record.dtype} must be whole")
-        return np.array(numbers, dtype).reshape(record.shape)
-    assert record.zlib is not None
-    try:
-        packed = b64decode(record.zlib.encode(), validate=True)
-        content = zlib.decompressobj().decompress(packed, size + 1)
-    except (binascii.Error, zlib.error) as problem:
-        raise ValueError("the compressed bytes are damaged") from problem
-    if len(content) != size:
-        raise ValueError(f"shape {record.shape} wants {size} bytes, got {len(content)}")
-    found = np.frombuffer(content, dtype.newbyteorder("<")).reshape(record.shape)
-    return found if sys.byteorder == "little" else found.astype(dtype)

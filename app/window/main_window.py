@@ -1,4 +1,4 @@
-"""The main window: its layout, what every action does, and how its layout is restored."""
+"""The main window: its layout, and what every action does."""
 
 import sys
 import traceback
@@ -6,12 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 
-from PySide6.QtCore import QByteArray, QEvent, Qt, Slot
+from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from app.files.file_desk import FileActions
-from app.files.state_files import EXTENSION, StateFileError, save_state
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
@@ -24,11 +23,13 @@ from app.window.keys import has_use_for
 from app.window.menus import Menus
 from app.window.message_words import sentence_case
 from app.window.overlays import Overlays
-from app.window.preferences import Preferences, preferences_folder, save_preferences, with_recent_file
-from core.records.steps import Level
+from app.window.preferences import Preferences
+from app.window.remembering import Remembering
 from core.scene import ClipScene
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
+BY_SIGNAL = 128
+"""Exit code of a program that a signal has ended, less the signal's number."""
 HINT_MILLISECONDS = 8000
 """How long a hint stays in the status bar."""
 
@@ -38,7 +39,6 @@ class MainWindow(QMainWindow):
 
     def __init__(self, document: Document, preferences: Preferences | None = None) -> None:
         super().__init__()
-        self.preferences = preferences or Preferences()
         self.session = Session(document, self)
         self.messages = MessageBar(self)
         self.pages = Pages(PAGE_KINDS, self.session, self.messages, self)
@@ -46,14 +46,16 @@ class MainWindow(QMainWindow):
         assert isinstance(step_page, StepPage)
         self.page = step_page
         self._has_mouse_focus = False
-        self._keeps_results = False
+        self._offered = ""
+        """Path of the state that the message bar offers to open."""
         self._lay_out()
         self.menus = Menus(self)
-        self.menus.show_recent(self.preferences.recent_files)
         self.appearance = Appearance(self)
         self.edits = DocumentEdits(self.session, self)
         self.overlays = Overlays(self.page, self.pages, self)
         self.files = FileActions(self.page, self.pages, self.messages, self)
+        self.memory = Remembering(self, preferences or Preferences())
+        self.menus.show_recent(self.memory.preferences.recent_files)
         self.opening = StepOpening(self.session, self.page, self)
         self.setAcceptDrops(True)
         self.setMinimumSize(900, 600)
@@ -82,7 +84,7 @@ class MainWindow(QMainWindow):
         session.edit_failed.connect(self._edit_failed)
         self.pages.page_made.connect(self._take_page)
         self.pages.page_changed.connect(self._show_page)
-        page.timeline.speed_changed.connect(self._remember_speed)
+        page.timeline.speed_changed.connect(self.memory.remember_speed)
         page.stepping.message_ended.connect(self._end_hint)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
         page.view_bar.currentChanged.connect(self._show_view)
@@ -91,16 +93,19 @@ class MainWindow(QMainWindow):
         menus.recent_chosen.connect(self.open_path)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.appearance.set_theme)
-        self.appearance.theme_changed.connect(self._remember_theme)
+        self.appearance.theme_changed.connect(self.memory.remember_theme)
+        self.appearance.theme_changed.connect(self.menus.show_theme)
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
         self.files.message_sent.connect(self._show_message)
-        self.files.file_used.connect(self._remember_file)
+        self.files.file_used.connect(self.memory.remember_file)
+        self.memory.recent_changed.connect(self.menus.show_recent)
+        self.memory.autosave.failed.connect(self._warn)
         self.files.progress.edit_cancelled.connect(self._edit_cancelled)
-        self.messages.message_dismissed.connect(self.messages.clear)
+        self.messages.action_requested.connect(self._open_offered)
         the_application().focusChanged.connect(self._focus_moved)
 
     # Actions by key and menu.
@@ -194,7 +199,7 @@ class MainWindow(QMainWindow):
         if self.files.progress.is_busy:
             self.files.progress.cancel()
         elif self.messages.isVisible():
-            self.messages.clear()
+            self.messages.dismiss()
         else:
             self.pages.current.dismiss()
 
@@ -224,9 +229,7 @@ class MainWindow(QMainWindow):
         page.edit_refused.connect(self._warn)
         page.step_requested.connect(self.opening.open_request)
         page.action_requested.connect(self.run_action)
-        page.restore_layout(self.preferences.layout)
-        if self._keeps_results:
-            page.keep_results()
+        self.memory.restore_page(page)
 
     @Slot(str)
     def _show_page(self, name: str) -> None:
@@ -277,59 +280,29 @@ class MainWindow(QMainWindow):
 
     # Coming and going.
 
-    def restore(self) -> None:
-        """Put window and panes where they were left, and keep results from this start to the next."""
-        self._keeps_results = True
-        if geometry := self.preferences.geometry:
-            self.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii")))
-        for page in self.pages.made:
-            page.restore_layout(self.preferences.layout)
-            page.keep_results()
-        self.page.inspector.set_folded(self.preferences.folded_cards)
-        self.page.timeline.show_speed(self.preferences.speed)
-        self.session.set_level(Level(self.preferences.level))
-        self.pages.show_page(self.preferences.page)
+    def offer(self, message: Message, path: str) -> None:
+        """Show a message until it is dismissed; its action opens a state."""
+        self._offered = path
+        self.messages.stand(message)
 
-    @Slot(float)
-    def _remember_speed(self, speed: float) -> None:
-        self.preferences = self.preferences.model_copy(update={"speed": speed})
+    @Slot()
+    def _open_offered(self) -> None:
+        self.open_path(self._offered)
 
-    @Slot(str)
-    def _remember_theme(self, name: str) -> None:
-        self.preferences = self.preferences.model_copy(update={"theme": name})
-        self.menus.show_theme(name)
-
-    @Slot(str)
-    def _remember_file(self, path: str) -> None:
-        self.preferences = with_recent_file(self.preferences, path)
-        self.menus.show_recent(self.preferences.recent_files)
+    @Slot(int)
+    def end_by_signal(self, number: int) -> None:
+        """Close, and end the program with the exit code that a shell has for a program ended by this signal."""
+        self.close()
+        the_application().exit(BY_SIGNAL + number)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember window, panes and scene, end all work, then close."""
-        layout = dict(self.preferences.layout)
+        self.memory.save(self)
         for page in self.pages.made:
             page.stop()
-            layout |= page.layout_state()
         self.files.shut_down()
         self.opening.shut_down()
         self.session.tracing.shut_down()
-        try:
-            last = preferences_folder() / f"last{EXTENSION}"
-            last.parent.mkdir(parents=True, exist_ok=True)
-            save_state(str(last), self.files.state())
-            self.preferences = self.preferences.model_copy(
-                update={
-                    "geometry": self.saveGeometry().toBase64().toStdString(),
-                    "layout": layout,
-                    "page": self.pages.current_name,
-                    "last_state": str(last),
-                    "folded_cards": self.page.inspector.folded(),
-                    "level": int(self.session.cursor.level),
-                }
-            )
-            save_preferences(self.preferences)
-        except (OSError, StateFileError) as error:
-            print(f"rasterscope: the window layout could not be saved: {error}", file=sys.stderr)
         super().closeEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

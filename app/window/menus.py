@@ -1,14 +1,18 @@
 """The menus and their actions, made from the one table of keys."""
 
+import os
 from collections.abc import Sequence
+from contextlib import suppress
 
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
+from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import THEMES
 from app.window.keys import ACTIONS, KeyAction, key_text
+from app.window.preferences import preferences_folder
 from lessons.scenes import CATALOGUE
 from widgets.basics.theme import current_theme
 
@@ -45,6 +49,7 @@ class Menus(QObject):
         super().__init__(window)
         self.actions_by_name: dict[str, QAction] = {}
         self.recent_menu = QMenu("Open &recent", window)
+        self.earlier_menu = QMenu("Earlier &windows", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.theme_group = QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
@@ -57,13 +62,16 @@ class Menus(QObject):
                 window.addAction(made)
             if entry.name == "open_file":
                 menus["File"].addMenu(self.recent_menu)
+                menus["File"].addMenu(self.earlier_menu)
                 menus["File"].addMenu(self.scene_menu)
             if entry.name in BEFORE_SEPARATORS:
                 menus[entry.menu].addSeparator()
         self._fill_scenes()
         self._add_rasters(menus["Raster"])
         self._add_themes(menus["View"])
-        self.recent_menu.triggered.connect(self._choose_recent)
+        for menu in (self.recent_menu, self.earlier_menu):
+            menu.triggered.connect(self._choose_recent)
+        self.earlier_menu.aboutToShow.connect(self._fill_earlier)
         self.show_recent(())
 
     def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
@@ -124,13 +132,25 @@ class Menus(QObject):
             pages = {entry.page for entry in ACTIONS if entry.menu == title}
             menu.menuAction().setEnabled(bool(pages & {"", name}))
 
+    @Slot(object)
     def show_recent(self, paths: Sequence[str]) -> None:
-        """Show the files that were open last."""
+        """Show the files that were open last, of those that can be had now."""
         self.recent_menu.clear()
-        for path in paths:
+        for path in filter(os.path.isfile, paths):
             self.recent_menu.addAction(path).setData(path)
         if self.recent_menu.isEmpty():
             self.recent_menu.addAction("No files yet").setEnabled(False)
+
+    @Slot()
+    def _fill_earlier(self) -> None:
+        """Show what earlier windows left."""
+        self.earlier_menu.clear()
+        with suppress(OSError):
+            for earlier in earlier_windows(preferences_folder()):
+                made = self.earlier_menu.addAction(f"{earlier.title}, saved {earlier.when}")
+                made.setData(str(earlier.path))
+        if self.earlier_menu.isEmpty():
+            self.earlier_menu.addAction("No earlier windows").setEnabled(False)
 
     @Slot(str)
     def show_theme(self, name: str) -> None:

@@ -17,6 +17,9 @@ FILE_NAME = "preferences.json"
 RECENT_LIMIT = 10
 
 
+Base64 = Annotated[str, Field(pattern=r"^[A-Za-z0-9+/]*={0,2}$")]
+
+
 class Preferences(BaseModel):
     """Everything that is restored at the next start."""
 
@@ -25,14 +28,12 @@ class Preferences(BaseModel):
     recent_files: list[str] = []
     """Absolute paths, the last opened first."""
     theme: Literal["system", "light", "dark", "presenter"] = "system"
-    geometry: str = ""
+    geometry: Base64 = ""
     """Place and size of the window, as Qt saves them, in base 64."""
-    layout: dict[str, str] = {}
+    layout: dict[str, Base64] = {}
     """Sizes of panes by name, as Qt saves them, in base 64."""
     folded_cards: list[str] = list(STAGES)
     """Stages whose card is folded."""
-    last_state: str = ""
-    """State file with what was open last; empty: none."""
     page: str = "step"
     """Page that was shown last."""
     level: Annotated[int, Field(ge=0, le=4)] = 3
@@ -49,7 +50,7 @@ def with_recent_file(preferences: Preferences, path: str | Path) -> Preferences:
 
 
 def preferences_folder() -> Path:
-    """Return the folder of preferences and of the last state; it may not exist yet.
+    """Return the folder of preferences and of the states of windows; it may not exist yet.
 
     Raises
     ------
@@ -72,8 +73,7 @@ def load_preferences() -> tuple[Preferences, str]:
     Returns
     -------
     Preferences
-        Those of the file, without recent files that are gone; the defaults where there is none or it is
-        broken.
+        Those of the file; the defaults where there is none or it is broken.
     str
         What to tell the user, empty if all is well. A broken file is kept under the ending ``.broken``.
     """
@@ -86,11 +86,9 @@ def load_preferences() -> tuple[Preferences, str]:
         reason = problem.strerror or str(problem)
         return Preferences(), f"The preferences cannot be read: {reason.lower()}. The defaults are used."
     try:
-        preferences = Preferences.model_validate_json(content)
+        return Preferences.model_validate_json(content), ""
     except ValidationError as problem:
         return Preferences(), _set_aside(path, field_problem(problem))
-    recent = [name for name in preferences.recent_files if os.path.isfile(name)]
-    return preferences.model_copy(update={"recent_files": recent}), ""
 
 
 def _set_aside(path: Path, reason: str) -> str:
@@ -106,7 +104,7 @@ def _set_aside(path: Path, reason: str) -> str:
 
 
 def save_preferences(preferences: Preferences) -> None:
-    """Write the preferences, and the folder where it is missing.
+    """Write the preferences, and the folder where it is missing; recent files of other windows stay.
 
     Raises
     ------
@@ -115,4 +113,14 @@ def save_preferences(preferences: Preferences) -> None:
     """
     folder = preferences_folder()
     make_folder(folder)
+    recent = dict.fromkeys([*preferences.recent_files, *_recent_of_others(folder)])
+    preferences = preferences.model_copy(update={"recent_files": list(recent)[:RECENT_LIMIT]})
     write_file(folder / FILE_NAME, preferences.model_dump_json(indent=1).encode() + b"\n")
+
+
+def _recent_of_others(folder: Path) -> list[str]:
+    """Return the recent files that stand in the preferences now; another window may have saved them."""
+    try:
+        return Preferences.model_validate_json((folder / FILE_NAME).read_bytes()).recent_files
+    except (OSError, ValidationError):
+        return []

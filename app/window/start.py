@@ -13,8 +13,10 @@ from app.files.open_any import Opened, open_any
 from app.pages.page_table import page_of_file
 from app.session.document import open_document
 from app.window.appearance import THEMES, the_application
+from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
-from app.window.preferences import Preferences, load_preferences
+from app.window.preferences import load_preferences
+from app.window.reopening import reopen
 from core.fast_path.workers import BandWorkers
 from core.settings import Settings
 from lessons.scenes import CATALOGUE
@@ -34,18 +36,6 @@ def theme_of(name: str, application: QApplication) -> Theme:
     return DARK if is_dark else LIGHT
 
 
-def first_document(preferences: Preferences) -> tuple[Opened, str]:
-    """Return what the window shows without a file: what was open last, or else the single triangle."""
-    warning = ""
-    if preferences.last_state:
-        try:
-            return open_any(preferences.last_state), ""
-        except (OSError, ValueError) as error:
-            warning = f"The last scene could not be opened again: {error}"
-    scene = CATALOGUE[0]
-    return Opened(open_document(scene.make(), scene.title)), warning
-
-
 def run_window(target: str | None = None) -> int:
     """Show the window until it is closed; return the exit code.
 
@@ -59,24 +49,30 @@ def run_window(target: str | None = None) -> int:
     application.setApplicationName("Rasterscope")
     preferences, warning = load_preferences()
     apply_theme(application, theme_of(preferences.theme, application))
-    opened, not_reopened = first_document(preferences)
-    window = MainWindow(opened.document, preferences)
+    first = reopen(is_replaced=target is not None)
+    window = MainWindow(first.opened.document, preferences)
     window.page.views.scene_presenter.draw_with(BandWorkers())
-    window.files.show_opened(opened)
+    window.files.show_opened(first.opened)
     window.resize(1280, 800)
-    window.restore()
+    window.memory.restore(window)
+    window.memory.autosave.begin(first.file, None if first.file else first.opened.document)
+    application.commitDataRequest.connect(window.memory.autosave.ask)
+    signals = EndSignals(window)
+    signals.received.connect(window.end_by_signal)
     window.show()
     window.setFocus(Qt.FocusReason.OtherFocusReason)
     sys.excepthook = window.report
-    for text in (warning, not_reopened):
-        if text:
-            window.tell(text, MessageKind.WARNING)
+    if warning:
+        window.tell(warning, MessageKind.WARNING)
+    if first.message is not None:
+        window.offer(first.message, first.offered)
     if target is not None:
         window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
         window.open_path(target)
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close()
+    signals.stop()
     return code
 
 

@@ -64,6 +64,7 @@ class MessageBar(QWidget):
         self.setProperty("role", "panel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._message: Message | None = None
+        self._standing: Message | None = None
         self._icon = QLabel(self)
         self.text = text_label("", self, wraps=True, is_selectable=True)
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
@@ -75,12 +76,12 @@ class MessageBar(QWidget):
         self.details_button.setCheckable(True)
         self.details_button.toggled.connect(self._show_details)
         self.action_button = self._button("", "Do the suggested action")
-        self.action_button.clicked.connect(self.action_requested)
+        self.action_button.clicked.connect(self._request_action)
         self.cancel_button = self._button("Cancel", "Stop this work; the open scene is unchanged")
         self.cancel_button.clicked.connect(self._cancel)
         self.dismiss_button = flat_button("✕", "Dismiss the message", "Dismiss (Escape)", self)
         self.dismiss_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.dismiss_button.clicked.connect(self._dismiss)
+        self.dismiss_button.clicked.connect(self.dismiss)
         self.details = text_label("", self, role="muted", wraps=True, is_selectable=True)
         row = row_layout(spacing=8)
         row.addWidget(self._icon)
@@ -132,19 +133,35 @@ class MessageBar(QWidget):
         self.setAccessibleName(progress.text)
         self.show()
 
+    def stand(self, message: Message) -> None:
+        """Show a message whenever there is nothing else to show, until it is dismissed or its action is done."""
+        self._standing = message
+        if self.isHidden():
+            self.clear()
+
     @Slot()
     def clear(self) -> None:
-        """Say nothing and take no room."""
+        """Say nothing and take no room, unless a message stands."""
+        if self._standing is not None:
+            self.show_message(self._standing)
+            return
         self._message = None
         self._show_only()
         self.hide()
+
+    @Slot()
+    def dismiss(self) -> None:
+        """Take away the message that is shown."""
+        self._end_standing()
+        self.clear()
+        self.message_dismissed.emit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Escape dismisses a message or cancels the work."""
         if event.key() != Qt.Key.Key_Escape:
             super().keyPressEvent(event)
         elif self._message is not None:
-            self._dismiss()
+            self.dismiss()
         else:
             self._cancel()
 
@@ -164,9 +181,14 @@ class MessageBar(QWidget):
         self.details.setVisible(is_shown)
 
     @Slot()
-    def _dismiss(self) -> None:
+    def _request_action(self) -> None:
+        self._end_standing()
         self.clear()
-        self.message_dismissed.emit()
+        self.action_requested.emit()
+
+    def _end_standing(self) -> None:
+        if self._message is self._standing:
+            self._standing = None
 
     @Slot()
     def _cancel(self) -> None:

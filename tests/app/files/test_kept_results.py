@@ -24,7 +24,7 @@ from tests.app.pages.compare.compare_pages import compare_page, hand_made, measu
 @pytest.fixture
 def keeping(window: MainWindow) -> MainWindow:
     """Return a window that keeps results, as the program's own does."""
-    window.restore()
+    window.memory.restore(window)
     return window
 
 
@@ -33,7 +33,7 @@ def later(keeping: MainWindow) -> Iterator[MainWindow]:
     """Return a window of the next start."""
     scene = built_in_scene("cube")
     made = MainWindow(open_document(scene.make(), scene.title))
-    made.restore()
+    made.memory.restore(made)
     made.show()
     yield made
     made.close()

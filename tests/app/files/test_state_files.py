@@ -400,8 +400,8 @@ ARRAY = {"dtype": "float64", "shape": [1, 3, 4], "rows": [[0, 0, 0, 1], [1, 0, 0
 @pytest.mark.parametrize(
     ("change", "wanted"),
     [
-        ({"rows": None}, "an array must have either rows or zlib"),
-        ({"zlib": "AAAA"}, "an array must have either rows or zlib"),
+        ({"rows": None}, "an array must have either rows, zlib or file"),
+        ({"zlib": "AAAA"}, "an array must have either rows, zlib or file"),
         ({"rows": [[0, 0, 0, 1]]}, "scene.clip: shape [1, 3, 4] wants 12 numbers, got 4"),
         ({"shape": [2, 3, 4]}, "wants 24 numbers, got 12"),
         ({"shape": [3, 4]}, "clip must be (T, 3, 4), got (3, 4)"),

@@ -84,7 +84,7 @@ def test_undo_theme_and_presenter_work_on_every_page(window: MainWindow) -> None
     QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.settings.fill == "bounding-box"
     QTest.keyClick(window, Qt.Key.Key_T, Qt.KeyboardModifier.ControlModifier)
-    assert window.preferences.theme == "dark"
+    assert window.memory.preferences.theme == "dark"
 
 
 def test_help_lists_the_keys_of_the_page(window: MainWindow) -> None:
@@ -116,7 +116,7 @@ def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
     scene = built_in_scene("single-triangle")
     again = MainWindow(open_document(scene.make(), scene.title), kept)
     qtbot.addWidget(again)
-    again.restore()
+    again.memory.restore(again)
     assert again.pages.current_name == "compare"
 
 
@@ -124,7 +124,7 @@ def test_a_page_that_is_gone_is_the_step_page(qtbot: QtBot) -> None:
     scene = built_in_scene("single-triangle")
     made = MainWindow(open_document(scene.make(), scene.title), Preferences(page="from a later version"))
     qtbot.addWidget(made)
-    made.restore()
+    made.memory.restore(made)
     assert made.pages.current_name == "step"
 
 

@@ -64,7 +64,7 @@ def test_menus_that_are_not_of_the_table(window: MainWindow) -> None:
     assert (raster.columns, raster.rows) == (16, 12)
     actions["Dark"].trigger()
     assert current_theme() == DARK
-    assert window.preferences.theme == "dark"
+    assert window.memory.preferences.theme == "dark"
     assert [action.text() for action in window.menus.theme_group.actions() if action.isChecked()] == ["Dark"]
 
 

@@ -39,7 +39,6 @@ def test_what_is_saved_comes_back(folder, tmp_path):
         geometry="AdnQywADAAA=",
         layout={"columns": "AAAA/w=="},
         folded_cards=["raster"],
-        last_state=str(folder / "last.rasterscope"),
         level=2,
         speed=12.5,
     )
@@ -48,11 +47,17 @@ def test_what_is_saved_comes_back(folder, tmp_path):
     assert [path.name for path in folder.iterdir()] == [FILE_NAME]
 
 
-def test_recent_files_that_are_gone_are_left_out(tmp_path):
-    mesh = tmp_path / "a.obj"
-    mesh.write_text("")
-    save_preferences(Preferences(recent_files=[str(tmp_path / "gone.obj"), str(mesh), str(tmp_path)]))
-    assert load_preferences()[0].recent_files == [str(mesh)]
+def test_recent_files_that_are_gone_are_kept_for_the_day_that_they_are_back(tmp_path):
+    gone = [str(tmp_path / "unplugged" / "gone.obj")]
+    save_preferences(Preferences(recent_files=gone))
+    assert load_preferences()[0].recent_files == gone
+
+
+def test_two_windows_keep_the_recent_files_of_both(tmp_path):
+    for name in ("first", "second"):
+        save_preferences(with_recent_file(Preferences(), tmp_path / f"{name}.obj"))
+    recent = load_preferences()[0].recent_files
+    assert recent == [str(tmp_path / "second.obj"), str(tmp_path / "first.obj")]
 
 
 def test_the_file_opened_last_is_the_first_of_the_recent_ones(tmp_path):
@@ -77,6 +82,10 @@ def test_the_file_opened_last_is_the_first_of_the_recent_ones(tmp_path):
         (b'{"speed": NaN}', "speed must be a finite number"),
         (b'{"speed": 0}', "speed must be greater than 0, got 0"),
         (b'{"recent_files": [1, 2]}', "recent_files.0 must be a valid string, got 1 (and 1 more)"),
+        ('{"geometry": "Größe"}'.encode(), "geometry must match pattern"),
+        ('{"layout": {"columns": "→"}}'.encode(), "layout.columns must match pattern"),
+        (b'{"recent_files": ["\\ud800"]}', "the file"),
+        (b"[" * 100_000, "the file"),
         (b'{"layout": {"columns": null}}', "layout.columns must be a valid string, got nothing"),
     ],
 )

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
-from app.window.start import first_document
+from app.window.reopening import reopen
 from core.records.steps import Level
 from core.scene import Scene
 
@@ -54,7 +54,7 @@ def test_a_dropped_mesh_opens_paused_at_the_start(window: MainWindow, qtbot: QtB
     assert window.session.document.triangle_count == 4
     assert (window.session.cursor.stage, window.session.cursor.position) == ("raster", 0)
     assert window.windowTitle().startswith("tetrahedron")
-    assert window.preferences.recent_files[0] == str(mesh)
+    assert window.memory.preferences.recent_files[0] == str(mesh)
     assert window.menus.recent_menu.actions()[0].data() == str(mesh)
     assert not window.messages.isVisible()
     window.menus.actions_by_name["undo"].trigger()
@@ -137,27 +137,19 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
     window.close()
     preferences, warning = load_preferences()
     assert warning == ""
-    opened, warning = first_document(preferences)
-    assert warning == ""
-    again = MainWindow(opened.document, preferences)
+    first = reopen()
+    assert first.message is None
+    again = MainWindow(first.opened.document, preferences)
     qtbot.addWidget(again)
-    again.files.show_opened(opened)
-    again.restore()
+    again.files.show_opened(first.opened)
+    again.memory.restore(again)
+    again.memory.autosave.begin(first.file)
     again.show()
     assert again.session.cursor == cursor
     assert again.page.current_view() == "pyramid"
     assert not again.page.card.is_folded()
     assert again.page.timeline.speed_box.currentData() == speed
     assert preferences.theme == "dark"
-
-
-def test_a_lost_last_state_is_told(window: MainWindow) -> None:
-    window.close()
-    preferences, _ = load_preferences()
-    Path(preferences.last_state).write_text("{}")
-    opened, warning = first_document(preferences)
-    assert warning.startswith("The last scene could not be opened again")
-    assert opened.document.title == "Single triangle"
 
 
 def test_the_view_is_exported(window: MainWindow, tmp_path: Path) -> None:

@@ -123,7 +123,7 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
     found = []
     for _ in range(2):
         window.appearance.toggle_theme()
-        found.append(window.preferences.theme)
+        found.append(window.memory.preferences.theme)
     assert found == ["dark", "light"]
     apply_theme(application, LIGHT)
 

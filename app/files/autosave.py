@@ -1,0 +1,126 @@
+"""Saving what is open soon after every edit: the next start has it, however this one ends."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal, Slot
+
+from app.background.workers import Job, Progress
+from app.files.state_files import State, StateFileError
+from app.files.window_files import WindowFile, new_window_file
+from app.session.document import Document
+from app.session.session import Session
+from app.window.preferences import preferences_folder
+
+PAUSE = 700
+"""Milliseconds after the last edit."""
+LATEST = 1800
+"""Milliseconds after the first edit that is not saved, if others follow all the time."""
+
+
+class Autosave(QObject):
+    """Keeps the file of one window up to date, from `begin` to `finish`."""
+
+    failed = Signal(str)
+    """Why the scene cannot be saved, as a sentence; sent once until it can be saved again."""
+
+    def __init__(self, session: Session, state: Callable[[], State], parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._state = session, state
+        self._file: WindowFile | None = None
+        self._stand_in: Document | None = None
+        self._has_failed = self._is_finished = False
+        self._job = Job(self)
+        self._job.succeeded.connect(self._succeed)
+        self._job.failed.connect(self._fail)
+        self._waits = QElapsedTimer()
+        """Since the first edit that is not saved."""
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._save)
+
+    def begin(self, file: WindowFile | None, stand_in: Document | None = None) -> None:
+        """Save every edit from now on.
+
+        Parameters
+        ----------
+        file : WindowFile or None
+            The file to save to; ``None``: a new one, made when there is something to be saved.
+        stand_in : Document, optional
+            What is shown because nothing else was to be opened: not worth a file while it is unchanged.
+        """
+        self._file, self._stand_in = file, stand_in
+        for edited in (self._session.document_changed, self._session.pin_changed):
+            edited.connect(self.ask)
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether something is to be saved, or is being saved."""
+        return self._timer.isActive() or self._job.is_running
+
+    @Slot()
+    def ask(self) -> None:
+        """Save soon."""
+        if self._is_finished:
+            return
+        if not self._timer.isActive():
+            self._waits.start()
+        self._timer.start(max(min(PAUSE, LATEST - self._waits.elapsed()), 0))
+
+    def finish(self) -> None:
+        """Save what is open now, and leave the file to the next start; a second time does nothing.
+
+        Raises
+        ------
+        OSError, StateFileError
+            If it cannot be saved.
+        """
+        if self._is_finished:
+            return
+        self._is_finished = True
+        self._timer.stop()
+        try:
+            if self._is_worth_saving():
+                self._open_file().save(self._state())
+        finally:
+            if self._file is not None:
+                self._file.release()
+            self._job.shut_down()
+
+    def _is_worth_saving(self) -> bool:
+        return self._file is not None or self._session.document is not self._stand_in
+
+    def _open_file(self) -> WindowFile:
+        if self._file is None:
+            self._file = new_window_file(preferences_folder())
+        return self._file
+
+    @Slot()
+    def _save(self) -> None:
+        if not self._is_worth_saving():
+            return
+        if self._job.is_running:
+            self._timer.start(PAUSE)
+            return
+        state = self._state()
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
+            file.save(state)
+
+        try:
+            file = self._open_file()
+        except OSError as problem:
+            self._fail(problem)
+        else:
+            self._job.start(work)
+
+    @Slot()
+    def _succeed(self) -> None:
+        self._has_failed = False
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        if not isinstance(error, OSError | StateFileError | MemoryError):
+            raise error
+        if not self._has_failed:
+            self.failed.emit(f"What is open cannot be saved for the next start: {error}")
+        self._has_failed = True

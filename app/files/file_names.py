@@ -1,0 +1,13 @@
+"""Names of files that are not text: some systems allow any bytes, which Python keeps as lone surrogates."""
+
+import re
+
+
+def shown_name(name: str) -> str:
+    """Return a name with a replacement character for each byte that is not text, to be shown and saved."""
+    return re.sub("[\ud800-\udfff]", "\N{REPLACEMENT CHARACTER}", name)
+
+
+def is_text(name: str) -> bool:
+    """Return whether a name can be written to a file of text, and be read again as the same name."""
+    return shown_name(name) == name

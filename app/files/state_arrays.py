@@ -1,0 +1,129 @@
+"""Arrays in state files: as numbers that can be read, as compressed bytes, or in files of their own.
+
+A window saves its state after every edit. The large arrays of its meshes stand in a folder beside the state, each in a
+file that is named by its fingerprint: what did not change is not written again.
+"""
+
+import binascii
+import math
+import sys
+import zlib
+from base64 import b64decode, b64encode
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.files.file_writing import make_folder, write_file
+from app.files.mesh_sources import fingerprint
+from app.files.state_models import ArrayRecord
+
+READABLE_COUNT = 1200
+"""Arrays of no more numbers are written so that they can be read."""
+ARRAY_LIMIT = 4 << 30
+"""Largest array in bytes."""
+ENDING = ".array"
+"""Of the files with the bytes of one array."""
+
+
+def array_record(array: NDArray[Any]) -> ArrayRecord:
+    """Return the record of a float64, float32 or int64 array; it gives back the same bits."""
+    dtype: Any = array.dtype.name
+    shape = list(array.shape)
+    if array.size <= READABLE_COUNT:
+        rows = array.reshape(-1, array.shape[-1]) if array.size else array.reshape(0, 1)
+        return ArrayRecord(dtype=dtype, shape=shape, rows=rows.tolist())
+    return ArrayRecord(dtype=dtype, shape=shape, zlib=b64encode(zlib.compress(_bytes_of(array), 6)).decode())
+
+
+def array_from(record: ArrayRecord) -> NDArray[Any]:
+    """Return the array of a record, or raise ValueError."""
+    dtype = np.dtype(record.dtype)
+    size = math.prod(record.shape) * dtype.itemsize
+    if size > ARRAY_LIMIT:
+        raise ValueError(
+            f"an array must not be larger than {ARRAY_LIMIT >> 30} GiB, got shape {record.shape}"
+        )
+    if record.rows is not None:
+        numbers = [number for row in record.rows for number in row]
+        if dtype.kind == "i" and not all(isinstance(number, int) for number in numbers):
+            raise ValueError(f"numbers of {record.dtype} must be whole")
+        return np.array(numbers, dtype).reshape(record.shape)
+    if record.zlib is None:
+        raise ValueError("only arrays of meshes have a file of their own")
+    try:
+        packed = b64decode(record.zlib.encode(), validate=True)
+        content = zlib.decompressobj().decompress(packed, size + 1)
+    except (binascii.Error, zlib.error) as problem:
+        raise ValueError("the compressed bytes are damaged") from problem
+    if len(content) != size:
+        raise ValueError(f"shape {record.shape} wants {size} bytes, got {len(content)}")
+    return _array_of(content, record)
+
+
+def array_folder(state: Path) -> Path:
+    """Return the folder with the arrays that have files of their own, of the state file ``state``."""
+    return state.with_suffix(".arrays")
+
+
+class ArrayFolder:
+    """Keeps large arrays in files of their own, each written once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._used: set[str] = set()
+
+    def keep(self, array: NDArray[Any]) -> ArrayRecord:
+        """Return the record of an array; a large one stands in the folder.
+
+        Raises
+        ------
+        FileWriteError
+            If it cannot be written.
+        """
+        if array.size <= READABLE_COUNT:
+            return array_record(array)
+        name = fingerprint(array)
+        path = self._folder / f"{name}{ENDING}"
+        self._used.add(path.name)
+        if not (path.is_file() and path.stat().st_size == array.nbytes):
+            make_folder(self._folder)
+            write_file(path, _bytes_of(array))
+        return ArrayRecord(dtype=array.dtype.name, shape=list(array.shape), file=name)  # type: ignore[arg-type]
+
+    def remove_unused(self) -> None:
+        """Remove the files of arrays that were not kept by this object."""
+        if self._folder.is_dir():
+            for path in self._folder.iterdir():
+                if path.name not in self._used:
+                    path.unlink(missing_ok=True)
+
+
+def array_of_record(record: ArrayRecord, folder: Path) -> NDArray[Any]:
+    """Return the array of a record, which may stand in a file of the ``folder``, or raise ValueError."""
+    if record.file is None:
+        return array_from(record)
+    path = folder / f"{record.file}{ENDING}"
+    size = math.prod(record.shape) * np.dtype(record.dtype).itemsize
+    try:
+        if path.stat().st_size != size:
+            raise ValueError(f"{path.name} must have {size} bytes, got {path.stat().st_size}")
+        found = _array_of(path.read_bytes(), record)
+    except OSError as problem:
+        raise ValueError(
+            f"{path.name} cannot be read: {(problem.strerror or str(problem)).lower()}"
+        ) from problem
+    if fingerprint(found) != record.file:
+        raise ValueError(f"{path.name} is damaged")
+    return found
+
+
+def _bytes_of(array: NDArray[Any]) -> bytes:
+    return array.astype(array.dtype.newbyteorder("<")).tobytes()
+
+
+def _array_of(content: bytes, record: ArrayRecord) -> NDArray[Any]:
+    dtype = np.dtype(record.dtype)
+    found = np.frombuffer(content, dtype.newbyteorder("<")).reshape(record.shape)
+    return found if sys.byteorder == "little" else found.astype(dtype)

@@ -1,0 +1,85 @@
+"""What a window remembers from one start to the next: its place, panes and choices, and what is open."""
+
+import sys
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QByteArray, QObject, Signal, Slot
+
+from app.files.autosave import Autosave
+from app.files.state_files import StateFileError
+from app.pages.page_bar import Page
+from app.window.preferences import Preferences, save_preferences, with_recent_file
+from core.records.steps import Level
+
+if TYPE_CHECKING:
+    from app.window.main_window import MainWindow
+
+
+class Remembering(QObject):
+    """Holds the preferences of a window, and saves them and what is open."""
+
+    recent_changed = Signal(object)
+    """The files that were open last: a list of paths."""
+
+    def __init__(self, window: "MainWindow", preferences: Preferences) -> None:
+        super().__init__(window)
+        self.preferences = preferences
+        self.autosave = Autosave(window.session, window.files.state, self)
+        self._keeps_results = False
+
+    def restore(self, window: "MainWindow") -> None:
+        """Put window and panes where they were left, and keep results from this start to the next."""
+        self._keeps_results = True
+        window.restoreGeometry(QByteArray.fromBase64(self.preferences.geometry.encode()))
+        for page in window.pages.made:
+            self.restore_page(page)
+        window.page.inspector.set_folded(self.preferences.folded_cards)
+        window.page.timeline.show_speed(self.preferences.speed)
+        window.session.set_level(Level(self.preferences.level))
+        window.pages.show_page(self.preferences.page)
+
+    @Slot(object)
+    def restore_page(self, page: Page) -> None:
+        """Give the panes of a page the sizes that they had."""
+        page.restore_layout(self.preferences.layout)
+        if self._keeps_results:
+            page.keep_results()
+
+    @Slot(float)
+    def remember_speed(self, speed: float) -> None:
+        """Keep how fast it plays."""
+        self.preferences = self.preferences.model_copy(update={"speed": speed})
+
+    @Slot(str)
+    def remember_theme(self, name: str) -> None:
+        """Keep the theme."""
+        self.preferences = self.preferences.model_copy(update={"theme": name})
+
+    @Slot(str)
+    def remember_file(self, path: str) -> None:
+        """Keep a file among those that were open last."""
+        self.preferences = with_recent_file(self.preferences, path)
+        self.recent_changed.emit(self.preferences.recent_files)
+
+    def save(self, window: "MainWindow") -> None:
+        """Save preferences and what is open: the window closes. What cannot be saved is one line on stderr."""
+        layout = dict(self.preferences.layout)
+        for page in window.pages.made:
+            layout |= page.layout_state()
+        self.preferences = self.preferences.model_copy(
+            update={
+                "geometry": window.saveGeometry().toBase64().toStdString(),
+                "layout": layout,
+                "page": window.pages.current_name,
+                "folded_cards": window.page.inspector.folded(),
+                "level": int(window.session.cursor.level),
+            }
+        )
+        for what, save in (
+            ("what is open", self.autosave.finish),
+            ("the preferences", lambda: save_preferences(self.preferences)),
+        ):
+            try:
+                save()
+            except (OSError, StateFileError) as error:
+                print(f"rasterscope: {what} could not be saved: {error}", file=sys.stderr)
