@@ -18,8 +18,8 @@ ENDINGS = (".svg", ".png", ".csv", EXTENSION)
 CHART_HEIGHT = 460
 EXPLANATION = (
     "A mark stands at the median of the times, its bar from the least to the end of the interval that holds the true "
-    "median. Methods whose intervals overlap are not told apart. The dashed line is the Pareto front: no other method "
-    "beats a method on it in both."
+    "median. The order of methods whose intervals overlap is undecided. The dashed line is the Pareto front: no other "
+    "method beats a method on it in both."
 )
 FIXED = ("method", "title", "rounds", "unit", "units")
 TIMES = ("median_seconds_per_unit", "least", "interval_low", "interval_high")
