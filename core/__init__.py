@@ -7,8 +7,9 @@ Notation and conventions, for the whole core (tested in tests/core/test_conventi
   NDC is [-1, 1]^3, window depth [0, 1]; angles are radians.
 * The window is y-up: array row 0 is the bottom row; pixel (column i, row j) has its centre at (i + 1/2, j + 1/2).
 * The suffix of a position is its space: object, world, camera, clip, ndc, window; ``homogeneous``: D clip = (x, y, w).
-* Coverage is decided per edge on corners snapped to 1/256 pixel; a centre on an edge belongs to the triangle that
-  contains the point moved an infinitesimal step right, then up. Attributes and depth come from unsnapped corners.
+* Coverage is decided per edge on corners snapped to 1/256 pixel; an edge with one end on this grid runs through it in
+  its own direction. A centre on an edge belongs to the triangle that contains the point moved an infinitesimal step
+  right, then up. Attributes and depth come from unsnapped corners.
 * Counter-clockwise is the front. The nearer fragment wins; a tie keeps what is there.
 * Colours are linear in the core, sRGB only for display and in files; alpha is straight in inputs.
 

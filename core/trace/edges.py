@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients, edge_value
+from core.raster.edges.edge_functions import edge_coefficients, edge_value
+from core.raster.edges.one_ended import anchored_coefficients, edge_left_out, given_directions
 from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
@@ -19,6 +20,7 @@ KINDS = (
     "orientation",
     "edge",
     "anchored-edge",
+    "left-out-edge",
     "rounded",
     "inverse-edge",
     "determinant",
@@ -62,8 +64,19 @@ def trace_edges(source: TraceSource) -> StageTrace:
     kind = np.where(place < 3, corner_kind, np.where(place == 3, area_kind, edge_kind))
     following, last = (index + 1) % 3, (index + 2) % 3
     from_corner, to_corner = corners.is_projected[primitive, following], corners.is_projected[primitive, last]
+    a, b, c = (of[primitive, index] for of in (edges.shown_a, edges.shown_b, edges.shown_c))
+    seen, direction = np.stack([ends, ends]), np.full((len(kind), 2), np.nan)
     if numbers.suits_spans:
-        kind[(place > 3) & (from_corner != to_corner)] = KINDS.index("anchored-edge")
+        is_constant = (a == 0) & (b == 0) & (c != 0)
+        anchored = np.flatnonzero((place > 3) & (from_corner != to_corner))
+        kind[anchored] = KINDS.index("anchored-edge")
+        kind[(place > 3) & from_corner & to_corner & is_constant] = KINDS.index("left-out-edge")
+        given = np.stack(given_directions(corners), axis=2)
+        direction[anchored] = given[index[anchored], primitive[anchored]]
+        # A determinant is that of the corners before snapping.
+        seen[1] = corners.homogeneous
+    is_matrix = (place == 3) & ~corners.is_projected[primitive].all(axis=1)
+    start, finish = (seen[is_matrix.astype(np.int64), primitive, end] for end in (following, last))
     columns = {
         "corner": index,
         "edge": index,
@@ -74,12 +87,13 @@ def trace_edges(source: TraceSource) -> StageTrace:
         "doubled_area": edges.doubled_area[primitive],
         "is_projected": from_corner & to_corner,
         "anchor": from_corner.astype(np.int64) - to_corner,
-        "a": edges.shown_a[primitive, index],
-        "b": edges.shown_b[primitive, index],
-        "c": edges.shown_c[primitive, index],
+        "direction": direction,
+        "a": a,
+        "b": b,
+        "c": c,
         "owns_tie": edges.owns_tie[primitive, index],
-        "start": ends[primitive, following],
-        "finish": ends[primitive, last],
+        "start": start,
+        "finish": finish,
     }
     coefficients = (
         *(Operation(name, name, (name,)) for name in "abc"),
@@ -94,6 +108,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "orientation": (Operation("area", "a", ("doubled_area",)),),
             "edge": coefficients,
             "anchored-edge": coefficients,
+            "left-out-edge": (Operation("leave-out", "left-out", ("a", "b", "c", "owns_tie")),),
             "rounded": (Operation("round", "round", ("rounded",)),),
             "inverse-edge": tuple(Operation(done.name, "inverse", done.sets) for done in coefficients),
             "determinant": (Operation("area", "determinant", ("doubled_area",)),),
@@ -115,6 +130,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "orientation": cross_product,
             "edge": cross_product,
             "anchored-edge": listing(anchored_coefficients),
+            "left-out-edge": listing(edge_left_out),
             "rounded": listing(rounded_corner),
             "inverse-edge": listing(inverse_coefficients),
             "determinant": listing(inverse_coefficients),

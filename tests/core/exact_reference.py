@@ -30,12 +30,9 @@ def snapped_window(corner, size: tuple[int, int]) -> tuple[Fraction, Fraction] |
     return column, row
 
 
-def homogeneous_window(corner, size: tuple[int, int], snaps: bool = True) -> Point:
-    """Return D clip = (x, y, w) as the edges see it: (snapped w, w) where the corner is on the grid."""
+def homogeneous_window(corner, size: tuple[int, int]) -> Point:
+    """Return D clip = (x, y, w) before snapping."""
     x, y, _, w = exact(corner)
-    place = snapped_window(corner, size) if snaps else None
-    if place is not None:
-        return place[0] * w, place[1] * w, w
     return (x + w) * size[0] / 2, (y + w) * size[1] / 2, w
 
 
@@ -45,8 +42,12 @@ def determinant(first: Point, second: Point, third: Point) -> Fraction:
 
 
 def facing(clip, size: tuple[int, int], snaps: bool = True) -> int:
-    """Return 1 for the front, -1 for the back, 0 for a triangle that is seen edge-on."""
-    value = determinant(*(homogeneous_window(corner, size, snaps) for corner in clip))
+    """Return 1 for the front, -1 for the back, 0 for edge-on; of snapped corners where all are on the grid."""
+    places = [snapped_window(corner, size) if snaps else None for corner in clip]
+    if None in places:
+        value = determinant(*(homogeneous_window(corner, size) for corner in clip))
+    else:
+        value = determinant(*((*place, Fraction(1)) for place in places))
     return (value > 0) - (value < 0)
 
 
@@ -60,9 +61,35 @@ def line_through(first: Point, second: Point) -> tuple[int, int, int]:
 
 def edge_signs(clip, size: tuple[int, int], snaps: bool = True) -> list[tuple[int, int, int]]:
     """Return inward lines (a, b, c) of the three edges; edge k lies opposite corner k."""
-    corners = [homogeneous_window(corner, size, snaps) for corner in clip]
+    places = [snapped_window(corner, size) if snaps else None for corner in clip]
+    corners = [homogeneous_window(corner, size) for corner in clip]
     turn = facing(clip, size, snaps)
-    return [tuple(turn * n for n in line_through(corners[k - 2], corners[k - 1])) for k in range(3)]
+    lines = []
+    for k in range(3):
+        start, finish = (k + 1) % 3, (k + 2) % 3
+        on_grid = [places[end] for end in (start, finish) if places[end] is not None]
+        a, b, c = line_through(corners[start], corners[finish])
+        if len(on_grid) == 2:
+            a, b, c = line_through(*((*place, Fraction(1)) for place in on_grid))
+        elif on_grid:
+            # Moved to its snapped end, not turned; all numbers times 256 are whole.
+            (x, y), a, b = on_grid[0], 256 * a, 256 * b
+            c = int(-(a * x + b * y))
+        lines.append((turn * a, turn * b, turn * c))
+    return leave_out_turned(lines, places, clip)
+
+
+def leave_out_turned(lines, places, clip) -> list[tuple[int, int, int]]:
+    """Leave out the edge between two snapped corners that are not inside the opposite edges."""
+    unsnapped = [k for k, place in enumerate(places) if place is None]
+    if len(unsnapped) != 1:
+        return lines
+    third = unsnapped[0]
+    for k in ((third + 1) % 3, (third + 2) % 3):
+        (a, b, c), (x, y) = lines[k], places[k]
+        if a * x + b * y + c <= 0:
+            lines[third] = (0, 0, -1 if Fraction(float(clip[third][3])) > 0 else 1)
+    return lines
 
 
 def exact_coverage(

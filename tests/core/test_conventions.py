@@ -101,10 +101,10 @@ def test_corners_are_snapped_to_a_256th_of_a_pixel_half_to_even(shift: float, dr
     assert bool(cover_each(clip, (4, 4))[0, 1, 1]) == drawn
 
 
-def test_an_edge_to_a_corner_behind_the_eye_starts_in_the_snapped_corner() -> None:
-    # The left side runs up from the corner that is snapped to (1.5, 0.5), away from the third, which projects to
-    # (1.5, -3.5) from behind the eye: it meets the centres of column 1. Before snapping it passes them by.
-    corners = [(1.5 + 0.4 / 256, 0.5), (6.5, 0.5), (1.5, -3.5)]
+def test_an_edge_to_a_corner_behind_the_eye_starts_in_the_snapped_corner_and_keeps_its_direction() -> None:
+    # The left side runs straight up from the corner that is snapped to (1.5, 0.5), away from the third, which
+    # projects to below it from behind the eye: it meets the centres of column 1. Before snapping it passes them by.
+    corners = [(1.5 + 0.4 / 256, 0.5), (6.5, 0.5), (1.5 + 0.4 / 256, -3.5)]
     clip = clip_of_window([corners], (8, 4), [[1.0, 1.0, -1.0]])
     assert text(cover_each(clip, (8, 4))[0] > 0) == [".#######", ".#######", ".#######", ".#####.."]
     unsnapped = cover_each(clip, (8, 4), coverage="float64")[0] > 0

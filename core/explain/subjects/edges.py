@@ -104,9 +104,9 @@ def _has_area(step: StepValues) -> bool:
 @explains("edges.orientation.area")
 def orientation(step: StepValues) -> Said:
     """Twice the signed area, or the determinant where a corner is not projected."""
-    value, is_projected = step.number("doubled_area"), step.flag("is_projected")
+    value = step.number("doubled_area")
     first, start, finish = step.vector("snapped"), step.vector("start"), step.vector("finish")
-    is_snapped, is_area = all(map(math.isfinite, first)), _has_area(step)
+    is_area = _has_area(step)
     name = "Twice the signed area" if is_area else "The determinant of the (x, y, w) matrix"
     rest = ": nothing is drawn"
     if value > 0:
@@ -116,13 +116,11 @@ def orientation(step: StepValues) -> Said:
     text = f"{name} of triangle {step.triangle} is {spoken(value)}{rest}."
     if is_area:
         return text, _area(step, [first, start[:2], finish[:2]])
-    if is_projected:
-        # The two other corners are given divided by their w; this determinant is made of undivided ones.
+    if step.text("rounding") == "wrapped":
+        # The format cannot represent a corner and counts the area as 0.
         return text, equation((DETERMINANT, value))
-    x, y, w = step.vector("homogeneous")
-    if is_snapped:
-        x, y = first[0] * w, first[1] * w
-    matrix = r" \\ ".join(" & ".join(map(number_latex, row)) for row in ([x, y, w], start, finish))
+    rows = (step.vector("homogeneous"), start, finish)
+    matrix = r" \\ ".join(" & ".join(map(number_latex, row)) for row in rows)
     return text, equation(
         ("D", value), "=", (DETERMINANT, rf"\det \begin{{pmatrix}} {matrix} \end{{pmatrix}}")
     )
@@ -177,25 +175,40 @@ def coefficient(step: StepValues) -> Said:
 def anchored_coefficient(step: StepValues) -> Said:
     """One coefficient of an edge with one snapped end: its direction in whole numbers u, exactly through that end."""
     name, k, is_forward = step.operation, step.whole("edge"), step.whole("anchor") > 0
-    i, j = ((k + 1) % 3, (k + 2) % 3) if is_forward else ((k + 2) % 3, (k + 1) % 3)
-    x, y, _ = step.vector("start" if is_forward else "finish")
-    end_x, end_y, end_w = step.vector("finish" if is_forward else "start")
+    i, j = (k + 1) % 3, (k + 2) % 3
     value, text = (f"{name}_{k}", step.number(name)), _coefficient_text(step)
     if name == "c":
+        corner, (x, y, _) = (i, step.vector("start")) if is_forward else (j, step.vector("finish"))
         terms = [
-            ("-", (f"{slope}_{k}", step.number(slope)), r"\cdot", (rf"\vertex{{{i}}}{{{axis}_{i}}}", at))
+            (
+                "-",
+                (f"{slope}_{k}", step.number(slope)),
+                r"\cdot",
+                (rf"\vertex{{{corner}}}{{{axis}_{corner}}}", at),
+            )
             for slope, axis, at in (("a", "x", x), ("b", "y", y))
         ]
         return text, equation(value, "=", *terms[0], *terms[1])
-    corner, end, axis = (y, end_y, "y") if name == "a" else (x, end_x, "x")
-    ends = (rf"\vertex{{{i}}}{{{axis}_{i}}} \vertex{{{j}}}{{w_{j}}}", rf"\vertex{{{j}}}{{{axis}_{j}}}")
-    direction, symbols = corner * end_w - end, f"{ends[0]} - {ends[1]}"
-    if name == "b":
-        direction, symbols = end - corner * end_w, f"{ends[1]} - {ends[0]}"
-    above, below = fraction((symbols, direction), ("u", "u"))
-    sign = _sign(step.number("doubled_area")) * step.whole("anchor")
+    one, other = {"a": ("y", "w"), "b": ("w", "x")}[name]
+    symbols = (
+        rf"\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
+        rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}}"
+    )
+    above, below = fraction((symbols, step.vector("direction")["ab".index(name)]), ("u", "u"))
     rounded = (rf"\mathrm{{round}} {above}", rf"\mathrm{{round}} {below}")
-    return text, equation(value, "=", ("s", sign), r"\cdot", rounded)
+    return text, equation(value, "=", ("s", _sign(step.number("doubled_area"))), r"\cdot", rounded)
+
+
+@explains("edges.left-out-edge.leave-out")
+def left_out(step: StepValues) -> Said:
+    """An edge between two snapped corners that are not inside the opposite edges."""
+    k, c = step.whole("edge"), step.number("c")
+    i, j = (k + 1) % 3, (k + 2) % 3
+    text = (
+        f"Edge {k} is left out, since on the grid corner {i} or corner {j} is not inside the opposite edge: "
+        f"E{k} is {spoken(c)} everywhere."
+    )
+    return text, equation(*beside(*([(f"{name}_{k}", step.number(name))] for name in "abc")))
 
 
 def _sign(value: float) -> float:
@@ -260,6 +273,7 @@ shows(
             lambda step: "2A" if _has_area(step) else "D",
             "Twice the signed area 2A, or the determinant D.",
         ),
+        "direction": VariableText("direction", "a and b before snapping, not rounded.", "a"),
         "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),
         "finish": VariableText("edge end", "End of the edge as (x, y, w).", "a"),
         "a": VariableText("a", "Change of the edge function per pixel to the right."),
@@ -269,4 +283,4 @@ shows(
     },
 )
 hides("edges.orientation|determinant", ("corner", "homogeneous"))
-hides("edges.edge|anchored-edge|inverse-edge", ("homogeneous",))
+hides("edges.edge|anchored-edge|left-out-edge|inverse-edge", ("homogeneous",))

@@ -48,7 +48,7 @@ DEPTH_CLIPPING = PolygonClipping(DEPTH_PLANES)
     "homogeneous",
     "None (homogeneous rasterization)",
     source="Zwicker 2016, Homogeneous rasterization; Olano and Greer 1997",
-    exact_for="any signs of w",
+    exact_for="any signs of w; an edge that crosses w = 0 moves with its snapped end, by at most sqrt(2)/512 pixel",
 )
 def no_clipping() -> PolygonClipping:
     """Return how polygons are clipped: not at all."""

@@ -8,12 +8,14 @@ Exactness
 ---------
 *Both ends projected*: snapped corners are multiples of 2^-8 up to 2^16 and pixel centres multiples of 2^-1 up
 to 2^14, so a x, b y and c are multiples of 2^-16 below 2^34: every product and sum fits the 53 bits of float64
-without rounding. *One end projected*: the edge is anchored in its snapped corner, and its direction is rounded to
-whole numbers of 26 bits; then it passes through the corner exactly, as do all edges that meet there, and again
-nothing is rounded. The turn is about 2^-26 at most: a 256th of the snapping step at 1,024 pixels from the corner, a
-quarter of it at 65,536. *Neither*: IEEE multiplication commutes and subtraction is antisymmetric, so ``v2 x v1`` is
-exactly ``-(v1 x v2)``. In all three cases the two triangles of an edge see values of equal size and opposite sign:
-the decision belongs to the edge, not to the triangle, and a shared edge has neither hole nor double hit.
+without rounding. *One end projected*: the edge runs through its snapped corner in the direction that it has before
+snapping, rounded to whole numbers of 26 bits; then it passes through the corner exactly, as do all edges that meet
+there, and again nothing is rounded in its values. It lies at most sqrt(2)/512 pixel beside the edge before snapping, up
+to the rounding of its direction (`one_ended` has the proof). *Neither*: IEEE multiplication commutes and subtraction is
+antisymmetric, so ``v2 x v1`` is exactly ``-(v1 x v2)``; each coefficient is rounded. In all three cases the two
+triangles of an edge see values of equal size and opposite sign: the decision belongs to the edge, not to the triangle,
+and a shared edge has neither hole nor double hit. Only a triangle that snapping turns over draws pixels twice, and one
+with a corner that is not projected may leave some out (`one_ended`, "Turned over").
 
 *Monotone*: rounding never reverses an order, so the computed value is monotone in the column and in the row. A
 block's least and greatest value stand at its corner pixels, and a row's inside pixels are one span: blocks and
@@ -22,8 +24,7 @@ spans decide exactly as the test at every pixel does.
 References
 ----------
 M. Olano, T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, 1997.
-M. Zwicker, *Computergrafik*, lecture "Homogeneous rasterization", Bern 2016 (which prints alpha + beta + gamma = 0
-on the triangle's plane at one place: it is 1).
+M. Zwicker, *Computergrafik*, lecture "Homogeneous rasterization", Bern 2016.
 J. Pineda, *A parallel algorithm for polygon rasterization*, 1988.
 """
 
@@ -33,8 +34,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import table
+from core.raster.edges.one_ended import anchored_edges, leave_out_turned
+from core.raster.number_formats.exact import EXACT
 from core.raster.number_formats.number_format import (
-    FIRST,
     LAST,
     NEXT,
     CornerPositions,
@@ -45,8 +47,8 @@ from core.raster.number_formats.number_format import (
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 
-DIRECTION_BITS = 26
-"""Bits of the direction of an edge that is anchored in one snapped corner."""
+DETERMINANT_ERROR = 2.0**-48
+"""Error of a determinant over the product of its rows' sums of sizes: of its numbers and of all operations."""
 BLOCK = 16384
 """Triangles whose corners are gathered at once, so that their numbers stay in the processor's cache."""
 
@@ -102,17 +104,27 @@ def orient(corners: CornerPositions) -> Floats:
 
     Notes
     -----
-    Where a corner is not projected it is the determinant of the (x, y, w) matrix, whose sign is that of the
-    area times the product of the signs of w. Zero: nothing is drawn.
+    Where a corner is not projected it is the determinant of the (x, y, w) matrix before snapping, whose sign is that of
+    the area times the product of the signs of w. Zero: nothing is drawn.
     """
     x, y = _rows(corners.decided)
     area: Floats = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
-    if corners.is_projected.all():
-        return area
-    a, b, c = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
-    x0, y0, w0 = (ends[0] for ends in _homogeneous_ends(corners, FIRST))
-    determinant: Floats = x0 * a[0] + y0 * b[0] + w0 * c[0]
-    return np.where(corners.is_projected.all(axis=1), area, determinant)
+    unprojected = np.flatnonzero(~corners.is_projected.all(axis=1))
+    if len(unprojected):
+        area[unprojected] = _determinants(corners.take(unprojected))
+    return area
+
+
+def _determinants(corners: CornerPositions) -> Floats:
+    """Return the determinants (P,) of the (x, y, w) rows; the sign is right where a corner is projected."""
+    x, y, w = _rows(corners.homogeneous)
+    a, b, c = cross(x[NEXT], y[NEXT], w[NEXT], x[LAST], y[LAST], w[LAST])
+    determinant: Floats = x[0] * a[0] + y[0] * b[0] + w[0] * c[0]
+    rounding = DETERMINANT_ERROR * np.prod(np.abs([x, y, w]).sum(axis=0), axis=0)
+    unsure = np.flatnonzero(corners.is_projected.any(axis=1) & (np.abs(determinant) <= rounding))
+    if len(unsure):
+        determinant[unsure] = EXACT.set_up(corners.take(unsure)).doubled_area
+    return determinant
 
 
 def doubled_areas(x: Floats, y: Floats, corner: Integers) -> Floats:
@@ -158,50 +170,39 @@ def set_up_per_edge(corners: CornerPositions) -> tuple[Floats, Floats, Floats, F
     """Return a, b, c (P, 3) and the doubled area (P,) in float64, each edge by whether its ends are projected."""
     x, y = _rows(corners.decided)
     a, b, c = cross(x[NEXT], y[NEXT], 1.0, x[LAST], y[LAST], 1.0)
-    if not corners.is_projected.all():
-        first, second = corners.is_projected.T[NEXT], corners.is_projected.T[LAST]
-        homogeneous = cross(*_homogeneous_ends(corners, NEXT), *_homogeneous_ends(corners, LAST))
-        forward = _from_corner(corners, NEXT, LAST)
-        backward = _from_corner(corners, LAST, NEXT)
-        a, b, c = (
-            np.select([first & second, first, second], [both, there, -back], neither)
-            for both, there, back, neither in zip((a, b, c), forward, backward, homogeneous, strict=True)
+    unprojected = np.flatnonzero(~corners.is_projected.all(axis=1))
+    if len(unprojected):
+        a[:, unprojected], b[:, unprojected], c[:, unprojected] = _unprojected_edges(
+            corners.take(unprojected)
         )
 
     # Turn clockwise triangles over, so that one inside test serves both facings.
     doubled_area = orient(corners)
     sign = np.sign(doubled_area)
-    return (sign * a).T, (sign * b).T, (sign * c).T, doubled_area
+    a, b, c = sign * a, sign * b, sign * c
+    if len(unprojected):
+        leave_out_turned(corners, unprojected, a, b, c)
+    return a.T, b.T, c.T, doubled_area
+
+
+def _unprojected_edges(corners: CornerPositions) -> tuple[Floats, ...]:
+    """Return a, b, c (3, P) of triangles with a corner that is not projected."""
+    (x, y), (far_x, far_y, w) = _rows(corners.decided), _rows(corners.homogeneous)
+    first, second = corners.is_projected.T[NEXT], corners.is_projected.T[LAST]
+    ways = (
+        cross(x[NEXT], y[NEXT], 1.0, x[LAST], y[LAST], 1.0),
+        anchored_edges(corners),
+        cross(far_x[NEXT], far_y[NEXT], w[NEXT], far_x[LAST], far_y[LAST], w[LAST]),
+    )
+    return tuple(
+        np.select([first & second, first | second], [both, one], neither)
+        for both, one, neither in zip(*ways, strict=True)
+    )
 
 
 def _rows(positions: Floats) -> Floats:
     """Return (k, 3, P): the components of positions (P, 3, k), a row for each corner."""
     return positions.transpose(2, 1, 0)
-
-
-def _homogeneous_ends(corners: CornerPositions, order: np.ndarray) -> tuple[Floats, Floats, Floats]:
-    """Return x, y, w (3, P) of the corners in ``order``; a projected corner is (snapped w, w)."""
-    x, y, w = _rows(corners.homogeneous)[:, order]
-    projected = corners.is_projected.T[order]
-    snapped_x, snapped_y = _rows(corners.decided)[:, order]
-    return np.where(projected, snapped_x * w, x), np.where(projected, snapped_y * w, y), w
-
-
-def _from_corner(corners: CornerPositions, at: np.ndarray, to: np.ndarray) -> tuple[Floats, Floats, Floats]:
-    """Return a, b, c (3, P) of the edges from the projected corners ``at`` to the corners ``to``."""
-    x, y = _rows(corners.decided)[:, at]
-    return anchored_edge(x, y, *_rows(corners.homogeneous)[:, to])
-
-
-def anchored_edge(
-    x: Floats, y: Floats, end_x: Floats, end_y: Floats, end_w: Floats
-) -> tuple[Floats, Floats, Floats]:
-    """Return a, b, c (3, P) of lines through snapped corners and homogeneous points, directions in whole numbers."""
-    a, b = y * end_w - end_y, end_x - x * end_w
-    _, exponent = np.frexp(np.maximum(np.abs(a), np.abs(b)))
-    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)
-    a, b = np.rint(a / unit), np.rint(b / unit)
-    return a, b, -(a * x + b * y)
 
 
 def edge_value(a: FormatValue, b: FormatValue, c: FormatValue, x: FormatValue, y: FormatValue) -> FormatValue:
@@ -237,17 +238,4 @@ def edge_coefficients(
     a = sign * (y1 * w2 - w1 * y2)  #: a
     b = sign * (w1 * x2 - x1 * w2)  #: b
     c = sign * (x1 * y2 - y1 * x2)  #: c
-    return a, b, c
-
-
-def anchored_coefficients(
-    x: float, y: float, end_x: float, end_y: float, end_w: float, sign: float
-) -> tuple[float, float, float]:
-    """Listing of an edge with one snapped end (x, y): through it exactly, its direction in whole numbers."""
-    a, b = y * end_w - end_y, end_x - x * end_w  #: direction
-    _, exponent = np.frexp(max(abs(a), abs(b)))
-    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)  #: unit
-    a = sign * np.rint(a / unit)  #: a
-    b = sign * np.rint(b / unit)  #: b
-    c = -(a * x + b * y)  #: c
     return a, b, c

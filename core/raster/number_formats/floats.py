@@ -18,7 +18,7 @@ from core.records.arrays import Flags, Floats
 
 @dataclass(frozen=True)
 class Float64Format(NumberFormat):
-    """float64; each edge by its ends: both snapped, one, or none."""
+    """float64; each edge by its ends: both snapped, one (see `core.raster.edges.one_ended`), or none."""
 
     def place(self, window: Floats) -> tuple[Floats, Flags]:
         """Return positions (P, 3, 2) on the 1/256-pixel grid, if the format snaps, and where (P, 3) bool."""
@@ -66,7 +66,8 @@ FLOAT16 = RoundedFormat("float16", np.float16, "rounded", "rounded", "float16", 
     "snapped",
     "Snapped to 1/256 pixel",
     source="OpenGL 4.6, 14.6.1 and GPU practice; F. Giesen, Triangle rasterization in practice, 2013",
-    exact_for="corners within 65,536 pixels, and every shared edge",
+    exact_for="corners within 65,536 pixels, and every shared edge. An edge to a corner behind the eye or farther "
+    "away is moved with its snapped end, by at most sqrt(2)/512 pixel, and not turned",
 )
 def snapped() -> NumberFormat:
     """Return float64 on corners snapped to 1/256 pixel, which holds every number exactly."""

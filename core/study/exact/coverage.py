@@ -68,7 +68,8 @@ def exact_spans(
         Clip positions, taken as the rational numbers that they are.
     size : (width, height)
     is_snapped : bool
-        Move corners to the 1/256-pixel grid first (half to even), as GPUs and ``coverage=snapped`` do.
+        Move corners to the 1/256-pixel grid first (half to even), as GPUs and ``coverage=snapped`` do. An edge with
+        one end on the grid is moved and not turned: see `core.raster.edges.one_ended`.
     rule : {"shared-edge", "inclusive", "exclusive"}
         Who owns a centre that lies exactly on an edge.
     pixel_center : {"half", "integer"}
@@ -134,15 +135,19 @@ def triangle_lines(
 
     No lines: nothing is covered.
     """
-    placed = [whole_corner(corner, size, is_snapped) for corner in corners]
-    turn = facing(placed)
-    if turn == 0 or all(w <= 0 for _, _, w in placed):
+    given = [whole_corner(corner, size, False) for corner in corners]
+    placed = [snapped_corner(corner) if is_snapped else None for corner in given]
+    ends = [place or corner for place, corner in zip(placed, given, strict=True)]
+    turn = facing(given if None in placed else ends)
+    if turn == 0 or all(w <= 0 for _, _, w in given):
         return (), range(0)
-    lines = tuple(_line_through(placed[k - 2], placed[k - 1], turn) for k in range(3))
-    if any(w <= 0 for _, _, w in placed):
-        return lines, range(size[1])
-    heights = [y // w for _, y, w in placed]
-    return lines, range(max(min(heights) - 1, 0), min(max(heights) + 2, size[1]))
+    lines = [_edge_line(k, given, placed, turn) for k in range(3)]
+    if placed.count(None) == 1:
+        _leave_out_turned(lines, placed, given)
+    if any(w <= 0 for _, _, w in given):
+        return tuple(lines), range(size[1])
+    heights = [y // w for _, y, w in ends]
+    return tuple(lines), range(max(min(heights) - 1, 0), min(max(heights) + 2, size[1]))
 
 
 def homogeneous_corner(corner: Floats, size: tuple[int, int]) -> Corner:
@@ -162,10 +167,16 @@ def whole_corner(corner: Floats, size: tuple[int, int], is_snapped: bool) -> Who
     ratios = [float(corner[k]).as_integer_ratio() for k in (0, 1, 3)]
     common = max(below for _, below in ratios)
     x, y, w = (above * (common // below) for above, below in ratios)
-    across, up, doubled = (x + w) * size[0], (y + w) * size[1], 2 * w
-    if not is_snapped or w <= 0 or max(abs(across), abs(up)) > FARTHEST * doubled:
-        return across, up, doubled
-    return round(Fraction(STEPS * across, doubled)), round(Fraction(STEPS * up, doubled)), STEPS
+    given = (x + w) * size[0], (y + w) * size[1], 2 * w
+    return (snapped_corner(given) or given) if is_snapped else given
+
+
+def snapped_corner(corner: WholeCorner) -> WholeCorner | None:
+    """Return a corner's place on the 1/256-pixel grid; ``None``: it is behind the eye or too far away."""
+    x, y, w = corner
+    if w <= 0 or max(abs(x), abs(y)) > FARTHEST * w:
+        return None
+    return round(Fraction(STEPS * x, w)), round(Fraction(STEPS * y, w)), STEPS
 
 
 def facing(corners: Sequence[Corner | WholeCorner]) -> int:
@@ -175,9 +186,25 @@ def facing(corners: Sequence[Corner | WholeCorner]) -> int:
     return (value > 0) - (value < 0)
 
 
-def _line_through(first: WholeCorner, second: WholeCorner, turn: int) -> Line:
-    (x1, y1, w1), (x2, y2, w2) = first, second
-    return turn * (y1 * w2 - w1 * y2), turn * (w1 * x2 - x1 * w2), turn * (x1 * y2 - y1 * x2)
+def _edge_line(k: int, given: list[WholeCorner], placed: list[WholeCorner | None], turn: int) -> Line:
+    """Return edge k: between two ends on the grid, or as it is given, moved to the end that is on the grid."""
+    first, second = placed[k - 2], placed[k - 1]
+    ends = (first, second) if first and second else (given[k - 2], given[k - 1])
+    (x1, y1, w1), (x2, y2, w2) = ends
+    a, b, c = turn * (y1 * w2 - w1 * y2), turn * (w1 * x2 - x1 * w2), turn * (x1 * y2 - y1 * x2)
+    anchor = None if first and second else first or second
+    if anchor is None:
+        return a, b, c
+    x, y, w = anchor
+    return a * w, b * w, -(a * x + b * y)
+
+
+def _leave_out_turned(lines: list[Line], placed: list[WholeCorner | None], given: list[WholeCorner]) -> None:
+    """Leave out the edge between two corners on the grid that do not lie inside the opposite edges."""
+    third = placed.index(None)
+    opposite = [(line, place) for line, place in zip(lines, placed, strict=True) if place]
+    if any(a * x + b * y + c * w <= 0 for (a, b, c), (x, y, w) in opposite):
+        lines[third] = (0, 0, -1 if given[third][2] > 0 else 1)
 
 
 def owns_edge(a: int | Fraction, b: int | Fraction, rule: str = "shared-edge") -> bool:

@@ -40,7 +40,7 @@ def rules(homogeneous: np.ndarray, x: np.ndarray, y: np.ndarray, interval: int):
 @given(perspective_triangles(1), st.integers(-5, 20), st.integers(-5, 20))
 def test_corrected_at_every_pixel_it_is_perspective_bit_for_bit(case, column, row) -> None:
     clip, size = case
-    corners = [homogeneous_window(corner, size, snaps=False) for corner in clip[0]]
+    corners = [homogeneous_window(corner, size) for corner in clip[0]]
     assume(abs(determinant(*corners)) > Fraction(1, 1000))
     homogeneous = place_corners(clip, size, "snapped").homogeneous[0]
     for center in (0.0, 0.5):
@@ -93,7 +93,7 @@ def test_anchors_are_columns_of_the_grid_or_ends_of_the_row() -> None:
 @given(perspective_triangles(1), st.integers(0, 15), INTERVALS)
 def test_row_ends_are_those_of_exact_arithmetic(case, row, interval) -> None:
     clip, size = case
-    corners = [homogeneous_window(corner, size, snaps=False) for corner in clip[0]]
+    corners = [homogeneous_window(corner, size) for corner in clip[0]]
     assume(abs(determinant(*corners)) > Fraction(1, 10))
     y = Fraction(2 * row + 1, 2)
     points = [(x / w, h / w) for x, h, w in corners]

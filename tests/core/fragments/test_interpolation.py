@@ -27,7 +27,7 @@ FIRST = np.zeros(1, np.int64)
 
 def exact_weights(triangle, size, column: int, row: int) -> tuple[list[Fraction], Fraction]:
     """Return the corners' shares of the point seen at a pixel centre, and its 1/w, by Cramer's rule."""
-    rows = [homogeneous_window(corner, size, snaps=False) for corner in triangle]
+    rows = [homogeneous_window(corner, size) for corner in triangle]
     pixel = (Fraction(2 * column + 1, 2), Fraction(2 * row + 1, 2), Fraction(1))
     whole = determinant(*rows)
     shares = [determinant(*rows[:k], pixel, *rows[k + 1 :]) / whole for k in range(3)]
@@ -45,8 +45,7 @@ def weights_at(clip, size, column: int, row: int, mode: str, provoking: str = "l
 def has_area(clip, size) -> bool:
     """Return whether each triangle is seen from a side by more than a thousandth of a pixel."""
     return all(
-        abs(determinant(*(homogeneous_window(corner, size, snaps=False) for corner in triangle)))
-        > Fraction(1, 1000)
+        abs(determinant(*(homogeneous_window(corner, size) for corner in triangle))) > Fraction(1, 1000)
         for triangle in clip
     )
 

@@ -77,7 +77,7 @@ def exact_slopes(corners, uv, x: Fraction, y: Fraction, is_affine: bool) -> list
 )
 def test_slopes_are_the_derivatives(case, column, row, mode) -> None:
     clip, size = case
-    corners = [homogeneous_window(corner, size, snaps=False) for corner in clip[0]]
+    corners = [homogeneous_window(corner, size) for corner in clip[0]]
     assume(abs(determinant(*corners)) > Fraction(1, 10))
     x, y = Fraction(2 * column + 1, 2), Fraction(2 * row + 1, 2)
     whole = determinant(*corners)

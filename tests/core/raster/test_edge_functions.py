@@ -70,7 +70,7 @@ def test_determinant_where_a_corner_cannot_be_projected(case) -> None:
     clip, size = case
     value = orient(place_corners(clip, size, "float64"))
     for t, triangle in enumerate(clip):
-        rows = [homogeneous_window(corner, size, snaps=False) for corner in triangle]
+        rows = [homogeneous_window(corner, size) for corner in triangle]
         assert value[t] == float(determinant(*rows))
 
 

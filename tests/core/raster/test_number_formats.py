@@ -109,7 +109,7 @@ def test_exact_values_are_the_determinants(case) -> None:
     clip, size = case
     edges = edges_of(clip, size, "exact")
     for t, triangle in enumerate(clip):
-        rows = [homogeneous_window(corner, size, snaps=False) for corner in triangle]
+        rows = [homogeneous_window(corner, size) for corner in triangle]
         area = determinant(*rows)
         assert edges.doubled_area[t] == float(area)
         turn = (area > 0) - (area < 0)

@@ -6,7 +6,8 @@ from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.polygon_clipping.after_divide import divide_corner
 from core.geometry.polygon_clipping.sutherland_hodgman import clip_edge, clip_edge_in_order
-from core.raster.edges.edge_functions import anchored_coefficients, edge_coefficients
+from core.raster.edges.edge_functions import edge_coefficients, edge_value
+from core.raster.edges.one_ended import anchored_coefficients, edge_left_out
 from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
@@ -95,11 +96,19 @@ def check_edges(traced: Trace) -> None:
         assert equal([line[k] for line in columns], (c["a"][row], c["b"][row], c["c"][row]))
         assert equal(area, c["doubled_area"][row])
     for row in rows_of_kind(found, "anchored-edge"):
-        ends = (c["start"][row], c["finish"][row])
-        corner, other = ends if c["anchor"][row] > 0 else ends[::-1]
-        sign = np.sign(c["doubled_area"][row]) * c["anchor"][row]
-        coefficients = anchored_coefficients(*corner[:2], *other, sign)
+        p, k = primitive[row], c["edge"][row]
+        x, y, _ = c["start" if c["anchor"][row] > 0 else "finish"][row]
+        ends = edges.corners.clip[p][[(k + 1) % 3, (k + 2) % 3]][:, [0, 1, 3]].tolist()
+        coefficients = anchored_coefficients(x, y, *ends, edges.corners.size, np.sign(c["doubled_area"][row]))
         assert equal(coefficients, (c["a"][row], c["b"][row], c["c"][row]))
+    for row in rows_of_kind(found, "left-out-edge"):
+        p, k = primitive[row], c["edge"][row]
+        values = [
+            edge_value(*(of[p, corner] for of in shown), *edges.corners.decided[p, corner])
+            for corner in ((k + 1) % 3, (k + 2) % 3)
+        ]
+        left_out = edge_left_out(*values, edges.corners.homogeneous[p, k, 2])
+        assert left_out == (c["a"][row], c["b"][row], c["c"][row])
 
 
 def coefficients_of(edges, primitive: int) -> list[tuple[float, float, float, bool]]:

@@ -16,6 +16,7 @@ from core.study.exact.coverage import (
     whole_corner,
 )
 from tests.core.exact_reference import exact_coverage
+from tests.core.one_ended import one_ended_triangles
 
 SIZE = (9, 7)
 
@@ -42,6 +43,15 @@ def test_rows_solved_for_columns_are_the_pixels_tested_one_by_one(
     for number, corners in enumerate(clip):
         chosen = triangle == number
         expected = exact_coverage(corners, SIZE, rule, snaps=is_snapped)
+        assert np.array_equal(count_pixels(column[chosen], row[chosen], SIZE), expected), number
+
+
+def test_edges_with_one_end_are_moved_and_not_turned() -> None:
+    clip = one_ended_triangles(3, 60, SIZE)
+    triangle, column, row = exact_spans(clip, SIZE).pixels()
+    for number, corners in enumerate(clip):
+        chosen = triangle == number
+        expected = exact_coverage(corners, SIZE)
         assert np.array_equal(count_pixels(column[chosen], row[chosen], SIZE), expected), number
 
 
