@@ -274,7 +274,7 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
         decided = decide_fragments(geometry, kept, raster) if keeps_all else None
         pixel, owner, depth = nearest.resolve()
         if geometry.casts_rays and decided is not None:
-            pixel, last = decided.last_passing(raster)
+            pixel, last = decided.last_kept(raster)
             owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
     return Visible(pixel, owner, depth, cover_count, decided)
 

@@ -204,17 +204,17 @@ def run_depth_tests(
     return DepthTests(before, passes)
 
 
-def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, passes: Flags) -> Stored:
-    """Return what the buffer held before each of F fragments, (F,), where another test decided which pass.
+def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, kept: Flags) -> Stored:
+    """Return what the buffer held before each of F fragments, (F,), where another test decided which are kept.
 
-    Arguments as in `run_depth_tests`; ``passes`` is (F,) bool.
+    Arguments as in `run_depth_tests`; ``kept`` is (F,) bool.
     """
     before = np.empty_like(stored)
     there = initial.take(stacks.pixel)
     for count, fragment in stacks.layers():
         old = there[:count]
         before[fragment] = old
-        np.copyto(old, stored.take(fragment), where=passes.take(fragment))
+        np.copyto(old, stored.take(fragment), where=kept.take(fragment))
     return before
 
 

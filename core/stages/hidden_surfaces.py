@@ -68,14 +68,16 @@ def run_visibility_tests(
     rays : RayTests, optional
         Where the scene casts rays: how that was decided.
     """
+    writes = writes_depth(fragments)
     if not geometry.casts_rays:
-        is_tested, writes = geometry.uses_depth_test, writes_depth(fragments)
+        is_tested = geometry.uses_depth_test
         return run_depth_tests(stored, stacks, start.depth, depth_format, is_tested, writes), None
     planes = geometry.ray_planes
     m, n = planes.rays(fragments.column, fragments.row, raster.center)
     triangle = geometry.primitives.triangle.take(fragments.primitive)
-    rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel))
-    return DepthTests(replay_depths(stored, stacks, start.depth, rays.passes), rays.passes), rays
+    rays = run_ray_tests(planes, triangle, m, n, stacks.layers(), start.triangle.take(stacks.pixel), writes)
+    kept = rays.passes if writes is None else rays.passes & writes
+    return DepthTests(replay_depths(stored, stacks, start.depth, kept), rays.passes), rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,11 +100,12 @@ class DecidedFragments:
         """Blend colours (G, 4) of those that pass into ``color`` (H*W, 4) by a method of the family ``blend``."""
         blend_stacks(color, source, np.cumsum(self.passes) - 1, self.stacks, self.passes, rule)
 
-    def last_passing(self, raster: Raster) -> tuple[Integers, Integers]:
+    def last_kept(self, raster: Raster) -> tuple[Integers, Integers]:
         """Return the pixels that something is seen at (V,), and the fragment (V,) that was kept there last."""
-        passing = np.flatnonzero(self.passes)
+        writes = writes_depth(self.fragments)
+        kept = np.flatnonzero(self.passes if writes is None else self.passes & writes)
         last = np.full(raster.shape[0] * raster.shape[1], -1)
-        last[raster.index(self.fragments.column[passing], self.fragments.row[passing])] = passing
+        last[raster.index(self.fragments.column[kept], self.fragments.row[kept])] = kept
         pixel = np.flatnonzero(last >= 0)
         return pixel, last[pixel]
 

@@ -39,7 +39,9 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
     kind = np.full(len(fragments), kinds.index("out-of-range"))
     names = {FIRST: "ray-first", BY_FLOATS: "ray", EXACTLY: "ray-exact"}
     kind[keeps] = np.array([kinds.index(names[how]) for how in sorted(names)])[rays.how]
-    after = np.where(tests.passes, stored, tests.before)
+    writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
+    is_kept = tests.passes & writes
+    after = np.where(is_kept, stored, tests.before)
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,
@@ -49,11 +51,12 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
         "before": tests.before,
         "after": after,
         "passes": tests.passes,
+        "writes": writes,
         "primitive": fragments.primitive,
     }
     columns |= _hits(source, rays, keeps)
     triangle = source.triangle_of_fragment
-    passed = np.flatnonzero(tests.passes)
+    kept = np.flatnonzero(is_kept)
     every, place = np.arange(len(fragments)), source.place
     unknown = np.full(source.raster.shape, np.nan)
     start = source.start
@@ -75,9 +78,9 @@ def trace_rays(source: TraceSource, rays: RayTests) -> StageTrace:
             "nan": np.isnan(depth),
         },
         buffers=(
-            BufferTrack("primitive", start.primitive, passed, place[passed], triangle[passed], "ids", True),
-            BufferTrack("nearness", unknown, passed, place[passed], columns["nearness"][passed]),
-            BufferTrack("depth", start.depth, passed, place[passed], stored[passed], starts_known=True),
+            BufferTrack("primitive", start.primitive, kept, place[kept], triangle[kept], "ids", True),
+            BufferTrack("nearness", unknown, kept, place[kept], columns["nearness"][kept]),
+            BufferTrack("depth", start.depth, kept, place[kept], stored[kept], starts_known=True),
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )

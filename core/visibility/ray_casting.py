@@ -62,6 +62,7 @@ def run_ray_tests(
     n: Floats,
     layers: Iterator[tuple[int, Integers]],
     initial: Integers,
+    writes: Flags | None = None,
 ) -> RayTests:
     """Compare hits with the nearest so far, one layer after another.
 
@@ -76,6 +77,8 @@ def run_ray_tests(
         Hits (F,) of which no two are of one pixel: how many, and their numbers; those of U pixels in their order.
     initial : (U,) int64
         The nearest triangle of these pixels before the first hit, -1: none.
+    writes : (F,) bool, optional
+        Hits that later ones are compared with if they pass; ``None``: all.
     """
     before, how, sign = np.empty((3, len(triangle)), np.int64)
     there = initial.copy()
@@ -83,7 +86,10 @@ def run_ray_tests(
         nearest = there[:count]
         before[hit] = nearest
         sign[hit], how[hit] = compare_hits(planes, triangle.take(hit), nearest, m.take(hit), n.take(hit))
-        np.copyto(nearest, triangle.take(hit), where=sign.take(hit) > 0)
+        is_nearer = sign.take(hit) > 0
+        np.copyto(
+            nearest, triangle.take(hit), where=is_nearer if writes is None else is_nearer & writes.take(hit)
+        )
     return RayTests(before, sign > 0, how, sign)
 
 

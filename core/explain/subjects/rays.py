@@ -55,6 +55,8 @@ def hit(step: StepValues) -> Said:
 @explains("depth.ray-first.keep")
 def first(step: StepValues) -> Said:
     """The first hit of a ray."""
+    if not step.flag("writes"):
+        return _not_kept(step, "nothing")
     return f"{step.pixel_name}: the ray has met nothing before, so triangle {step.triangle} is the nearest so far."
 
 
@@ -109,6 +111,16 @@ def exact(step: StepValues) -> Said:
 @explains("depth.ray|ray-exact.write")
 def written(step: StepValues) -> Said:
     """Which triangle is the ray's nearest now."""
+    if step.flag("passes") and not step.flag("writes"):
+        return _not_kept(step, f"triangle {step.whole('nearest')}")
     seen = step.triangle if step.flag("passes") else step.whole("nearest")
     verb = "is now" if step.flag("passes") else "is still"
     return f"{step.pixel_name}: triangle {seen} {verb} the nearest on the ray."
+
+
+def _not_kept(step: StepValues, nearest: str) -> str:
+    """A pale pixel of a line, which later hits are not compared with."""
+    return (
+        f"{step.pixel_name}: {nearest} stays the nearest on the ray, as the line covers less than half of this pixel "
+        "and must not hide what is drawn there later."
+    )

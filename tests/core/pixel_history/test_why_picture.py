@@ -5,7 +5,7 @@ from time import process_time
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Scene, Settings, render, trace
@@ -83,24 +83,14 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
         assert len(listed) + sum(history.counts.values()) == count
 
 
-def is_mistaken(settings: Settings) -> bool:
-    """Return whether picture and history are known to disagree: smoothed lines under ray casting."""
-    smoothed = settings.polygon_mode == "wireframe" and has_intensities(settings.line)
-    return smoothed and settings.visibility == "ray-casting"
-
-
-@pytest.mark.xfail(strict=True, reason="the picture names a triangle where the history has it rejected")
 @pytest.mark.parametrize("line", ["wu", "gupta-sproull"])
 def test_smoothed_lines_under_ray_casting(line):
     scene = SCENES["textured-clip"]
     settings = Settings(polygon_mode="wireframe", line=line, visibility="ray-casting")
-    assert is_mistaken(settings)
     check_pixels(scene, settings, some_pixels(scene))
 
 
-@pytest.mark.parametrize(
-    ("name", "choice"), [case for case in CASES if not is_mistaken(Settings(**case[1]))], ids=name_of
-)
+@pytest.mark.parametrize(("name", "choice"), CASES, ids=name_of)
 def test_history_ends_in_the_picture(name, choice):
     scene = SCENES[name]
     check_pixels(scene, settings_of(choice, scene), some_pixels(scene))
@@ -145,7 +135,6 @@ def any_case(draw) -> tuple[ClipScene, Settings, tuple[int, int]]:
 @given(any_case())
 def test_any_pixel_of_any_triangles(case):
     scene, settings, pixel = case
-    assume(not is_mistaken(settings))
     check_pixels(scene, settings, [pixel])
 
 

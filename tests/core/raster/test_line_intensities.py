@@ -94,12 +94,15 @@ def test_the_intensity_scales_alpha(line):
     np.testing.assert_allclose(thin.color[one][:, 3], whole.color[one][:, 3] / 2, atol=1e-6)
 
 
+@pytest.mark.parametrize("visibility", ["z-buffer", "ray-casting"])
 @pytest.mark.parametrize("line", SMOOTH)
-def test_a_pale_pixel_in_front_does_not_hide_a_line_behind(line):
+def test_a_pale_pixel_in_front_does_not_hide_a_line_behind(line, visibility):
     # A level red line, 0.2 above the centres of row 5; then a green one behind it, upright.
     red, green = np.ones((3, 1)) * [1.0, 0, 0, 1], np.ones((3, 1)) * [0.0, 1, 0, 1]
     front, behind = [(-9.0, 5.7), (40.0, 5.7), (15.0, 40.0)], [(7.6, -9.0), (7.6, 40.0), (40.0, 15.0)]
-    frame = drawn([front, behind], line, depth=[-0.5, 0.5], values=np.array([red, green]))
+    frame = drawn(
+        [front, behind], line, depth=[-0.5, 0.5], values=np.array([red, green]), visibility=visibility
+    )
     # Row 5 has most of the red line and hides the green one; row 6 has little of it, and shows it.
     assert frame.color[5, 7, 0] > 0.7
     assert frame.color[5, 7, 1] == 0
