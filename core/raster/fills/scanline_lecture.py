@@ -4,6 +4,9 @@ It is wrong by design, to be compared and shown: corners are rounded to whole pi
 neighbours overlap; a triangle that arrives with a flat side may be lost; and when the first and the last corner are
 level the printed code divides by zero (here the triangle is skipped, and the loss is visible).
 
+The printed program also walks the rows outside of the picture. A corner may lie a million of them away, so they are
+passed in one step here; inside the picture the slopes are added up from row to row as printed.
+
 References
 ----------
 LMU, *Computer Graphics 1*, tutorial 5 "Scan line algorithm for triangles", 2020.
@@ -27,35 +30,35 @@ def round_half_up(value: Floats) -> Floats:
 
 
 def draw_triangle(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float], height: int
 ) -> list[tuple[int, float, float]]:
-    """Listing as printed, corners at whole pixels: returns row, x1, x2 of every drawn line."""
+    """Listing as printed, corners at whole pixels: returns row, x1, x2 of every line in ``height`` rows."""
     for order in SORTED:  #: sort
         corners = [(v1, v2, v3)[k] for k in order]
         if corners[0][1] > corners[1][1] > corners[2][1]:
             v1, v2, v3 = corners
             break
     if v2[1] == v3[1]:  #: flat-bottom
-        return draw_bottom(v1, v2, v3)
+        return draw_bottom(v1, v2, v3, height)
     if v1[1] == v2[1]:  #: flat-top
-        return draw_top(v1, v2, v3)
+        return draw_top(v1, v2, v3, height)
     if v3[1] == v1[1]:  #: division-by-zero
         return []
     v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
-    return draw_top(v2, v4, v1) + draw_bottom(v3, v4, v2)  #: draw
+    return draw_top(v2, v4, v1, height) + draw_bottom(v3, v4, v2, height)  #: draw
 
 
 def draw_bottom(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float], height: int
 ) -> list[tuple[int, float, float]]:
     """Listing of the part below a level side."""
     height2, height3 = v2[1] - v1[1], v3[1] - v1[1]
     slope1 = (v2[0] - v1[0]) / height2 if height2 else 0.0  #: slope1
     slope2 = (v3[0] - v1[0]) / height3 if height3 else 0.0  #: slope2
-    x1 = x2 = v1[0]
+    row = max(v1[1], 0)  #: first-row
+    x1, x2 = v1[0] + slope1 * (row - v1[1]), v1[0] + slope2 * (row - v1[1])
     lines = []
-    row = v1[1]
-    while row <= v2[1]:  #: rows
+    while row <= v2[1] and row < height:  #: rows
         lines.append((int(row), x1, x2))  #: line
         x1 += slope1  #: next1
         x2 += slope2  #: next2
@@ -64,16 +67,16 @@ def draw_bottom(
 
 
 def draw_top(
-    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float]
+    v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float], height: int
 ) -> list[tuple[int, float, float]]:
     """Listing of the part above a level side."""
     height1, height2 = v3[1] - v1[1], v3[1] - v2[1]
     slope1 = (v3[0] - v1[0]) / height1 if height1 else 0.0  #: slope1
     slope2 = (v3[0] - v2[0]) / height2 if height2 else 0.0  #: slope2
-    x1 = x2 = v3[0]
+    row = min(v3[1], height - 1)  #: first-row
+    x1, x2 = v3[0] - slope1 * (v3[1] - row), v3[0] - slope2 * (v3[1] - row)
     lines = []
-    row = v3[1]
-    while row > v1[1]:  #: rows
+    while row > v1[1] and row >= 0:  #: rows
         lines.append((int(row), x1, x2))  #: line
         x1 -= slope1  #: next1
         x2 -= slope2  #: next2
@@ -105,7 +108,7 @@ def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_s
     index = np.flatnonzero(drawable)
     corner = round_half_up(edges.corners.window[index] - raster.center)
     x, y = sort_corners(corner[..., 0], corner[..., 1])
-    parts = [_part(index, *half) for half in halves(x, y)]
+    parts = [_part(index, raster.height, *half) for half in halves(x, y)]
     triangle, row, left, right, step = (np.concatenate(column) for column in zip(*parts, strict=True))
     half = np.repeat([0, 1], [len(part[0]) for part in parts])
 
@@ -151,8 +154,8 @@ def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
             np.where(flat_top, y3, y1),
             np.where(flat_top, y1, y2),
             np.where(flat_top, x3, x1),
-            np.where(flat_top, (x3 - x1) / (y3 - y1), (x1 - x2) / (y1 - y2)),
-            np.where(flat_top, (x3 - x2) / (y3 - y2), (x1 - x4) / (y1 - y2)),
+            np.where(flat_top, _slope(x3 - x1, y3 - y1), _slope(x1 - x2, y1 - y2)),
+            np.where(flat_top, _slope(x3 - x2, y3 - y2), _slope(x1 - x4, y1 - y2)),
             flat_top | general,
         )
         # drawTriangleBottom(v3, v4, v2) or, where v2 and v3 are level, drawTriangleBottom(v1, v2, v3).
@@ -160,8 +163,8 @@ def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
             np.where(flat_bottom, y1, y3),
             y2,
             np.where(flat_bottom, x1, x3),
-            np.where(flat_bottom, (x2 - x1) / (y2 - y1), (x4 - x3) / (y2 - y3)),
-            np.where(flat_bottom, (x3 - x1) / (y3 - y1), (x2 - x3) / (y2 - y3)),
+            np.where(flat_bottom, _slope(x2 - x1, y2 - y1), _slope(x4 - x3, y2 - y3)),
+            np.where(flat_bottom, _slope(x3 - x1, y3 - y1), _slope(x2 - x3, y2 - y3)),
             flat_bottom | general,
         )
     down = np.where(upper[5], np.maximum(upper[0] - upper[1], 0), 0)
@@ -169,13 +172,35 @@ def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
     return [(*upper[:1], -np.ones(len(x)), *upper[2:5], down), (*lower[:1], np.ones(len(x)), *lower[2:5], up)]
 
 
+def _slope(width: Floats, height: Floats) -> Floats:
+    """Return how far a side goes to the right a row (T,); 0 where it has no height."""
+    return np.asarray(np.where(height != 0, width / height, 0.0))
+
+
 def _part(
-    index: Integers, row: Floats, direction: Floats, x: Floats, slope1: Floats, slope2: Floats, count: Floats
+    index: Integers,
+    height: int,
+    row: Floats,
+    direction: Floats,
+    x: Floats,
+    slope1: Floats,
+    slope2: Floats,
+    count: Floats,
 ) -> tuple[Integers, Integers, Floats, Floats, Integers]:
     """Walk all triangles down their rows together: triangle, row, both x, step (the slopes are added up)."""
-    triangles, rows, lefts, rights, steps = [], [], [], [], []
-    left, right = x.copy(), x.copy()
+    drawn = np.flatnonzero(count > 0)
+    index = index.take(drawn)
+    row, direction, x, slope1, slope2, count = (
+        values.take(drawn) for values in (row, direction, x, slope1, slope2, count)
+    )
     slope1, slope2 = slope1 * direction, slope2 * direction
+
+    # The rows before the picture in one step, those behind it not at all.
+    skipped = np.minimum(np.maximum(np.where(direction > 0, -row, row - (height - 1)), 0), count)
+    row, left, right = row + direction * skipped, x + slope1 * skipped, x + slope2 * skipped
+    count = np.minimum(count - skipped, np.where(direction > 0, height - row, row + 1))
+
+    triangles, rows, lefts, rights, steps = [], [], [], [], []
     active: Flags = np.ones(len(index), bool)
     for step in range(int(count.max(initial=0))):
         active = count > step

@@ -138,7 +138,7 @@ def check_printed_lines(found: StageTrace, edges, raster) -> None:
     c = found.columns
     for primitive in np.unique(c["primitive"][lines]).tolist():
         corners = round_half_up(edges.corners.window[primitive] - raster.center)
-        printed = draw_triangle(*(tuple(corner) for corner in corners.tolist()))
+        printed = draw_triangle(*(tuple(corner) for corner in corners.tolist()), raster.height)
         _, first_row, _, end_row = raster.bounds
         wanted = [line for line in printed if first_row <= line[0] < end_row]
         own = lines[c["primitive"][lines] == primitive]
