@@ -26,6 +26,8 @@ DEPTH_BITS = 38
 SCALE = 2.0**DEPTH_BITS
 SLACK = 1 << 20
 """How far rounding may take a depth out of 0 to 2^38; added to keys so that they are never negative."""
+LEAST, GREATEST = -SLACK, (1 << DEPTH_BITS) + SLACK
+"""Range of the depths on a plane: only fills and number formats that cover pixels outside a triangle reach its ends."""
 UNDEFINED = (1 << (DEPTH_BITS + 1)) - 1
 """Key of a depth that is no number: farther than everything."""
 SLOPE_LIMIT = 2.0**10
@@ -40,6 +42,11 @@ class FixedPlanes:
     planes: IntegerPlanes
     is_linear: Flags
     """(P,) bool, where the plane holds; elsewhere depth is rounded pixel by pixel."""
+
+    def at(self, primitive: Integers, column: Integers, row: Integers) -> Floats:
+        """Return the depths (F,) on the planes of primitives at pixels, ``LEAST`` to ``GREATEST``."""
+        depth = self.planes.at(primitive, column, row)
+        return np.clip(depth, LEAST, GREATEST).astype(np.float64)
 
 
 def set_up_fixed_planes(
@@ -84,10 +91,9 @@ class FixedDepth(DepthFormat):
     is_planar = True
 
     def nearness_key(self, stored: Stored) -> Integers:
-        """Return (F,) int64 keys, 0 or more; far outside a triangle, where no exact fill draws, the range ends."""
-        held = np.clip(stored, -SLACK, SCALE + SLACK)
-        undefined = np.isnan(held)
-        key: Integers = np.where(undefined, 0, held).astype(np.int64) + SLACK
+        """Return (F,) int64 keys, 0 or more, of depths from ``LEAST`` to ``GREATEST``."""
+        undefined = np.isnan(stored)
+        key: Integers = np.where(undefined, 0, stored).astype(np.int64) + SLACK
         key[undefined] = UNDEFINED
         return key
 

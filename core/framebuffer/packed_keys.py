@@ -1,19 +1,17 @@
 """Listings of the depth test on packed keys: depth above, number of the triangle below, and the least key wins."""
 
-from core.framebuffer.fixed_depth import SCALE, SLACK
+from core.framebuffer.fixed_depth import GREATEST, LEAST, SCALE, SLACK
 
 NUMBER_BITS = 24
 """Bits of a key that hold the triangle's number plus one; 0 is the empty buffer."""
-WORD = 1 << 64
-"""Keys are computed modulo this: what goes over is lost without a trace, as in the processor."""
 
 
 def packed_depth_test(
     origin: int, across: int, up: int, column: int, row: int, number: int, old: int
 ) -> tuple[int, bool]:
     """Listing of the test where depth is an integer plane; ``old`` is the key in the buffer."""
-    depth = origin + column * across + row * up  #: depth
-    key = (((depth + SLACK) << NUMBER_BITS) | (number + 1)) % WORD  #: key
+    depth = min(max(origin + column * across + row * up, LEAST), GREATEST)  #: depth
+    key = ((depth + SLACK) << NUMBER_BITS) | (number + 1)  #: key
     new = min(key, old)  #: minimum
     return new, new != old  #: store
 

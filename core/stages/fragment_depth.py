@@ -33,8 +33,8 @@ def fragment_depth(
         depth, keeps, stored = depth_at(geometry, fragments.primitive, x, y, depth_format)
         if depth_format.is_planar:
             fixed = geometry.fixed_planes
-            on_plane = fixed.planes.at(fragments.primitive, fragments.column, fragments.row)
-            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane.astype(np.float64), stored)
+            on_plane = fixed.at(fragments.primitive, fragments.column, fragments.row)
+            stored = np.where(fixed.is_linear.take(fragments.primitive), on_plane, stored)
         return depth, keeps, stored
     outlines = outlines_of(geometry)
     depth = line_depth(outlines, fragments, raster.center)

@@ -34,6 +34,10 @@ def _holder(key: int) -> str:
 @explains("depth.*.plane")
 def plane(step: StepValues) -> Said:
     """Depth as an integer plane."""
+    on_plane = sum(step.whole(of) * step.whole(by) for of, by in (("across", "column"), ("up", "row")))
+    on_plane += step.whole("origin")
+    if on_plane != step.whole("stored"):
+        return _limited(step, on_plane)
     text = (
         f"{step.pixel_name}: on the triangle's integer plane the depth is {_whole(step, 'stored')} of "
         f"2³⁸ (z = {spoken(step.number('depth'))})."
@@ -41,6 +45,22 @@ def plane(step: StepValues) -> Said:
     slopes = [(rf"\mathrm{{{name}}}", step.number(name)) for name in ("across", "up", "origin")]
     place = ((rf"\mathrm{{{name}}}", step.number(name)) for name in ("column", "row"))
     return text, linear("d", step.number("stored"), slopes, *place)
+
+
+def _limited(step: StepValues, on_plane: int) -> Said:
+    """A depth on the plane far outside the triangle, where it leaves the range of the keys."""
+    text = (
+        f"{step.pixel_name}: this pixel lies outside the triangle, where its integer plane is at "
+        f"{on_plane:,} of 2³⁸; the depth is limited to −2²⁰ … 2³⁸ + 2²⁰, which gives {_whole(step, 'stored')}."
+    ).replace("-", "−")
+    symbols, numbers = (
+        rf"\min(\max({on}, -2^{{20}}), 2^{{38}} + 2^{{20}})"
+        for on in (
+            r"\mathrm{across} \cdot \mathrm{column} + \mathrm{up} \cdot \mathrm{row} + \mathrm{origin}",
+            str(on_plane),
+        )
+    )
+    return text, equation(("d", step.number("stored")), "=", (symbols, numbers))
 
 
 @explains("depth.rounded.depth")

@@ -40,8 +40,7 @@ def check_depth(traced: Trace) -> None:
     if traced.source.geometry.casts_rays:
         check_rays(traced)
         return
-    # The printed fill draws pixels outside the triangle, where its plane leaves the range of keys.
-    if "key" in c and traced.source.settings.fill != "scanline-lecture":
+    if "key" in c:
         check_keys(found)
     for kind in ("test", "store"):
         check_stored(found, kind)
