@@ -10,6 +10,7 @@ from core.framebuffer.depth import DepthFormat, DepthQuantity, Stored, clamp_dep
 from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W
 from core.geometry.reversed_depth import reversed_clip_depth
 from core.raster.coverage import Fragments
+from core.raster.edges.snapping import SUBPIXELS
 from core.raster.lines.drawing import interpolate_line
 from core.raster.lines.wireframe import LineFragments, Outlines, inverse_w_parts, line_depth, line_parameter
 from core.raster.pixel_runs import Raster
@@ -59,6 +60,34 @@ def depth_at(
         _in_front(keeps, plane, depth_format),
         depth_format.store(_converted(geometry, plane, depth_format.quantity)),
     )
+
+
+def farthest_stored(geometry: Geometry, depth_format: DepthFormat) -> Stored:
+    """Return a bound of what is stored of each primitive (P,) before the eye: none of its fragments is farther.
+
+    Notes
+    -----
+    Fragments lie up to a step of snapping beyond the edges of the unsnapped triangle, whose plane has their depth. A
+    fragment may be lost where this is not nearer than the cleared value.
+    """
+    quantity, clip = depth_format.quantity, geometry.primitives.clip
+    if quantity.plane == "z":
+        plane, at_corners = geometry.depth_plane, geometry.depth.T
+    else:
+        is_reversed, value = quantity.plane == "reversed-z", np.ones(clip.shape[:2])
+        plane = geometry.reversed_plane if is_reversed else geometry.inverse_w_plane
+        if is_reversed:
+            value = reversed_clip_depth(clip[..., 2], clip[..., 3], geometry.vertices.view_range)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            at_corners = value / clip[..., 3]
+    beyond = (np.abs(plane[0]) + np.abs(plane[1])) / SUBPIXELS
+    if quantity.plane == "z":
+        farthest = np.minimum(at_corners.max(axis=1) + beyond, 1.0)
+    else:
+        farthest = np.maximum(at_corners.min(axis=1) - beyond, 0.0)
+    stored = depth_format.store(_converted(geometry, farthest, quantity))
+    # On an integer plane every step along a row or a column is rounded.
+    return np.add(stored, (1 + sum(geometry.vertices.size)) / 2) if depth_format.is_planar else stored
 
 
 def fragment_quantity(

@@ -148,9 +148,13 @@ def _choose(
         return Choice(family, CHEAPER[family][0], dearest)
     rejected: list[tuple[str, Trial]] = []
     slower: list[str] = []
+    lossy = seen.lossy_depths if family == "depth" and not trials.is_whole else frozenset()
+    untried = tuple(name for name in CHEAPER[family] if name in lossy and name != dearest)
     for name in CHEAPER[family]:
         if name == dearest:
             break
+        if name in untried:
+            continue
         tried(name)
         settings = with_method(before, family, name)
         trial = trials.compare(settings, everything)
@@ -160,8 +164,8 @@ def _choose(
             slower.append(name)
         else:
             step = trials.compare(settings, before)
-            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower))
-    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower))
+            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower), untried)
+    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower), untried)
 
 
 def has_no_effect(family: str, settings: Settings, seen: Seen) -> bool:
@@ -185,7 +189,9 @@ def _decision(choices: dict[str, Choice], family: str, tolerance: Tolerance, see
         reason(choice, tolerance, seen, is_compared=choices["visibility"].chosen == "z-buffer"),
         float(error),
         pixels,
-        is_needed=choice.chosen == choice.dearest and bool(choice.rejected) and not choice.slower,
+        is_needed=choice.chosen == choice.dearest
+        and bool(choice.rejected or choice.lossy)
+        and not choice.slower,
         rests_on=tuple(
             other for other in order[: order.index(family)] if choices[other].chosen != choices[other].dearest
         ),

@@ -65,6 +65,8 @@ class Choice:
     """Cheaper methods that are too far from the reference settings, and how far."""
     slower: tuple[str, ...] = ()
     """Cheaper methods that would do but take longer."""
+    lossy: tuple[str, ...] = ()
+    """Depth methods that may lose fragments where nothing is tried."""
 
 
 class Trials:
@@ -81,6 +83,11 @@ class Trials:
         self.rows = sum(region[3] for region in self.regions)
         """Rows of pixels that are compared."""
         self._pictures: dict[Settings, Integers] = {}
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether every pixel of the picture is compared."""
+        return self.rows == self._scene.size[1]
 
     def compare(self, settings: Settings, others: Settings) -> Trial:
         """Return how far pictures with ``settings`` are from those with ``others``."""
