@@ -1,7 +1,8 @@
 """A supersampled picture the fast way: the bytes of its samples, drawn as any picture, resolved in linear light.
 
 Bytes end at 1, and light does not: where a pixel has samples as bright as a byte can be beside darker ones, what was
-cut off might have made it brighter. Such pixels are drawn by all buffers instead.
+cut off might have made it brighter. Such pixels are drawn by all buffers instead. Alpha is 1 at most, but where it adds
+up, or was given so.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,6 +21,7 @@ from core.antialiasing.sample_rasters import (
 )
 from core.fast_path.draw_context import Words, encode
 from core.fast_path.record import Picture, Route
+from core.framebuffer.blending import blend_traits
 from core.framebuffer.display import Bytes, from_display
 from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples
 from core.numeric.buffers import ScratchBuffers
@@ -28,7 +30,7 @@ from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Singles, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve
-from core.scene import AnyScene
+from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.declared import STAGES
 
@@ -57,6 +59,7 @@ def draw_supersampled(
     side = sampling.side
     finer, plain = finer_scene(scene, side), finer_settings(settings)
     weights = filter_weights(sampling.position, settings.resolve_filter)
+    channels = 4 if _alpha_exceeds_one(scene, settings) else 3
     counts = {stage: StageCount() for stage in STAGES}
     route = Route("supersampled", "bytes")
     for band in _pixel_bands(raster, side):
@@ -69,7 +72,7 @@ def draw_supersampled(
             inner = inner_of(wide_pixels, band)
             light = from_display(samples.reshape(-1, *samples.shape[2:])).reshape(samples.shape)
             color = resolve_samples(light, weights)[inner]
-            cut_off = is_cut_off(samples, reach_of(weights))[inner]
+            cut_off = is_cut_off(samples[..., :channels], reach_of(weights))[inner]
         if cut_off.any():
             _draw_exactly(color, cut_off, scene, settings, band, counts)
         with counts["resolve"]:
@@ -79,12 +82,24 @@ def draw_supersampled(
     return Picture(read_only(pixels.view("u1").reshape(*raster.shape, 4)), None, counts, route)
 
 
+def _alpha_exceeds_one(scene: AnyScene, settings: Settings) -> bool:
+    """Return whether some alpha may be above 1: an opaque fragment that does not hide adds its own."""
+    if not blend_traits(settings.blend).hides(np.ones(1)).all():
+        return True
+    if isinstance(scene, ClipScene):
+        given = [scene.attributes[..., 3:4]] if scene.attributes is not None else []
+    else:
+        given = [mesh.colors[:, 3:] for mesh in scene.meshes if mesh.colors is not None]
+    return any(alpha.max(initial=0.0) > 1 for alpha in [scene.background[3:], *given])
+
+
 def is_cut_off(samples: Bytes, reach: int) -> Flags:
     """Tell of which pixels light above 1 may have been cut off before it was averaged with other samples.
 
     Parameters
     ----------
-    samples : (S, H, W, 4) uint8
+    samples : (S, H, W, C) uint8
+        Red, green, blue, and alpha where it may be above 1.
     reach : int
         How many pixels away the filter looks: 0 or 1.
 
@@ -92,7 +107,7 @@ def is_cut_off(samples: Bytes, reach: int) -> Flags:
     -------
     (H, W) bool
     """
-    greatest, least = samples[..., :3].max(axis=0), samples[..., :3].min(axis=0)
+    greatest, least = samples.max(axis=0), samples.min(axis=0)
     if reach:
         greatest, least = _over_neighbours(greatest, np.maximum), _over_neighbours(least, np.minimum)
     found: Flags = ((greatest == BRIGHTEST) & (least < BRIGHTEST)).any(axis=2)

@@ -120,12 +120,19 @@ class PixelCandidates:
 
     @cached_property
     def primitive(self) -> Integers:
-        """(Q,) int64, primitives whose box contains the pixel, and those of the focus; in drawing order."""
+        """(Q,) int64, primitives whose box contains the pixel, and those of the focus; in drawing order.
+
+        A fill that looks everywhere has no boxes: numbers that wrap around may cover any pixel.
+        """
         if self.rounds_corners or self.geometry.outlines is not None:
             contains = boxes_reach(self.geometry.edges.corners, self.center, ROUNDING_REACH)
         else:
             boxes = bound(self.geometry.edges, self.raster)
             contains = (boxes.column_end > boxes.column) & (boxes.row_end > boxes.row)
+            if resolve(self.settings).looks_everywhere:
+                edges = self.geometry.edges
+                inside = examine_edges(edges, *self.center).inside.all(axis=1)
+                contains |= inside & (edges.doubled_area != 0)
         if self.focus is not None:
             contains |= self.geometry.primitives.triangle == self.focus
         return np.flatnonzero(contains)

@@ -70,10 +70,12 @@ def _examine(
     """Keep of squares (Q,) those that no edge has outside as a whole."""
     x, y = raster.centers(column, row)
     a, b, c = edges.shown_a[primitive], edges.shown_b[primitive], edges.shown_c[primitive]
-    value = edge_value(a, b, c, x[:, None], y[:, None])
-    reach = (np.abs(a) + np.abs(b)) * 0.5
-    touches = np.flatnonzero(np.all(value + reach > 0, axis=1))
-    is_whole: Flags = np.all(value - reach >= 0, axis=1)
+    # Numbers that overflow a format of few bits touch nothing.
+    with np.errstate(over="ignore", invalid="ignore"):
+        value = edge_value(a, b, c, x[:, None], y[:, None])
+        reach = (np.abs(a) + np.abs(b)) * 0.5
+        touches = np.flatnonzero(np.all(value + reach > 0, axis=1))
+        is_whole: Flags = np.all(value - reach >= 0, axis=1)
     return SquareFragments(
         primitive[touches],
         column[touches],

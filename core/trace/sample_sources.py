@@ -16,7 +16,7 @@ from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.stages.declared import STAGES
-from core.stages.fragments import fragment_values, fragments_of, owner_of
+from core.stages.fragments import fragment_values, fragments_of, owner_of, texture_slopes
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 
@@ -56,6 +56,12 @@ class SampleSource(TraceSource):
         """Weights (F, 3) and values (F, K) of the fragments, at the pixels' centres."""
         assert self.whole is not None
         return fragment_values(self.whole.geometry, self.fragments, self.raster)
+
+    @cached_property
+    def uv_slopes(self) -> Floats | None:
+        """(4, F) float64 du/dx, dv/dx, du/dy, dv/dy of the fragments, at the pixels' centres."""
+        assert self.whole is not None
+        return texture_slopes(self.whole.geometry, self.raster, self.fragments, self.interpolated[1])
 
 
 @dataclass(frozen=True, eq=False)
