@@ -5,6 +5,7 @@ empty. It numbers its edits from FIRST and writes each number to the standard ou
 """
 
 import random
+import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -62,6 +63,8 @@ class Editor:
         self.timer.setInterval(self.random.randrange(LONGEST_PAUSE))
 
 
+# A shell starts what runs in the background with Ctrl+C ignored, and with it its children.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 the_application()
 editor = Editor(int(sys.argv[1]), sys.argv[2])
 sys.exit(start.run_window())
