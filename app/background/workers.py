@@ -1,6 +1,8 @@
 """Work off the GUI thread, with progress and cancel; a result that nobody waits for any more is dropped."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from time import monotonic
 from typing import Any
 
 from PySide6.QtCore import QObject, QThread, Signal, Slot
@@ -9,6 +11,38 @@ Progress = Callable[[float | None, str], None]
 Work = Callable[[Progress, Callable[[], bool]], Any]
 PartWork = Callable[[Progress, Callable[[], bool], Callable[[Any], None]], Any]
 """Work that gives parts of its result as they are done."""
+
+
+_until: float | None = None
+"""When waiting for work that is shut down ends; ``None``: when the work has ended."""
+_left: list[object] = []
+"""What had not ended by then. A thread must not be deleted while it runs."""
+
+
+@contextmanager
+def ending_within(seconds: float) -> Iterator[None]:
+    """Wait at most so long for all work together that is shut down in the block; see `is_work_left`."""
+    global _until
+    _until = monotonic() + seconds
+    try:
+        yield
+    finally:
+        _until = None
+
+
+def seconds_to_end() -> float | None:
+    """Return how long may be waited for work that is shut down now; ``None``: until it has ended."""
+    return None if _until is None else max(_until - monotonic(), 0.0)
+
+
+def leave(work: object) -> None:
+    """Keep work that goes on although it was shut down."""
+    _left.append(work)
+
+
+def is_work_left() -> bool:
+    """Return whether work goes on that was shut down: then Python would wait for it at the end of the process."""
+    return bool(_left)
 
 
 class _Worker(QThread):
@@ -83,10 +117,13 @@ class Job(QObject):
             self.ended.emit()
 
     def shut_down(self) -> None:
-        """Cancel and wait until every thread has ended."""
+        """Cancel, and wait until every thread has ended; see `ending_within`."""
         self.cancel()
         for worker in self._retired:
-            worker.wait()
+            seconds = seconds_to_end()
+            if not (worker.wait() if seconds is None else worker.wait(round(1000 * seconds))):
+                worker.setParent(None)
+                leave(worker)
         self._retired.clear()
 
     @Slot(object, str)

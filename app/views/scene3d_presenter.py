@@ -144,9 +144,10 @@ class Scene3dPresenter(QObject):
     def stop(self) -> None:
         """End drawing, and the worker processes."""
         self._figures_timer.stop()
+        self._worker.forget()
+        self._band_workers.close()  # first: a picture may be waiting for a process that has stopped
         self._worker.stop()
         self._picker.stop()
-        self._band_workers.close()
 
     @property
     def space(self) -> ViewSpace | None:

@@ -4,10 +4,12 @@ So the newest camera wins: what was asked for in between is never drawn, and no 
 """
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from threading import Lock
 
 from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import leave, seconds_to_end
 
 Work = Callable[[], object]
 
@@ -29,6 +31,7 @@ class SceneWorker(QObject):
         self._number = 0
         self._told = 0
         """Number of the last work whose result was reported or dropped."""
+        self._running: Future[None] | None = None
         self._executor = ThreadPoolExecutor(max_workers=1, thread_name_prefix="scene picture")
         self._relay = _Relay()
         self._relay.done.connect(self._take_result)
@@ -46,7 +49,7 @@ class SceneWorker(QObject):
             self._waiting = (self._number, work)
             if not self._is_running:
                 self._is_running = True
-                self._executor.submit(_run, self._relay, self._next)
+                self._running = self._executor.submit(_run, self._relay, self._next)
 
     def forget(self) -> None:
         """Drop what waits, and what comes of what is running now."""
@@ -55,10 +58,12 @@ class SceneWorker(QObject):
             self._told = self._number
 
     def stop(self) -> None:
-        """Drop what waits, and wait for what is running."""
+        """Drop what waits, and wait for what is running; see `app.background.workers.ending_within`."""
         self._is_stopped = True
         self.forget()
-        self._executor.shutdown(wait=True)
+        if self._running is not None and wait([self._running], seconds_to_end()).not_done:
+            leave(self._executor)
+        self._executor.shutdown(wait=False)
 
     @property
     def is_busy(self) -> bool:

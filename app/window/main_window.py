@@ -10,6 +10,7 @@ from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
+from app.background.workers import ending_within
 from app.files.file_desk import FileActions
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
@@ -30,6 +31,8 @@ from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 BY_SIGNAL = 128
 """Exit code of a program that a signal has ended, less the signal's number."""
+SECONDS_TO_END = 1.0
+"""How long a window that closes waits for its work."""
 HINT_MILLISECONDS = 8000
 """How long a hint stays in the status bar."""
 
@@ -298,11 +301,12 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember window, panes and scene, end all work, then close."""
         self.memory.save(self)
-        for page in self.pages.made:
-            page.stop()
-        self.files.shut_down()
-        self.opening.shut_down()
-        self.session.tracing.shut_down()
+        with ending_within(SECONDS_TO_END):
+            for page in self.pages.made:
+                page.stop()
+            self.files.shut_down()
+            self.opening.shut_down()
+            self.session.tracing.shut_down()
         super().closeEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

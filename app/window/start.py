@@ -1,5 +1,6 @@
 """Starting the window: what it shows first, how it looks, and a picture of it without showing it."""
 
+import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
+from app.background.workers import is_work_left
 from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
 from app.pages.page_table import page_of_file
@@ -73,6 +75,12 @@ def run_window(target: str | None = None) -> int:
     sys.excepthook = sys.__excepthook__
     window.close()
     signals.stop()
+    if is_work_left():
+        # Python would wait for its threads; everything is saved, and no result is wanted any more.
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+        os._exit(code)
     return code
 
 

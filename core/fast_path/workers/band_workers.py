@@ -34,8 +34,10 @@ DEFAULT_PROCESSES = 2
 START_LIMIT = 2
 """Workers are started, and once more after a failure."""
 SECONDS_TO_START = 30.0
-SECONDS_TO_ANSWER = 10.0
-"""More than the band of this process took; then the worker is given up."""
+SECONDS_TO_ANSWER = 3.0
+"""More than ten times what the band of this process took; then the worker is given up, and this process draws."""
+SECONDS_TO_CLOSE = 0.3
+"""For the end of the picture that is being drawn; then its workers are killed."""
 
 
 class BandWorkers:
@@ -75,7 +77,7 @@ class BandWorkers:
         self._cuts = even_cuts(self.processes)
         self._start_count = 0
         self._failure = ""
-        self._plain_colors = False
+        self._plain_colors = self._is_closed = False
         self._load: Load | None = None
         self._pace = Pace()
         self._sharing = Sharing(reason="no picture yet")
@@ -141,9 +143,19 @@ class BandWorkers:
             return not self._why_alone() and self._has_workers(SECONDS_TO_START)
 
     def close(self) -> None:
-        """End the workers and wait until they have ended; later pictures are drawn without them."""
-        with self._lock:
+        """End the workers; later pictures are drawn without them.
+
+        A picture that another thread draws with them is waited for only for a moment: then that thread draws it alone.
+        """
+        self._is_closed = True
+        is_free = self._lock.acquire(timeout=SECONDS_TO_CLOSE)
+        if not is_free:
+            for worker in list(self._workers):
+                worker.kill()
+            is_free = self._lock.acquire(timeout=SECONDS_TO_CLOSE)
+        if is_free:
             self._end()
+            self._lock.release()
 
     def __enter__(self) -> "BandWorkers":
         return self
@@ -183,7 +195,7 @@ class BandWorkers:
 
     def _why_alone(self) -> str:
         """Return why there can be no workers, else an empty text."""
-        if not self._end.alive:
+        if self._is_closed:
             return "the workers are closed"
         if self.processes < 2:
             return "only one process is allowed"

@@ -11,7 +11,7 @@ from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
 from pickle import PicklingError
 from secrets import token_hex
-from threading import Lock
+from threading import Lock, Timer
 from types import ModuleType
 from typing import Any
 
@@ -28,8 +28,14 @@ from core.settings import Settings
 VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "PYTHONSAFEPATH")
 """Set to 1 while a worker starts. A band is one thread's work; threads of the linear algebra would only spin beside it.
 A safe path: no file of the current folder is taken for a module."""
-SECONDS_TO_END = 2.0
+SECONDS_TO_END = 0.5
 """A worker that has not ended by itself after this is killed."""
+SECONDS_TO_TAKE = 3.0
+"""A worker takes a message within this, and some more for a large one; else it is killed."""
+BYTES_PER_SECOND = 50e6
+"""How fast a large message goes through the pipe at least."""
+LARGE_MESSAGE = 4096
+"""Bytes that a pipe takes, or gives, whether or not the other side is there."""
 SHARED_FOLDER = Path("/dev/shm")
 """Where Linux keeps shared memory; elsewhere the system says itself when there is no more."""
 
@@ -68,8 +74,7 @@ class Worker:
             other_end.close()
         self._sender = Sender()
         self._memory: SharedMemory | None = None
-        self._has_name = False
-        self._is_ready = False
+        self._has_name = self._is_ready = self._gives_much = False
         self.is_asked = False
         """An answer is still to come."""
         self.picture_count = 0
@@ -102,7 +107,11 @@ class Worker:
             # Room for the whole picture, since the next band may be higher.
             memory = self._memory_of(byte_count(height, width))
             order = BandOrder(scene, settings, encoding, depth_at, plain_colors, region, memory.name)
-            self._connection.send(self._sender.message(order))
+            message = self._sender.message(order)
+            size = len(message.content) + sum(len(written) for _, written in message.new)
+            self._gives_much = depth_at is not None and depth_at.nbytes > LARGE_MESSAGE
+            with self._killed_after(SECONDS_TO_TAKE + size / BYTES_PER_SECOND, size > LARGE_MESSAGE):
+                self._connection.send(message)
         except OSError as problem:
             raise WorkerFailedError(self._why_it_ended(problem)) from problem
         except (PicklingError, AttributeError, TypeError) as problem:
@@ -112,7 +121,8 @@ class Worker:
         """Wait at most ``seconds`` for the band that was asked for; see `copy_band`."""
         if not self._connection.poll(seconds):
             raise WorkerFailedError(f"a worker process gave no answer for {seconds:.0f} s")
-        done: BandDone | BandFailed = self._receive()
+        with self._killed_after(SECONDS_TO_TAKE, self._gives_much):
+            done: BandDone | BandFailed = self._receive()
         self.is_asked = False
         self._has_name = False
         if isinstance(done, BandFailed):
@@ -125,6 +135,25 @@ class Worker:
         assert self._memory is not None
         rows, columns, _ = pixels.shape
         np.copyto(pixels, band_pixels(self._memory, rows, columns))
+
+    def kill(self) -> None:
+        """End the process at once, from any thread: whoever waits for it gets an error."""
+        with suppress(ValueError):  # closed meanwhile
+            self._process.kill()
+
+    @contextmanager
+    def _killed_after(self, seconds: float, is_needed: bool) -> Iterator[None]:
+        """Kill the process if the block takes longer: no pipe waits for a process that has ended."""
+        if not is_needed:
+            yield
+            return
+        timer = Timer(seconds, self.kill)
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
 
     def close(self) -> None:
         """End the process, and wait until it has ended. A second time does nothing."""

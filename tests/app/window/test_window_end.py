@@ -48,6 +48,12 @@ def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> Non
     assert (tmp_path / "preferences.json").is_file()
 
 
+def test_closing_does_not_wait_for_work_that_does_not_end(tmp_path: Path) -> None:
+    act = "import time; window.files.job.start(lambda progress, is_cancelled: time.sleep(1000))"
+    assert printed(tmp_path, None, act) == ""
+    assert (tmp_path / "preferences.json").is_file()
+
+
 def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last(tmp_path: Path) -> None:
     printed(tmp_path, None, "window.pages.show_page('plan')")
     assert '"page": "plan"' in (tmp_path / "preferences.json").read_text()

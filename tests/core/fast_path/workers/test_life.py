@@ -9,6 +9,7 @@ import time
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from threading import Thread
 
 import numpy as np
 import pytest
@@ -51,6 +52,45 @@ def test_a_worker_that_is_killed_is_told_and_started_once_more() -> None:
         assert workers.pids == ()
         assert not workers.start()
         assert workers.sharing.reason == workers.failure
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no process can be stopped here")
+@pytest.mark.parametrize("subdivisions", [2, 6])
+def test_a_worker_that_is_stopped_is_ended_and_the_picture_drawn(
+    monkeypatch: pytest.MonkeyPatch, subdivisions: int
+) -> None:
+    """The order of the larger ball, 2 MB, does not fit into the pipe."""
+    monkeypatch.setattr("core.fast_path.workers.worker.SECONDS_TO_TAKE", 0.1)
+    monkeypatch.setattr("core.fast_path.workers.band_workers.SECONDS_TO_ANSWER", 0.1)
+    scene = ball(subdivisions)
+    with BandWorkers(2, always=True) as workers:
+        assert workers.start()
+        (stopped,) = workers.pids
+        os.kill(stopped, signal.SIGSTOP)
+        np.testing.assert_array_equal(workers.draw(scene, SPANS).pixels, draw_picture(scene, SPANS).pixels)
+        assert workers.failure.startswith("a worker process ")
+        assert workers.sharing.reason == workers.failure
+        assert not is_running(stopped)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no process can be stopped here")
+def test_closing_does_not_wait_for_a_picture_with_a_stopped_worker() -> None:
+    scene, workers = ball(), BandWorkers(2, always=True)
+    assert workers.start()
+    (stopped,) = workers.pids
+    os.kill(stopped, signal.SIGSTOP)
+    drawn: list[np.ndarray] = []
+    drawing = Thread(target=lambda: drawn.append(workers.draw(scene, SPANS).pixels))
+    drawing.start()
+    while not workers._lock.locked():
+        time.sleep(0.001)
+    workers.close()
+    drawing.join()
+    assert not is_running(stopped)
+    assert workers.pids == ()
+    np.testing.assert_array_equal(drawn[0], draw_picture(scene, SPANS).pixels)
+    workers.draw(scene, SPANS)
+    assert workers.sharing.reason == "the workers are closed"
 
 
 class UnknownMesh(Mesh):
