@@ -5,42 +5,22 @@ corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them
 ``\vertex{k}{...}``.
 """
 
-import math
 from collections.abc import Sequence
+from fractions import Fraction
+from math import isnan
 
-from core.explain.number_text import EXACT_DIGITS, is_short, number_text, position_text
+from core.explain.arithmetic import Term
+from core.explain.digits import MOST_DIGITS, in_latex, number_latex, signed_latex
+from core.explain.number_text import DIGITS, digit_count, position_text, shown_value
 from core.explain.records import Formula
+from core.explain.statements import BREAKS, Statement, statements
+from core.explain.statements import RELATIONS as STATED
 from core.raster.edges.snapping import SUBPIXELS
 
 Part = str | tuple[str, float | str]
 """An operator, or a symbol with its number (or with LaTeX to stand under it)."""
 
-DIGITS = 4
-"""Significant digits of numbers that are not exact with ``EXACT_DIGITS``."""
-MOST_DIGITS = 12
-"""Significant digits that a number gets at most, where a sum would not come out with fewer."""
-RELATIONS = {"=", "<", ">", r"\le", r"\ge", r"\quad", r"\land", r"\lor", r"\Rightarrow"}
-
-
-def number_latex(value: float, digits: int = DIGITS) -> str:
-    """Write a number: exactly where it is short, else with so many significant digits."""
-    if math.isnan(value):
-        return r"\mathrm{NaN}"
-    if math.isinf(value):
-        return r"\infty" if value > 0 else r"-\infty"
-    text = repr(float(value) + 0.0).removesuffix(".0")
-    if not is_short(value, max(EXACT_DIGITS, digits)):
-        text = number_text(value, digits).replace("−", "-")
-    if "e" in text:
-        mantissa, exponent = text.split("e")
-        return rf"{{{mantissa} \cdot 10^{{{exponent}}}}}"
-    return text
-
-
-def signed_latex(value: float, digits: int = DIGITS) -> str:
-    """Write a number as it stands behind an operator: in brackets where it is negative."""
-    text = number_latex(value, digits)
-    return f"({text})" if text.removeprefix("{").startswith("-") else text
+RELATIONS = {*STATED, *BREAKS}
 
 
 def grid_latex(value: float) -> str:
@@ -53,50 +33,24 @@ def grid_latex(value: float) -> str:
     return rf"{sign}{''.join(whole)}\frac{{{fraction.split('/')[0]}}}{{{SUBPIXELS}}}"
 
 
-def digits_that_add_up(value: float, products: Sequence[Sequence[float]]) -> int:
-    """Return with how many digits a sum of products comes out on the board, to three digits of its value."""
-    if not math.isfinite(value):
-        return DIGITS
-    for digits in range(DIGITS, MOST_DIGITS):
-        found = sum(math.prod(_shown(factor, digits) for factor in product) for product in products)
-        if abs(found - value) <= 5e-4 * abs(value) + 1e-9:
-            return digits
-    return MOST_DIGITS
-
-
-def digits_that_differ(first: float, second: float) -> int:
-    """Return with how many digits two different numbers are shown as different ones."""
-    for digits in range(DIGITS, MOST_DIGITS):
-        if first == second or number_latex(first, digits) != number_latex(second, digits):
-            return digits
-    return MOST_DIGITS
-
-
-def _shown(value: float, digits: int) -> float:
-    """Return a number as `number_latex` writes it."""
-    is_exact = not math.isfinite(value) or is_short(value, max(EXACT_DIGITS, digits))
-    return value if is_exact else float(f"{value:.{digits}g}")
-
-
 def vector_latex(values: Sequence[float]) -> str:
     """Write numbers in brackets."""
     return f"({', '.join(map(number_latex, values))})"
 
 
-def equation(*parts: Part, digits: int = DIGITS) -> Formula:
-    """Put an equation together.
+def equation(*parts: Part) -> Formula:
+    r"""Put an equation together.
 
     Parameters
     ----------
     *parts : str or tuple
         Operators, and pairs of symbol and number.
-    digits : int
-        Significant digits of the numbers.
 
     Returns
     -------
     Formula
-        Two lines of equally many cells.
+        Two lines of equally many cells. The numbers have the fewest digits with which all that is stated can be
+        checked; between sides that are equal only about, ``=`` becomes ``\approx`` in the line of numbers.
     """
     symbols, numbers = [], []
     previous = "="
@@ -108,29 +62,66 @@ def equation(*parts: Part, digits: int = DIGITS) -> Formula:
             continue
         symbol, value = part
         symbols.append(symbol)
-        if isinstance(value, str):
-            numbers.append(value)
-        else:
-            write = number_latex if previous in RELATIONS else signed_latex
-            numbers.append(write(value, digits))
+        write = number_latex if previous in RELATIONS else signed_latex
+        numbers.append(value if isinstance(value, str) else write(value))
         previous = ""
-    return Formula(" & ".join(symbols), " & ".join(numbers))
+    stated = statements(numbers)
+    digits = checkable_digits(stated)
+    for statement in stated:
+        for k, (place, relation) in enumerate(zip(statement.places, statement.relations, strict=True)):
+            if relation == "=" and not statement.is_exact(k, lambda value: _shown(value, digits)):
+                numbers[place] = r"\approx"
+    symbolic, substituted = (in_latex(" & ".join(cells), digits) for cells in (symbols, numbers))
+    return Formula(symbolic, substituted, digits)
+
+
+def checkable_digits(stated: Sequence[Statement]) -> dict[float, int]:
+    """Return the size of every number to its significant digits, as few as it takes for all statements to hold."""
+    digits = {
+        abs(value): DIGITS for statement in stated for side in statement.sides for value in side.marks()
+    }
+    for _ in range(MOST_DIGITS * len(stated)):
+        failing = [statement for statement in stated if not holds(statement, digits)]
+        grown = {value for statement in failing for value in _growing(statement, digits)}
+        if not grown:
+            break
+        digits |= {value: digits[value] + 1 for value in grown}
+    return digits
+
+
+def holds(statement: Statement, digits: dict[float, int]) -> bool:
+    """Return whether a statement holds for the digits that its numbers have."""
+
+    def digits_of(number: Term) -> int:
+        value = float(number.value)
+        return number.digits or digit_count(value, digits.get(abs(value), DIGITS))
+
+    return statement.holds(lambda value: _shown(value, digits), digits_of)
+
+
+def _growing(statement: Statement, digits: dict[float, int]) -> set[float]:
+    """Return the sizes of the numbers that get a digit more: a lone result only where no other number can."""
+    found = [{abs(value) for side in statement.sides for value in side.marks()}]
+    if {*statement.relations} <= {"=", r"\approx"}:
+        found.insert(0, {abs(v) for side in statement.sides if not side.is_alone for v in side.marks()})
+    for values in found:
+        inexact = {
+            v for v in values if digits[v] < MOST_DIGITS and _shown(v, digits) != shown_value(v, MOST_DIGITS)
+        }
+        if inexact:
+            return inexact
+    return set()
+
+
+def _shown(value: float, digits: dict[float, int]) -> Fraction | float:
+    return shown_value(value, digits.get(abs(value), DIGITS))
 
 
 def linear(
     symbol: str, value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]
 ) -> Formula:
     """Return ``value = first * unit + second * unit + ...``; a coefficient without a unit stands alone."""
-    return equation(
-        *linear_parts(symbol, value, coefficients, *units), digits=linear_digits(value, coefficients, *units)
-    )
-
-
-def linear_digits(value: float, coefficients: Sequence[tuple[str, float]], *units: tuple[str, float]) -> int:
-    """Return with how many digits the sum of `linear` comes out."""
-    factors = [unit for _, unit in units] + [1.0] * (len(coefficients) - len(units))
-    products = [(number, factor) for (_, number), factor in zip(coefficients, factors, strict=True)]
-    return digits_that_add_up(value, products)
+    return equation(*linear_parts(symbol, value, coefficients, *units))
 
 
 def linear_parts(
@@ -147,7 +138,7 @@ def linear_parts(
 
 def relation(value: float, limit: float = 0.0) -> str:
     """Return the relation that holds between a number and a limit."""
-    if math.isnan(value) or math.isnan(limit):
+    if isnan(value) or isnan(limit):
         return r"\ne"
     return "<" if value < limit else ">" if value > limit else "="
 
@@ -185,9 +176,9 @@ def fraction(
     return (symbols if vertex is None else rf"\vertex{{{vertex}}}{{{symbols}}}"), numbers
 
 
-def difference(first: tuple[str, float], second: tuple[str, float], digits: int = DIGITS) -> tuple[str, str]:
+def difference(first: tuple[str, float], second: tuple[str, float]) -> tuple[str, str]:
     """Return a difference of two symbols, and that of their numbers."""
-    numbers = f"{number_latex(first[1], digits)} - {signed_latex(second[1], digits)}"
+    numbers = f"{number_latex(first[1])} - {signed_latex(second[1])}"
     return f"{first[0]} - {second[0]}", numbers
 
 
@@ -201,7 +192,7 @@ CHANNEL_LETTERS = "rgba"
 
 def outstanding(values: Sequence[float]) -> int:
     """Return the index of the value of greatest size; NaN is never the greatest."""
-    return max(range(len(values)), key=lambda k: -1.0 if math.isnan(values[k]) else abs(values[k]))
+    return max(range(len(values)), key=lambda k: -1.0 if isnan(values[k]) else abs(values[k]))
 
 
 def channel_symbol(name: str, channel: int) -> str:

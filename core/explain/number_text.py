@@ -6,11 +6,20 @@ Everything that shows numbers uses these functions, sentences too, so one value 
 import math
 import re
 from collections.abc import Sequence
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
 
 from core.raster.edges.snapping import SUBPIXELS
+from core.records.words import counted
 
+DIGITS = 4
+"""Significant digits of numbers that are not exact with a few more."""
 EXACT_DIGITS = 7
-"""Formulas and variables write numbers out that are exact with so many digits."""
+"""Numbers are written out that are exact with so many digits."""
+WHOLE_DIGITS = 12
+"""Whole numbers are written out up to so many digits: depths of 2^38 steps, edge functions in whole numbers."""
 
 _DECIMAL = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = re.compile(
@@ -68,7 +77,7 @@ def full_text(value: float) -> str:
     return text.removesuffix(".0").replace("-", "\u2212")
 
 
-def number_text(value: float, digits: int = 4) -> str:
+def number_text(value: float, digits: int = DIGITS) -> str:
     """Write four significant digits with a true minus sign; whole numbers keep up to six."""
     if not math.isfinite(value):
         return _non_finite(value)
@@ -77,22 +86,63 @@ def number_text(value: float, digits: int = 4) -> str:
         return (
             ("\u2212" + text) if value == 0 and math.copysign(1.0, value) < 0 else text.replace("-", "\u2212")
         )
-    text = f"{value:.{digits}g}"
+    text = rounded_text(value, digits)
     if "e" in text:
         mantissa, exponent = text.split("e")
         text = f"{mantissa}e{int(exponent)}"
     return text.replace("-", "\u2212")
 
 
+def rounded_text(value: float, digits: int) -> str:
+    """Return the text of a number as Python writes it, rounded to so many significant digits."""
+    text = f"{value:.{digits}g}"
+    return repr(float(value)).removesuffix(".0") if float(text) == value else text
+
+
 def is_short(value: float, digits: int = EXACT_DIGITS) -> bool:
-    """Return whether a number is exact with so many digits, without a power of ten."""
+    """Return whether a number is exact with so many digits, or whole with up to `WHOLE_DIGITS`."""
+    if not math.isfinite(value):
+        return True
+    if abs(value) < 10**WHOLE_DIGITS and value == int(value):
+        return True
     text = repr(float(value))
     return "e" not in text and len(text.removesuffix(".0").replace(".", "").lstrip("-0")) <= digits
 
 
-def exact_text(value: float) -> str:
-    """Write a number in full where that is short, as formulas do, else with four significant digits."""
-    return full_text(value) if math.isfinite(value) and is_short(value) else number_text(value)
+def exact_text(value: float, digits: int = DIGITS) -> str:
+    """Write a number in full where that is short, as formulas do, else with so many significant digits."""
+    if math.isfinite(value) and is_short(value, max(EXACT_DIGITS, digits)):
+        return full_text(value + 0.0)
+    return number_text(value + 0.0, digits)
+
+
+def latex_text(value: float, digits: int = DIGITS) -> str:
+    """Write the same number in LaTeX."""
+    if math.isnan(value):
+        return r"\mathrm{NaN}"
+    if math.isinf(value):
+        return r"\infty" if value > 0 else r"-\infty"
+    text = exact_text(value, digits).replace("−", "-")
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        return rf"{{{mantissa} \cdot 10^{{{exponent}}}}}"
+    return text
+
+
+@lru_cache(maxsize=4096)
+def shown_value(value: float, digits: int = DIGITS) -> Fraction | float:
+    """Return the value of what `exact_text` writes, without error; infinities and NaN as they are."""
+    if not math.isfinite(value):
+        return value
+    is_in_full = is_short(value, max(EXACT_DIGITS, digits))
+    return Fraction(repr(float(value)) if is_in_full else rounded_text(value, digits))
+
+
+def digit_count(value: float, digits: int = DIGITS) -> int:
+    """Return how many significant digits `exact_text` writes."""
+    if not is_short(value, max(EXACT_DIGITS, digits)):
+        return digits
+    return len(repr(float(value)).removesuffix(".0").replace(".", "").lstrip("-0"))
 
 
 def fraction_text(value: float) -> str:
@@ -116,16 +166,6 @@ def _non_finite(value: float) -> str:
     return "\u221e" if value > 0 else "\u2212\u221e"
 
 
-def spoken(value: float) -> str:
-    """Write a number with four significant digits; the zero of sentences has no sign."""
-    return number_text(value + 0.0)
-
-
-def vector_text(values: Sequence[float]) -> str:
-    """Write numbers in brackets, four significant digits each."""
-    return f"({', '.join(map(spoken, values))})"
-
-
 def position_text(values: Sequence[float]) -> str:
     """Write a position on the 1/256-pixel grid exactly: ``(22.5, 41 77/256)``."""
     return f"({', '.join(map(_grid_text, values))})"
@@ -133,15 +173,39 @@ def position_text(values: Sequence[float]) -> str:
 
 def _grid_text(value: float) -> str:
     if not math.isfinite(value) or value * 10**EXACT_DECIMALS == round(value * 10**EXACT_DECIMALS):
-        return number_text(value + 0.0, 9)
+        return full_text(value + 0.0)
     return fraction_text(value).removeprefix("~")
 
 
 def pair_text(first: float, second: float) -> tuple[str, str]:
     """Write two numbers with as many digits, from four on, as it takes to tell them apart."""
-    texts = spoken(first), spoken(second)
-    for digits in range(5, 18):
+    for digits in range(DIGITS, 18):
+        texts = exact_text(first, digits), exact_text(second, digits)
         if first == second or texts[0] != texts[1]:
             break
-        texts = number_text(first, digits), number_text(second, digits)
     return texts
+
+
+FEW_STEPS = 1000
+"""Steps of float32 up to which two numbers are close to each other."""
+
+
+def steps_apart(first: float, second: float, is_whole: bool) -> str:
+    """Return how far two stored depths are apart, in steps of their format; of float32 nothing where that is far.
+
+    Parameters
+    ----------
+    first, second : float
+        Whole numbers of steps, or numbers that float32 holds.
+    is_whole : bool
+        Whether the format stores whole numbers.
+    """
+    if not (math.isfinite(first) and math.isfinite(second)) or first == second:
+        return ""
+    if is_whole:
+        return f"{counted(round(abs(first - second)), 'step')} apart"
+    places = [int(np.float32(value).view(np.int32)) for value in (first, second)]
+    steps = abs(places[0] - places[1])
+    if math.copysign(1.0, first) != math.copysign(1.0, second) or steps > FEW_STEPS:
+        return ""
+    return f"{counted(steps, 'unit')} in the last place of float32 apart"

@@ -1,7 +1,8 @@
 """What explanations hand to the widgets: formulas, variables, stage cards, questions and verdicts."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 
 Value = float | int | bool | str | tuple[float, ...] | None
@@ -16,6 +17,8 @@ class Formula:
     r"""The law in symbols, as ``E_0 = a_0 x + b_0 y + c_0``; ``\vertex{k}{...}`` colours other symbols."""
     substituted: str = ""
     """The same with the numbers of this step put in; may be empty."""
+    digits: Mapping[float, int] = field(default_factory=dict, compare=False)
+    """Size of each number that the second line shows, to its significant digits: whatever shows it has as many."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,8 @@ class Variable:
     """One sentence for the tooltip."""
     vertex: int | None = None
     """0, 1 or 2 where the variable belongs to that vertex, edge or weight."""
+    digits: Mapping[float, int] = field(default_factory=dict, compare=False)
+    """Significant digits of numbers by their size, as the formula of the step shows them; of others the usual four."""
 
     def is_changed(self) -> bool:
         """Return whether the step changed it; NaN equals NaN here."""

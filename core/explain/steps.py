@@ -1,12 +1,13 @@
 """What a step says: its sentence, its formula, its variables, and what can be asked about the next one."""
 
-from functools import cache
+from dataclasses import replace
+from functools import cache, lru_cache
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 
-from core.explain.number_text import spoken, vector_text
+from core.explain.digits import in_words, spoken, vector_text
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
@@ -38,7 +39,7 @@ def row_of(key: str) -> Row | None:
 def account(
     explanation: Explanation, triangle: int, pixel: tuple[int, int] | None
 ) -> tuple[str, Formula | None]:
-    """Return what a step did and why, in one sentence, and its formula; ``None`` where it computes nothing.
+    """Return what a step did and why, in one sentence, and its own formula; ``None`` where it computes nothing.
 
     Parameters
     ----------
@@ -48,7 +49,25 @@ def account(
     pixel : (column, row), optional
         The pixel that it is about; by default the one that the explanation names.
     """
-    row, step = row_of(explanation.key), StepValues(explanation, triangle, pixel)
+    text, made = _said(StepValues(explanation, triangle, pixel))
+    standing = made if made is not None else _earlier_formula(explanation, triangle, pixel)
+    return in_words(text, standing.digits if standing is not None else {}), made
+
+
+def _earlier_formula(
+    explanation: Explanation, triangle: int = -1, pixel: tuple[int, int] | None = None
+) -> Formula | None:
+    """Return the last formula of the row's earlier operations."""
+    for key in reversed(explanation.earlier):
+        _, made = _said(StepValues(replace(explanation, key=key), triangle, pixel))
+        if made is not None:
+            return made
+    return None
+
+
+def _said(step: StepValues) -> tuple[str, Formula | None]:
+    """Return the sentence of a step with its numbers marked, and its formula."""
+    row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)
     return (said, None) if isinstance(said, str) else said
 
@@ -58,9 +77,11 @@ def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | N
     return account(explanation, triangle, pixel)[0]
 
 
+@lru_cache(maxsize=8)
 def formula(explanation: Explanation) -> Formula | None:
-    """Return the formula of a step; ``None`` where it computes nothing."""
-    return account(explanation, -1, None)[1]
+    """Return the formula of a step: where it only copies or stores, the last one of its row, which decided."""
+    _, made = _said(StepValues(explanation))
+    return made if made is not None else _earlier_formula(explanation)
 
 
 def question(trace: StageTrace, row: int) -> Asked | None:
@@ -71,7 +92,12 @@ def question(trace: StageTrace, row: int) -> Asked | None:
         found = row_of(explanation.key) if explanation is not None else None
         if explanation is not None and found is not None and found.asks is not None:
             column, line = (int(number) for number in trace.pixel[row])
-            return found.asks(StepValues(explanation, int(trace.triangle[row]), (column, line)))
+            asked = found.asks(StepValues(explanation, int(trace.triangle[row]), (column, line)))
+            return asked and replace(
+                asked,
+                question=replace(asked.question, text=in_words(asked.question.text, {})),
+                reveal=in_words(asked.reveal, {}),
+            )
     return None
 
 
@@ -105,7 +131,12 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
             continue
         before: Any = values.get(text.previous) if name in explanation.changed else values[name]
         found += _shown(step, text, values[name], before)
-    return tuple(found)
+    made = formula(explanation)
+    return (
+        tuple(replace(variable, digits=made.digits) for variable in found)
+        if made is not None
+        else tuple(found)
+    )
 
 
 def _shown(step: StepValues, text: VariableText, now: Any, before: Any) -> list[Variable]:

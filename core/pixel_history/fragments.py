@@ -46,6 +46,8 @@ class PixelFragments:
     """(F, 4) float64, the colours that are blended: alpha scaled by the intensity, where a line has one."""
     writes: Flags
     """(F,) bool, stored in the depth buffer if it passes."""
+    scale: float
+    """The number that the depth format stores a depth of 1 as: above 1 it stores whole numbers."""
     signs: Integers | None
     """(F,) int64, where rays are cast: 1 nearer than the nearest so far, -1 farther, 0 equally near or out of range."""
 
@@ -87,6 +89,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         passes,
         weigh_alpha(surface.color, fragments),
         np.ones(count, bool) if writes is None else writes,
+        depth_format.scale,
         signs,
     )
 
@@ -138,6 +141,7 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         "stored": float(stored),
         "before": float(before),
         "against": holder,
+        "scale": fragments.scale,
         "inverse_w": float(fragments.inverse_w[k]),
     }
     if not fragments.keeps[k]:

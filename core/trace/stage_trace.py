@@ -75,6 +75,8 @@ class Explanation:
     """The algorithm that the operation is part of."""
     line: int
     """Its line, from 1; 0: none."""
+    earlier: tuple[str, ...] = ()
+    """Keys of the operations that the row has done before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +131,7 @@ class StageTrace:
             changed=done.sets,
             listing=listing,
             line=listing.lines.get(done.label, 0) if listing else 0,
+            earlier=tuple(f"{self.stage}.{kind}.{o.name}" for o in operations[:operation]),
         )
 
     def state(self, position: int) -> dict[str, NDArray[Any]]:

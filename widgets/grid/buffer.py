@@ -7,6 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from core.explain.number_text import exact_text, is_short
+
 BufferKind = Literal["scalar", "signed", "color", "weights", "ids", "bool"]
 """How values become colours: see :class:`GridBuffer`."""
 
@@ -121,7 +123,7 @@ class GridBuffer:
 
 
 def number_text(value: bool | int | float, digits: int = 4, width: int | None = None) -> str:
-    """Return a number as people read it: four significant digits, a true minus, no padding zeros.
+    """Return a number as people read it: in full where that is short, else four significant digits, a true minus.
 
     Parameters
     ----------
@@ -147,6 +149,9 @@ def number_text(value: bool | int | float, digits: int = 4, width: int | None = 
         return "∞" if value == inf else MINUS + "∞"
     if digits == 0:
         return _tidy(repr(value))
+    text = exact_text(value, digits)
+    if value and is_short(value) and (width is None or len(text) <= width):
+        return text
     text = _significant(value, digits)
     while width is not None and len(text) > width and digits > 1:
         digits -= 1

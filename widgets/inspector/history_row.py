@@ -4,7 +4,7 @@ from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPointF, QRect, Q
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
-from core.explain.number_text import number_text
+from core.explain.number_text import exact_text
 from widgets.basics.marks import blended, draw_mark
 from widgets.basics.theme import current_theme
 from widgets.inspector.pixel_story import ENTRY_ROLE, HistoryEntry, PixelValue
@@ -95,7 +95,7 @@ class EntryDelegate(QStyledItemDelegate):
             painter.setFont(_small_font())
             painter.setPen(QColor(theme.text))
             room = cell.adjusted(side + 4, 0, 0, 0)
-            text = number_text(value.depth)
+            text = exact_text(value.depth)
             painter.drawText(room, _LEFT, QFontMetrics(_small_font()).elidedText(text, _ELIDE, room.width()))
 
 

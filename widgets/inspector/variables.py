@@ -1,6 +1,7 @@
 """The variables of a step: value now, value before, and which of them the step has changed."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QAction, QColor, QFont, QGuiApplication, QKeySequence, QPainter, QPaintEvent
@@ -14,20 +15,29 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from core.explain.number_text import exact_text, fraction_text, full_text, number_text
+from core.explain.number_text import DIGITS, exact_text, fraction_text, full_text
 from core.explain.records import Value, Variable
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 
+EVERY_DEFAULT: Mapping[float, int] = MappingProxyType({})
+"""No number has other digits than usual."""
 _COMPONENTS = ("x", "y", "z", "w")
 _CHANGED = Qt.ItemDataRole.UserRole + 1
 
 
-def value_text(value: Value, *, is_full: bool = False, is_fraction: bool = False) -> str:
+def value_text(
+    value: Value,
+    *,
+    is_full: bool = False,
+    is_fraction: bool = False,
+    digits: Mapping[float, int] = EVERY_DEFAULT,
+) -> str:
     """Return a value as text: as formulas write it, in full, or in exact 1/256ths.
 
-    A vector's numbers stand side by side and have four significant digits.
+    A vector's numbers stand side by side. ``digits`` are the significant digits of numbers by their size, where the
+    formula of the step needs more than four.
     """
     if value is None:
         return "–"
@@ -36,16 +46,11 @@ def value_text(value: Value, *, is_full: bool = False, is_fraction: bool = False
     if isinstance(value, str):
         return value
     if isinstance(value, tuple):
-        parts = (
-            value_text(part, is_full=is_full, is_fraction=is_fraction)
-            if is_full or is_fraction
-            else number_text(part)
-            for part in value
-        )
+        parts = (value_text(part, is_full=is_full, is_fraction=is_fraction, digits=digits) for part in value)
         return f"({', '.join(parts)})"
     if is_full:
         return full_text(value)
-    return fraction_text(value) if is_fraction else exact_text(value)
+    return fraction_text(value) if is_fraction else exact_text(value, digits.get(abs(value), DIGITS))
 
 
 class _ChangeDelegate(QStyledItemDelegate):
@@ -163,7 +168,9 @@ class VariablesView(QTreeWidget):
                     before = was[k] if k < len(was) else None
                     child = item.child(k)
                     if child is not None:
-                        self._fill_item(child, Variable(child.text(0), part, before, "", variable.vertex))
+                        self._fill_item(
+                            child, Variable(child.text(0), part, before, "", variable.vertex, variable.digits)
+                        )
 
     def _fill_item(self, item: QTreeWidgetItem, variable: Variable) -> None:
         theme = current_theme()
@@ -176,7 +183,7 @@ class VariablesView(QTreeWidget):
             font = tabular_font(self.font())
             font.setBold(is_changed and column == 1)
             item.setFont(column, font)
-            item.setText(column, value_text(value, is_fraction=self._is_fraction))
+            item.setText(column, value_text(value, is_fraction=self._is_fraction, digits=variable.digits))
             item.setTextAlignment(column, _RIGHT)
             item.setToolTip(column, f"{variable.name} = {value_text(value, is_full=True)}")
         name_font = QFont(self.font())
@@ -186,7 +193,7 @@ class VariablesView(QTreeWidget):
         item.setData(1, _CHANGED, is_changed)
         item.setData(1, Qt.ItemDataRole.UserRole, value_text(variable.now, is_full=True).replace("−", "-"))
         state = "changed" if is_changed else "unchanged"
-        spoken = f"{variable.name} {value_text(variable.now)}, {state}"
+        spoken = f"{variable.name} {value_text(variable.now, digits=variable.digits)}, {state}"
         item.setData(1, Qt.ItemDataRole.AccessibleTextRole, spoken)
 
     @Slot()

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import isclose
 
-from core.explain.number_text import spoken
+from core.explain.number_text import exact_text
 from core.records.words import joined
 
 MOST_NAMED = 4
@@ -58,7 +58,7 @@ def share_name(area: float) -> str:
     """Return how much of a pixel in words: ``all of the pixel``, ``almost all of``, ``0.25 of the pixel``."""
     if is_same(area, 1.0):
         return "all of the pixel"
-    share = spoken(area)
+    share = exact_text(area)
     return f"{'almost all' if share == '1' else share} of the pixel"
 
 
@@ -84,12 +84,12 @@ def pieces_verdict(shown: Sequence[tuple[int, float]], background: float, is_ble
     verb = "lies on top in" if is_blended else "is visible in"
     largest = sorted(shown, key=lambda each: -each[1])
     parts = [f"Triangle {largest[0][0]} {verb} {share_name(largest[0][1])}"]
-    parts += [f"triangle {triangle} in {spoken(area)}" for triangle, area in largest[1:MOST_NAMED]]
+    parts += [f"triangle {triangle} in {exact_text(area)}" for triangle, area in largest[1:MOST_NAMED]]
     rest = largest[MOST_NAMED:]
     if rest:
-        parts.append(f"{len(rest)} more in {spoken(sum(area for _, area in rest))}")
+        parts.append(f"{len(rest)} more in {exact_text(sum(area for _, area in rest))}")
     if not is_same(background, 0.0):
-        parts.append(f"no triangle in {spoken(background)}")
+        parts.append(f"no triangle in {exact_text(background)}")
     return f"{', '.join(parts)}."
 
 
@@ -108,8 +108,8 @@ def piece_reason(area: float, passed: float, seen: float) -> str:
     covers = f"covers {share_name(area)}"
     if is_same(passed, 0.0):
         return f"{covers}, none of it passes the depth test"
-    through = "" if is_same(passed, area) else f", {spoken(passed)} of it passes the depth test"
+    through = "" if is_same(passed, area) else f", {exact_text(passed)} of it passes the depth test"
     if is_same(seen, passed):
         return f"{covers}{through}"
-    later = "none of it is visible" if is_same(seen, 0.0) else f"{spoken(seen)} is visible"
+    later = "none of it is visible" if is_same(seen, 0.0) else f"{exact_text(seen)} is visible"
     return f"{covers}{through}; {later} in the end"

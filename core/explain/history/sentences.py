@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any
 
-from core.explain.number_text import number_text
+from core.explain.number_text import exact_text, pair_text, steps_apart
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
 from core.raster.edges.snapping import SUBPIXELS
 from core.records.words import counted
@@ -71,9 +71,9 @@ def _pixels(distance: float) -> str:
     length = abs(distance)
     if not isfinite(length):
         return "an unknown distance"
-    text = f"{number_text(length)} px"
+    text = f"{exact_text(length)} px"
     if 0 < length < 0.25:
-        text += f" ({number_text(length * SUBPIXELS)}/{SUBPIXELS})"
+        text += f" ({exact_text(length * SUBPIXELS)}/{SUBPIXELS})"
     return text
 
 
@@ -116,7 +116,7 @@ def _missed(values: Values) -> str:
         return f"the pixel centre is outside edge {values['edge']}"
     text = f"the pixel centre is {_pixels(values['distance'])} beyond edge {values['edge']}"
     if not values["is_exact"] and abs(values["ulps"]) < 1000:
-        text += f", {number_text(abs(values['ulps']))} units in the last place"
+        text += f", {exact_text(abs(values['ulps']))} units in the last place"
     return text
 
 
@@ -189,9 +189,17 @@ def _clipped(values: Values) -> str:
     return f"{_outside(values)}; clipped to {polygon}{asked}"
 
 
+def _compared(values: Values, verdict: str) -> str:
+    """Return the stored depth and that of the buffer, with digits that tell them apart, and how far apart they are."""
+    new, old = pair_text(values["stored"], values["before"])
+    holder = "the cleared depth" if values["against"] < 0 else f"triangle {values['against']}"
+    apart = steps_apart(values["stored"], values["before"], values["scale"] != 1)
+    return f"{new} {verdict} {holder} ({old}){f', {apart}' if apart else ''}"
+
+
 def _against(values: Values) -> str:
     holder = "the cleared depth" if values["against"] < 0 else f"triangle {values['against']}"
-    return f"{holder} ({number_text(values['before'])})"
+    return f"{holder} ({exact_text(values['before'])})"
 
 
 def _holder(values: Values) -> str:
@@ -299,12 +307,10 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"
     ),
     ("raster", "no-outline"): "none of its edges is drawn near the window",
-    ("interpolate", "weights"): lambda v: "weights " + ", ".join(number_text(w) for w in v["weights"]),
-    ("shade", "color"): lambda v: "colour " + ", ".join(number_text(c) for c in v["color"]),
-    ("depth", "passed"): lambda v: f"passed the depth test: {number_text(v['stored'])} against {_against(v)}",
-    ("depth", "failed"): lambda v: (
-        f"failed the depth test: {number_text(v['stored'])} is not nearer than {_against(v)}"
-    ),
+    ("interpolate", "weights"): lambda v: "weights " + ", ".join(exact_text(w) for w in v["weights"]),
+    ("shade", "color"): lambda v: "colour " + ", ".join(exact_text(c) for c in v["color"]),
+    ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
+    ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",
     ("depth", "tied"): lambda v: (
         f"failed the depth test: equal to {_against(v)}, and a tie keeps the stored depth"
     ),
@@ -313,15 +319,15 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("depth", "ray-tied"): lambda v: (
         f"the ray meets it exactly where it meets {_holder(v)}, which came first"
     ),
-    ("depth", "not-tested"): lambda v: f"depth {number_text(v['stored'])} stored without a test",
+    ("depth", "not-tested"): lambda v: f"depth {exact_text(v['stored'])} stored without a test",
     ("depth", "before-near"): lambda v: (
-        f"in front of the near plane: depth {number_text(v['depth'])} is below 0"
+        f"in front of the near plane: depth {exact_text(v['depth'])} is below 0"
     ),
-    ("depth", "behind-far"): lambda v: f"beyond the far plane: depth {number_text(v['depth'])} is above 1",
+    ("depth", "behind-far"): lambda v: f"beyond the far plane: depth {exact_text(v['depth'])} is above 1",
     ("depth", "undefined"): "its depth is not a number",
     ("blend", "written"): "written and visible",
     ("blend", "overwritten"): lambda v: f"written, later overwritten by triangle {v['by']}",
-    ("blend", "blended"): lambda v: f"blended with alpha {number_text(v['alpha'])}",
+    ("blend", "blended"): lambda v: f"blended with alpha {exact_text(v['alpha'])}",
 }
 """Stage and key to the sentence, without capital and full stop."""
 

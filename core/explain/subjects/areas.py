@@ -3,16 +3,8 @@
 from itertools import pairwise
 from math import isnan
 
-from core.explain.equation import (
-    Part,
-    comparison,
-    conclusion,
-    difference,
-    equation,
-    fraction,
-    linear,
-)
-from core.explain.number_text import spoken
+from core.explain.digits import spoken
+from core.explain.equation import Part, comparison, conclusion, difference, equation, fraction, linear
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows

@@ -2,18 +2,8 @@
 
 import math
 
-from core.explain.equation import (
-    Part,
-    all_of,
-    beside,
-    comparison,
-    conclusion,
-    equation,
-    linear,
-    number_latex,
-    vector_latex,
-)
-from core.explain.number_text import spoken
+from core.explain.digits import number_latex, spoken
+from core.explain.equation import Part, all_of, beside, comparison, conclusion, equation, linear, vector_latex
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues

@@ -1,7 +1,7 @@
 """Blending: how a fragment's colour enters the colour buffer. Formulas have the channel that changes most."""
 
-from core.explain.equation import channel_symbol, equation, outstanding, signed_latex
-from core.explain.number_text import number_text, spoken, vector_text
+from core.explain.digits import signed_latex, spoken, vector_text
+from core.explain.equation import channel_symbol, equation, outstanding
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -13,7 +13,7 @@ _ALPHA = r"a_{\mathrm{source}}"
 def red(step: StepValues) -> Asked | None:
     """Ask for red in the buffer."""
     after = step.vector("after")[0]
-    return number(f"What is red at {step.the_pixel} afterwards?", after, f"red is {number_text(after)}.")
+    return number(f"What is red at {step.the_pixel} afterwards?", after, f"red is {spoken(after)}.")
 
 
 @explains("blend.opaque.write", asks=red)

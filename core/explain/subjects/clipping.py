@@ -1,16 +1,7 @@
 """Clipping triangles: edges against planes, new corners in either order, and division before clipping."""
 
-from core.explain.equation import (
-    Part,
-    beside,
-    comparison,
-    conclusion,
-    difference,
-    digits_that_add_up,
-    equation,
-    fraction,
-)
-from core.explain.number_text import spoken, vector_text
+from core.explain.digits import spoken, vector_text
+from core.explain.equation import Part, beside, comparison, conclusion, difference, equation, fraction
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import AXES, StepValues
@@ -50,7 +41,6 @@ def distances(step: StepValues) -> Said:
         f"Triangle {step.triangle}, {step.text('plane')} plane (w {'+' if sign > 0 else '−'} {axis} = 0), "
         f"edge {step.whole('edge')}: its start is {_side(start)}, its end is {_side(end)}."
     )
-    digits = max(digits_that_add_up(value, [(at[3],), (sign, at[place])]) for value, at in ends.values())
     sums: list[list[Part]] = [
         [
             (rf"d_{{\mathrm{{{name}}}}}", value),
@@ -61,7 +51,7 @@ def distances(step: StepValues) -> Said:
         ]
         for name, (value, at) in ends.items()
     ]
-    return text, equation(*beside(*sums), digits=digits)
+    return text, equation(*beside(*sums))
 
 
 @explains("clip.in-in.keep")
@@ -89,13 +79,12 @@ def _corner(step: StepValues, names: tuple[str, str], ends: tuple[str, str]) -> 
     first, second = (step.vector(end) for end in ends)
     place = max(range(4), key=lambda k: abs(second[k] - first[k]))
     axis, t, value = AXES[place], step.number("t"), step.vector("corner")[place]
-    digits = digits_that_add_up(value, [(first[place],), (t, second[place]), (-1.0, t, first[place])])
     start, end = (
         (rf"{axis}_{{\mathrm{{{name}}}}}", at[place]) for name, at in zip(names, (first, second), strict=True)
     )
-    symbols, numbers = difference(end, start, digits)
+    symbols, numbers = difference(end, start)
     span = (f"({symbols})", f"({numbers})")
-    return equation((axis, value), "=", start, "+", ("t", t), r"\cdot", span, digits=digits)
+    return equation((axis, value), "=", start, "+", ("t", t), r"\cdot", span)
 
 
 def _inner_and_outer(step: StepValues) -> tuple[str, str]:

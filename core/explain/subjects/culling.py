@@ -1,7 +1,7 @@
 """Culling: the tests that drop a whole triangle."""
 
+from core.explain.digits import spoken
 from core.explain.equation import Part, all_of, comparison, conclusion, equation
-from core.explain.number_text import spoken
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows

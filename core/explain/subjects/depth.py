@@ -2,18 +2,9 @@
 
 import math
 
-from core.explain.equation import (
-    all_of,
-    comparison,
-    conclusion,
-    digits_that_differ,
-    equation,
-    fraction,
-    linear,
-    number_latex,
-    relation,
-)
-from core.explain.number_text import number_text, pair_text, spoken
+from core.explain.digits import number_latex, spoken
+from core.explain.equation import all_of, comparison, conclusion, equation, fraction, linear, relation
+from core.explain.number_text import pair_text, steps_apart
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -75,7 +66,7 @@ def stored(step: StepValues) -> Said:
     value, (name, symbol, variable) = step.number("stored"), quantity_of(step)
     before = step.number(variable)
     if name == "z":
-        of_steps = f" of {step.whole('scale'):,} steps" if step.has("scale") else ""
+        of_steps = f" of {step.whole('scale')} steps" if step.has("scale") else ""
         text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
     elif name == "1/w":
         text = f"{step.pixel_name}: its 1/w = {spoken(before)} is stored as {spoken(value)}."
@@ -84,8 +75,12 @@ def stored(step: StepValues) -> Said:
         text = (
             f"{step.pixel_name}: {name} {spoken(before)} is {limited}stored as the float32 {spoken(value)}."
         )
-    symbols, numbers = rf"\mathrm{{store}}({symbol})", rf"\mathrm{{store}}({number_latex(before)})"
-    if name == "z" and step.has("scale"):
+    symbols, numbers = rf"\mathrm{{float32}}({symbol})", rf"\mathrm{{float32}}({number_latex(before)})"
+    if step.has("origin"):
+        symbols, numbers = (
+            rf"\mathrm{{round}}(2^{{38}} \cdot {at})" for at in (symbol, number_latex(before))
+        )
+    elif name == "z" and step.has("scale"):
         symbols = rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})"
         numbers = rf"\mathrm{{round}}({number_latex(step.number('scale'))} \cdot {number_latex(before)})"
     return text, equation((r"z_{\mathrm{new}}", value), "=", (symbols, numbers))
@@ -93,20 +88,26 @@ def stored(step: StepValues) -> Said:
 
 def passes(step: StepValues) -> Asked:
     """Ask whether a fragment passes."""
-    new, old = (number_text(step.number(name)) for name in ("stored", "before"))
+    new, old = pair_text(step.number("stored"), step.number("before"))
     is_kept = step.flag("passes")
     return choice(
         f"The buffer holds {old} at {step.the_pixel}. Does {new} pass?",
         0 if is_kept else 1,
-        f"{new} against {old}: it {'passes' if is_kept else 'fails'}.",
+        f"{new} against {old}{_apart(step)}: it {'passes' if is_kept else 'fails'}.",
     )
+
+
+def _apart(step: StepValues) -> str:
+    """Return in brackets how many steps of the format a fragment and the buffer are apart, if that is few."""
+    text = steps_apart(step.number("stored"), step.number("before"), step.has("scale"))
+    return f" ({text})" if text else ""
 
 
 @explains("depth.*.compare", asks=passes)
 def compared(step: StepValues) -> Said:
     """The depth test."""
     new, old = step.number("stored"), step.number("before")
-    (shown, shown_before), name = pair_text(new, old), quantity_of(step)[0]
+    shown, shown_before, name = spoken(new), spoken(old), quantity_of(step)[0]
     if math.isnan(new) or math.isnan(old):
         text = f"fails: its {name}, {shown}, cannot be compared with the buffer's {shown_before}."
     elif new == old:
@@ -115,7 +116,8 @@ def compared(step: StepValues) -> Said:
         verdict, outcome = ("passes", "nearer") if step.flag("passes") else ("fails", "hidden")
         than = "larger" if new > old else "smaller"
         text = (
-            f"{verdict}: its {name}, {shown}, is {than} than the buffer's {shown_before}, so it is {outcome}."
+            f"{verdict}: its {name}, {shown}, is {than} than the buffer's {shown_before}"
+            f"{_apart(step)}, so it is {outcome}."
         )
     wanted = ">" if step.flag("larger_is_nearer") else "<"
     return f"{step.pixel_name} {text}", equation(
@@ -123,14 +125,13 @@ def compared(step: StepValues) -> Said:
         (wanted, relation(new, old)),
         (r"z_{\mathrm{buffer}}", old),
         *conclusion("passes", "passes" if step.flag("passes") else "fails"),
-        digits=digits_that_differ(new, old),
     )
 
 
 @explains("depth.*.write")
 def written(step: StepValues) -> Said:
     """What the depth buffer holds after the test."""
-    after, before = pair_text(step.number("after"), step.number("before"))
+    after, before = spoken(step.number("after")), spoken(step.number("before"))
     if step.flag("passes") and not step.flag("writes"):
         return _not_stored(step)
     if step.flag("passes"):

@@ -2,6 +2,7 @@
 
 import math
 
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
@@ -9,14 +10,11 @@ from core.explain.equation import (
     comparison,
     conclusion,
     difference,
-    digits_that_add_up,
     equation,
     fraction,
     grid_latex,
-    number_latex,
-    signed_latex,
 )
-from core.explain.number_text import number_text, position_text, spoken, vector_text
+from core.explain.number_text import position_text
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -129,22 +127,21 @@ def orientation(step: StepValues) -> Said:
 def _area(step: StepValues, corners: list[list[float]]) -> Formula:
     """Return twice the area of snapped corners as a cross product."""
     value, ((x0, y0), (x1, y1), (x2, y2)) = step.number("doubled_area"), corners
-    digits = digits_that_add_up(value, [(x1, y2), (-x1, y0), (-x0, y2), (-x2, y1), (x2, y0), (x0, y1)])
 
     def side(axis: int, corner: int) -> Part:
         end, origin = ((rf"\vertex{{{k}}}{{{'xy'[axis]}_{k}}}", corners[k][axis]) for k in (corner, 0))
-        symbols, numbers = difference(end, origin, digits)
+        symbols, numbers = difference(end, origin)
         return f"({symbols})", f"({numbers})"
 
     sign, rest = equals(step, value, [[x1 - x0, y2 - y0], [-(x2 - x0), y1 - y0]])
     first, second = (side(0, 1), r"\cdot", side(1, 2)), (side(0, 2), r"\cdot", side(1, 1))
-    return equation(("2A", value), sign, *first, "-", *second, *rest, digits=digits)
+    return equation(("2A", value), sign, *first, "-", *second, *rest)
 
 
 def coefficients(step: StepValues) -> Asked | None:
     """Ask for a coefficient of an edge function."""
     k = step.whole("edge")
-    shown = ", ".join(number_text(step.number(name)) for name in "abc")
+    shown = ", ".join(spoken(step.number(name)) for name in "abc")
     text = f"What is a{k}, the change of E{k} per pixel to the right?"
     return number(text, step.number("a"), f"a{k}, b{k}, c{k} are {shown}.")
 
@@ -159,15 +156,14 @@ def coefficient(step: StepValues) -> Said:
     sign = _sign(step.number("doubled_area"))
     one, other = {"a": ("y", "w"), "b": ("w", "x"), "c": ("x", "y")}[name]
     products = [[sign, first[one], second[other]], [-sign, first[other], second[one]]]
-    digits = digits_that_add_up(value, products)
     relation, rest = equals(step, value, products, 16 if name == "c" else 8)
     cross = (
         rf"(\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
         rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}})",
-        rf"({number_latex(first[one], digits)} \cdot {signed_latex(second[other], digits)} "
-        rf"- {signed_latex(first[other], digits)} \cdot {signed_latex(second[one], digits)})",
+        rf"({number_latex(first[one])} \cdot {signed_latex(second[other])} "
+        rf"- {signed_latex(first[other])} \cdot {signed_latex(second[one])})",
     )
-    made = equation((f"{name}_{k}", value), relation, ("s", sign), r"\cdot", cross, *rest, digits=digits)
+    made = equation((f"{name}_{k}", value), relation, ("s", sign), r"\cdot", cross, *rest)
     return _coefficient_text(step), made
 
 

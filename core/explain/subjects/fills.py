@@ -5,22 +5,18 @@ from functools import partial
 
 import numpy as np
 
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
     beside,
     comparison,
     conclusion,
-    digits_that_add_up,
     equation,
     linear,
-    linear_digits,
     linear_parts,
-    number_latex,
     relation,
-    signed_latex,
 )
-from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import AnswerKind, Asked, Question, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -62,7 +58,7 @@ def coverage_result(found: set[tuple[int, int]], covered: set[tuple[int, int]]) 
 def covered(step: StepValues) -> Asked:
     """Ask whether a pixel is covered."""
     is_covered = step.flag("covered")
-    values = ", ".join(number_text(step.number(f"value_{k}")) for k in range(3))
+    values = ", ".join(spoken(step.number(f"value_{k}")) for k in range(3))
     return choice(
         f"Does triangle {step.triangle} cover {step.the_pixel}?",
         0 if is_covered else 1,
@@ -102,8 +98,7 @@ def edge_value(step: StepValues) -> Said:
     (_, a), (_, b), (_, c) = terms
     sign, rest = equals(step, value, [[a, x], [b, y], [c]])
     _, _, *summands = linear_parts(f"E_{k}", value, terms, *units)
-    digits = linear_digits(value, terms, *units)
-    return text, equation((f"E_{k}", value), sign, *summands, *rest, digits=digits)
+    return text, equation((f"E_{k}", value), sign, *summands, *rest)
 
 
 @explains("raster.step|climb.edge")
@@ -124,9 +119,8 @@ def added_value(step: StepValues) -> Said:
     else:
         text += f", so it is {'inside' if value > 0 else 'outside'} edge {k}."
     sign, rest = equals(step, value, [[before], [added]])
-    digits = digits_that_add_up(value, [[before], [added]])
     start: Part = (rf"E_{k}^{{\mathrm{{{neighbour}}}}}", before)
-    return text, equation((f"E_{k}", value), sign, start, "+", (f"{slope}_{k}", added), *rest, digits=digits)
+    return text, equation((f"E_{k}", value), sign, start, "+", (f"{slope}_{k}", added), *rest)
 
 
 @explains("raster.test|step|climb.decide", asks=covered)

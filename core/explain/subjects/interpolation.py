@@ -2,21 +2,17 @@
 
 import math
 
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
-    DIGITS,
     Part,
     beside,
     difference,
-    digits_that_add_up,
     equation,
     fraction,
     linear,
     linear_parts,
-    number_latex,
     outstanding,
-    signed_latex,
 )
-from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import ATTRIBUTES, StepValues, component_names
@@ -48,25 +44,21 @@ def numerators(step: StepValues) -> Said:
         f"{step.pixel_name}: the edge functions of the unsnapped corners are {_listed(values)}"
         f"{',' if is_affine else ''} {what}."
     )
-    x, y, digits = step.number("x"), step.number("y"), DIGITS
+    x, y = step.number("x"), step.number("y")
     planes = [[step.vector(name)[k] for name in "abc"] for k in range(3)]
     w = step.vector("corner_w") if is_affine else [1.0] * 3
-    for (a, b, c), of_corner, value in zip(planes, w, values, strict=True):
-        products = [(a, x, of_corner), (b, y, of_corner), (c, of_corner)]
-        digits = max(digits, digits_that_add_up(value, products))
     sums: list[list[Part]] = []
     for k, (a, b, c) in enumerate(planes):
         terms, units = [(f"a_{k}", a), (f"b_{k}", b), (f"c_{k}", c)], (("x", x), ("y", y))
         if is_affine:
             products_text = " + ".join(
-                rf"{signed_latex(slope, digits)} \cdot {number_latex(at, digits)}"
-                for slope, at in ((a, x), (b, y))
+                rf"{signed_latex(slope)} \cdot {number_latex(at)}" for slope, at in ((a, x), (b, y))
             )
-            plane = (rf"(a_{k} x + b_{k} y + c_{k})", f"({products_text} + {signed_latex(c, digits)})")
+            plane = (rf"(a_{k} x + b_{k} y + c_{k})", f"({products_text} + {signed_latex(c)})")
             sums.append([(f"n_{k}", values[k]), "=", plane, r"\cdot", (f"w_{k}", w[k])])
         else:
             sums.append(linear_parts(f"n_{k}", values[k], terms, *units))
-    return text, equation(*beside(*sums), digits=digits)
+    return text, equation(*beside(*sums))
 
 
 @explains("interpolate.perspective|affine.total")
@@ -87,7 +79,7 @@ def total(step: StepValues) -> Said:
 def first_weight(step: StepValues) -> Asked | None:
     """Ask for the weight of the first corner."""
     weights = step.vector("weights")
-    reveal = f"λ0, λ1, λ2 are {', '.join(map(number_text, weights))}."
+    reveal = f"λ0, λ1, λ2 are {', '.join(map(spoken, weights))}."
     return number(f"What is λ0, the weight of corner 0, at {step.the_pixel}?", weights[0], reveal)
 
 

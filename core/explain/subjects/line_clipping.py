@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
@@ -11,12 +12,9 @@ from core.explain.equation import (
     difference,
     equation,
     fraction,
-    number_latex,
     relation,
-    signed_latex,
     vector_latex,
 )
-from core.explain.number_text import spoken, vector_text
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues

@@ -2,6 +2,7 @@
 
 import math
 
+from core.explain.digits import number_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
@@ -12,10 +13,8 @@ from core.explain.equation import (
     equation,
     fraction,
     linear,
-    number_latex,
     relation,
 )
-from core.explain.number_text import number_text, spoken, vector_text
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -275,9 +274,7 @@ def total(step: StepValues) -> Said:
 def second_weight(step: StepValues) -> Asked | None:
     """Ask for the weight of the second end."""
     s = step.number("s")
-    return number(
-        f"What is s, the weight of the second end, at {step.the_pixel}?", s, f"s is {number_text(s)}."
-    )
+    return number(f"What is s, the weight of the second end, at {step.the_pixel}?", s, f"s is {spoken(s)}.")
 
 
 @explains("interpolate.*.weight", asks=second_weight)

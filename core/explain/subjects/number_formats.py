@@ -2,17 +2,22 @@
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
+from itertools import chain
 
 import numpy as np
 
-from core.explain.equation import Part, beside, equation, number_latex
-from core.explain.number_text import spoken, vector_text
+from core.explain.digits import number_latex, spoken, vector_text
+from core.explain.equation import Part, beside, equation
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.methods import table
 
 DETERMINANT = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
 """The determinant of the corners in symbols."""
+
+ERROR = r"\varepsilon"
+"""What rounding adds to a result."""
 
 
 def number_format(step: StepValues) -> str:
@@ -23,21 +28,27 @@ def number_format(step: StepValues) -> str:
 def equals(
     step: StepValues, value: float, terms: Sequence[Sequence[float]], fraction_bits: int = 16
 ) -> tuple[str, list[Part]]:
-    """Return the sign between a value and a sum of products, and what stands behind it: ``=`` where they are equal.
+    """Return the sign between a value and a sum of products, and what stands behind the sum.
 
-    Numbers that were rounded are about equal; whole numbers that wrapped around are so modulo 2^n.
+    Numbers that were rounded are equal to the sum plus the error of rounding; whole numbers that wrapped around are
+    congruent modulo 2^n.
     """
     rounding = step.text("rounding") if step.has("rounding") else "exact"
-    total = sum(math.prod(term) for term in terms)
-    if rounding == "exact" or total == value:
+    if rounding == "exact" or not all(map(math.isfinite, (value, *chain(*terms)))):
         return "=", []
+    error = Fraction(value) - sum(math.prod(map(Fraction, term)) for term in terms)
     if rounding == "rounded":
-        return r"\approx", []
-    if abs(total - value) < 1:
+        return "=", error_parts(float(error))
+    if not error:
         return "=", []
     whole = np.dtype(table.get("coverage", step.text("number_format")).function().held_as)
     modulus = rf"(\mathrm{{mod}} \, 2^{{{8 * whole.itemsize - fraction_bits}}})"
     return r"\equiv", [r"\quad", modulus]
+
+
+def error_parts(error: float, symbol: str = ERROR) -> list[Part]:
+    """Return what rounding adds to a result; nothing where it adds nothing."""
+    return ["+", (symbol, error)] if error else []
 
 
 @explains("edges.rounded.round")
@@ -54,9 +65,10 @@ def rounded(step: StepValues) -> Said:
         text = f"{name}, {vector_text(before)}, is too large for {form}, which makes it {vector_text(after)}."
     numbers: list[list[Part]] = [
         [
-            (rf"\vertex{{{k}}}{{{axis}_{k}}}", number_latex(new, 7)),
-            "=" if old == new else r"\approx",
-            (rf"\vertex{{{k}}}{{{axis}}}", number_latex(old, 7)),
+            (rf"\vertex{{{k}}}{{{axis}_{k}}}", new),
+            "=",
+            (rf"\vertex{{{k}}}{{{axis}}}", old),
+            *error_parts(new - old, f"{ERROR}_{axis}"),
         ]
         for axis, old, new in zip("xyw", before, after, strict=True)
     ]
@@ -85,7 +97,7 @@ def inverse_coefficient(step: StepValues) -> Said:
         "c": f"the value of E{k} at the window's origin",
     }[name]
     text = f"Edge {k} is column {k} of the inverse: {name}, in row {row}, is {spoken(value)}, {meaning}."
-    return text, equation((f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value, 7)))
+    return text, equation((f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value)))
 
 
 def replaced_fill(fill: str, coverage: str) -> str:

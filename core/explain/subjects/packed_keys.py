@@ -1,7 +1,7 @@
 """Depth on integer planes, and packed keys: depth above the number of the triangle, compared as one whole number."""
 
-from core.explain.equation import conclusion, equation, linear, number_latex, relation
-from core.explain.number_text import spoken
+from core.explain.digits import number_latex, spoken
+from core.explain.equation import conclusion, equation, linear, relation
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues, key_fields
 from core.explain.subjects.depth import passes

@@ -2,16 +2,9 @@
 
 import math
 
-from core.explain.equation import (
-    conclusion,
-    digits_that_differ,
-    equation,
-    fraction,
-    number_latex,
-    relation,
-    signed_latex,
-)
-from core.explain.number_text import pair_text, spoken
+from core.explain.digits import number_latex, signed_latex, spoken
+from core.explain.equation import conclusion, equation, fraction, relation
+from core.explain.number_text import pair_text
 from core.explain.records import Asked, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -71,9 +64,7 @@ def compared(step: StepValues) -> Said:
         "and by more than both errors together."
     )
     done = conclusion("passes", verdict)
-    return text, equation(
-        (_NEW, new), (">", relation(new, old)), (_NEAREST, old), *done, digits=digits_that_differ(new, old)
-    )
+    return text, equation((_NEW, new), (">", relation(new, old)), (_NEAREST, old), *done)
 
 
 @explains("depth.ray-exact.doubt")

@@ -5,8 +5,8 @@ Of many samples those of equal colour are one summand; of more than `MOST` colou
 
 import math
 
-from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, number_latex, outstanding
-from core.explain.number_text import spoken, vector_text
+from core.explain.digits import number_latex, spoken, vector_text
+from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, outstanding
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues

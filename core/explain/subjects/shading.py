@@ -5,6 +5,7 @@ Formulas of colours have the channel that is strongest; the other channels follo
 
 from collections.abc import Sequence
 
+from core.explain.digits import signed_latex, spoken, vector_text
 from core.explain.equation import (
     CHANNEL_LETTERS,
     Part,
@@ -12,10 +13,8 @@ from core.explain.equation import (
     channel_symbol,
     equation,
     outstanding,
-    signed_latex,
     vector_latex,
 )
-from core.explain.number_text import spoken, vector_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows

@@ -1,7 +1,7 @@
 """Lines with intensities (Wu, Gupta-Sproull), rectangles, and the blending of both."""
 
-from core.explain.equation import Part, beside, difference, equation, fraction, number_latex, signed_latex
-from core.explain.number_text import spoken, vector_text
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
+from core.explain.equation import Part, beside, difference, equation, fraction
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.lines import axes

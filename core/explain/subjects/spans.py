@@ -2,18 +2,9 @@
 
 import math
 
-from core.explain.equation import (
-    Part,
-    beside,
-    comparison,
-    conclusion,
-    digits_that_add_up,
-    equation,
-    fraction,
-    number_latex,
-    vector_latex,
-)
-from core.explain.number_text import pair_text, spoken
+from core.explain.digits import number_latex, spoken
+from core.explain.equation import Part, beside, comparison, conclusion, equation, fraction, vector_latex
+from core.explain.number_text import pair_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, shows
@@ -73,11 +64,10 @@ def row_edge(step: StepValues) -> Said:
         f"{spoken(quotient)}: the fraction {spoken(numerator)} / {spoken(dy)}, of which only the division is rounded."
     )
     first = numerator - level * dx
-    digits = digits_that_add_up(numerator, [(first,), (level, dx)])
     start: Part = (rf"N_{k}^{{\mathrm{{first}}}}", first)
     grown: list[Part] = [(f"N_{k}", numerator), "=", start, "+", ("r", level), r"\cdot", (f"dx_{k}", dx)]
-    over = fraction((f"N_{k}", number_latex(numerator, digits)), (f"dy_{k}", dy))
-    return text, equation(*beside(grown, [(f"q_{k}", quotient), "=", over]), digits=digits)
+    over = fraction((f"N_{k}", number_latex(numerator)), (f"dy_{k}", dy))
+    return text, equation(*beside(grown, [(f"q_{k}", quotient), "=", over]))
 
 
 def _guard(guard: float, owns: bool) -> str:

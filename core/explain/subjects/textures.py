@@ -6,6 +6,7 @@ Formulas of colours have the channel that is strongest; the other channels follo
 import math
 from collections.abc import Sequence
 
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     CHANNEL_LETTERS,
     Part,
@@ -15,11 +16,8 @@ from core.explain.equation import (
     equation,
     fraction,
     linear,
-    number_latex,
     outstanding,
-    signed_latex,
 )
-from core.explain.number_text import spoken, vector_text
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues

@@ -2,8 +2,8 @@
 
 from functools import partial
 
-from core.explain.equation import equation, fraction, linear, number_latex
-from core.explain.number_text import number_text, spoken
+from core.explain.digits import number_latex, spoken
+from core.explain.equation import equation, fraction, linear
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import AXES, StepValues
@@ -34,7 +34,7 @@ def position(step: StepValues) -> Asked | None:
     after = step.vector("after")
     done = step.kind.replace("-", " ")
     text = f"What is x of vertex {step.whole('corner')} after the step “{done}”?"
-    return number(text, after[0], f"({', '.join(map(number_text, after))}).")
+    return number(text, after[0], f"({', '.join(map(spoken, after))}).")
 
 
 @explains("transform.object-to-world|world-to-camera|camera-to-clip.x|y|z|w", asks=position)

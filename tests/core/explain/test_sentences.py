@@ -6,7 +6,7 @@ import numpy as np
 
 from core import STAGES, Settings
 from core.explain import initial_sentence, sentence, summary_sentence
-from core.explain.number_text import pair_text, position_text, spoken
+from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
@@ -75,7 +75,7 @@ def test_sentences_give_the_numbers_of_the_step() -> None:
         variable = NUMBERS.get(explanation.key)
         if variable:
             found.add(explanation.key)
-            number = spoken(float(np.asarray(explanation.values[variable])))
+            number = exact_text(float(np.asarray(explanation.values[variable])))
             assert number in sentence(explanation, triangle, pixel)
     assert found == set(NUMBERS)
 

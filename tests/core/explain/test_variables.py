@@ -100,6 +100,7 @@ def test_a_buffer_shows_what_it_held_before() -> None:
 
 def test_a_kept_depth_is_not_marked() -> None:
     values = {"after": 0.25, "before": 0.25, "stored": 0.5, "depth": 0.5, "passes": False}
+    values |= {"column": 0, "row": 0}
     known = ("depth", "stored", "before", "passes", "after")
     made = Explanation("depth.test.write", values, known, ("after",), None, 0)
     found = {variable.name: variable for variable in variables(made)}
@@ -111,6 +112,8 @@ def test_vectors_are_tuples_and_texels_get_rows() -> None:
         "texels": np.array([[1, 2], [2, 2], [1, 3], [2, 3]]),
         "texel_colors": np.arange(16.0).reshape(4, 4),
         "texel_position": np.array([1.5, 2.5]),
+        "column": 0,
+        "row": 0,
     }
     made = Explanation("shade.textured.texels", values, tuple(values), ("texels", "texel_colors"), None, 0)
     found = {variable.name: variable for variable in variables(made)}
