@@ -30,6 +30,8 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # a worker has it from the process 
         FONTS_CONF.format(fonts=Path(ziafont.origin).with_name("fonts"), cache=font_folder.name)
     )
     os.environ["FONTCONFIG_FILE"] = str(fonts_conf)
+    # Nor does a test see or change what the user of this machine has set.
+    os.environ["RASTERSCOPE_CONFIG"] = str(Path(font_folder.name, "config"))
 
 # Every day the same few examples; with --all many, from a seed that is printed. None is remembered: a
 # counterexample is pinned by name in its test.

@@ -9,13 +9,16 @@ from contextlib import contextmanager
 import numpy as np
 
 from app.cli.commands import PROGRAM, UsageError
-from app.files.mesh_formats import Report
+from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
+from app.files.state_files import OutsideSourceError
 from core import Settings
 from core.scene import SIZE_LIMIT
 from core.settings import settings_from_texts
 
 FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
+OUTSIDE_HELP = "read files that FILE names from outside its folder, too"
+OUTSIDE_HINT = "--allow-outside reads it"
 MOST_ROUNDS = 1000
 
 
@@ -41,6 +44,12 @@ def setting_from_text(text: str) -> tuple[str, str]:
 def add_file(parser: argparse.ArgumentParser) -> None:
     """Let the command take FILE."""
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
+    add_allow_outside(parser)
+
+
+def add_allow_outside(parser: argparse.ArgumentParser) -> None:
+    """Let the command take ``--allow-outside``."""
+    parser.add_argument("--allow-outside", action="store_true", help=OUTSIDE_HELP)
 
 
 SETTINGS_HELP = (
@@ -72,10 +81,14 @@ def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Se
 
 def open_file(options: argparse.Namespace) -> Opened:
     """Open FILE; warnings go to stderr, and progress too if it is a terminal."""
-    with progress_line() as progress:
-        opened = open_any(options.file, progress)
+    try:
+        with progress_line() as progress:
+            opened = open_any(options.file, progress, allows_outside=options.allow_outside)
+    except (OutsideMeshError, OutsideSourceError) as problem:
+        raise ValueError(f"{problem}; {OUTSIDE_HINT}") from problem
     for warning in opened.warnings:
-        print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
+        hint = f"; {OUTSIDE_HINT}" if warning in opened.left_outside else ""
+        print(f"{PROGRAM}: warning: {warning}{hint}", file=sys.stderr)
     return opened
 
 

@@ -142,17 +142,23 @@ def _run_window(arguments: Sequence[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    if len(arguments) > 1 and not {"-h", "--help", "--version"} & set(arguments):
+    named = [argument for argument in arguments if argument != "--allow-outside"]
+    if len(named) > 1 and not {"-h", "--help", "--version"} & set(arguments):
         names = ", ".join(command.name for command in COMMANDS)
         parser.error(f"expected one FILE or a command ({names}), got {' '.join(arguments)}")
     parser.add_argument("file", metavar="FILE", nargs="?", help="what to open in the window")
+    parser.add_argument(
+        "--allow-outside",
+        action="store_true",
+        help="read files that FILE names from outside its folder, too",
+    )
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     options = _parse(parser, arguments)
     if options is None:
         return 0
     from app.cli.window import run
 
-    return run(options.file)
+    return run(options.file, options.allow_outside)
 
 
 def _parse(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace | None:

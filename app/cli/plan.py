@@ -7,6 +7,7 @@ import numpy as np
 
 from app.cli.arguments import (
     FILE_HELP,
+    add_allow_outside,
     add_settings,
     chosen_settings,
     open_file,
@@ -40,6 +41,7 @@ QUANTILES = (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1)
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     parser.add_argument("file", metavar="FILE", nargs="?", help=FILE_HELP)
+    add_allow_outside(parser)
     parser.add_argument(
         *("--tolerance", "-t"),
         metavar="C",

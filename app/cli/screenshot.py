@@ -146,5 +146,6 @@ def run(options: argparse.Namespace) -> int:
         options.view,
         lambda settings: chosen_settings(settings, options.set),
         content,
+        options.allow_outside,
     )
     return 0

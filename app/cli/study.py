@@ -3,7 +3,14 @@
 import argparse
 
 from app import __version__
-from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, progress_line, rounds_from_text
+from app.cli.arguments import (
+    FILE_HELP,
+    add_allow_outside,
+    add_settings,
+    chosen_settings,
+    progress_line,
+    rounds_from_text,
+)
 from app.cli.commands import UsageError, output_folder
 from app.cli.window import load_qt
 from app.files.open_any import open_any
@@ -67,6 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error", metavar="NAME", help="error on the chart; default: the first of the family"
     )
     parser.add_argument("--scene", metavar="FILE", help=f"for pipeline: {FILE_HELP}")
+    add_allow_outside(parser)
     add_settings(parser, "for pipeline: base settings; one is changed at a time")
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="folder for table, study and charts; default: none"
@@ -116,7 +124,7 @@ def run(options: argparse.Namespace) -> int:
     if family.takes_scene:
         settings = Settings()
         if options.scene is not None:
-            opened = open_any(options.scene)
+            opened = open_any(options.scene, allows_outside=options.allow_outside)
             scene, title = opened.document.scene, opened.document.title
             if opened.state is not None:
                 settings = opened.document.settings

@@ -9,8 +9,10 @@ BEFORE_QT = ("app.files.open_any", "core.fast_path.workers", "core.trace.tracers
 is imported from then on, to look for its own features: some 0.1 ms for each of several hundred."""
 
 
-def run(target: str | None) -> int:
+def run(target: str | None, allows_outside: bool = False) -> int:
     """Show the window until it is closed; return the exit code.
+
+    ``allows_outside``: files that the target names may be read from outside its folder.
 
     Raises
     ------
@@ -26,7 +28,7 @@ def run(target: str | None) -> int:
     load_qt()
     from app.window.start import run_window
 
-    return run_window(target)
+    return run_window(target, allows_outside)
 
 
 def is_display_missing() -> bool:

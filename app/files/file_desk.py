@@ -10,10 +10,10 @@ from app.background.progress import WorkProgress
 from app.background.workers import Job, Progress
 from app.export.views import copy_widget, export_widget
 from app.files.file_names import is_text
-from app.files.mesh_files import EXTENSIONS, OpeningCancelledError
+from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
 from app.files.open_any import Opened, open_any
 from app.files.save_dialog import SaveDialog
-from app.files.state_files import EXTENSION, State, StateFileError, save_state
+from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.page import StepPage
@@ -23,6 +23,9 @@ from app.window.message_words import sentences
 from core import Trace
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
+
+READ_OUTSIDE = "Read outside its folder"
+"""The button that opens a file again and allows what it names outside its folder."""
 
 
 class FileActions(QObject):
@@ -39,14 +42,22 @@ class FileActions(QObject):
         super().__init__(window)
         self._page, self._session, self._messages = page, page.session, messages
         self._pages = pages
+        self.target = ""
+        """What was to be opened last."""
         self.job = Job(self)
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.progress.opening_cancelled.connect(self._tell_cancelled)
         self.job.succeeded.connect(self._show_result)
         self.job.failed.connect(self._tell_failed)
 
-    def _tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
-        self.message_sent.emit(Message(kind, text, details))
+    def _tell(
+        self,
+        text: str,
+        kind: MessageKind = MessageKind.INFORMATION,
+        details: str = "",
+        action: str = "",
+    ) -> None:
+        self.message_sent.emit(Message(kind, text, details, action))
 
     # Opening.
 
@@ -61,11 +72,15 @@ class FileActions(QObject):
             self.path_chosen.emit(path)
 
     @Slot(str)
-    def open_path(self, target: str) -> None:
-        """Open a mesh, a state or a built-in scene off the GUI thread; the open scene stays until it is there."""
+    def open_path(self, target: str, allows_outside: bool = False) -> None:
+        """Open a mesh, a state or a built-in scene off the GUI thread; the open scene stays until it is there.
+
+        ``allows_outside``: files that it names may be read from outside its folder.
+        """
+        self.target = target
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Opened, Trace]:
-            opened = open_any(target, progress, is_cancelled)
+            opened = open_any(target, progress, is_cancelled, allows_outside)
             stage = opened.state.stage if opened.state else "raster"
             return opened, trace_now(opened.document, stage)
 
@@ -78,7 +93,10 @@ class FileActions(QObject):
         self.show_opened(opened, trace)
         self._messages.clear()
         if opened.warnings:
-            self._tell(opened.warnings[0], MessageKind.WARNING, "\n".join(opened.warnings[1:]))
+            outside = opened.left_outside
+            texts = [*outside, *(text for text in opened.warnings if text not in outside)]
+            action = READ_OUTSIDE if outside else ""
+            self._tell(texts[0], MessageKind.WARNING, "\n".join(texts[1:]), action)
         if is_text(opened.document.path) and opened.document.path:
             self.file_used.emit(opened.document.path)
 
@@ -102,7 +120,8 @@ class FileActions(QObject):
         if isinstance(error, OpeningCancelledError):
             self._tell_cancelled()
         elif isinstance(error, ValueError | OSError | MemoryError):
-            self._tell(sentences(error, "The open scene is unchanged"), MessageKind.ERROR)
+            action = READ_OUTSIDE if isinstance(error, OutsideMeshError | OutsideSourceError) else ""
+            self._tell(sentences(error, "The open scene is unchanged"), MessageKind.ERROR, action=action)
         else:
             raise error
 

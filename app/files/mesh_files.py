@@ -13,7 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats import EXTENSIONS, LoadedMeshes, MeshFileError, Report, read_file
+from app.files.mesh_formats import (
+    EXTENSIONS,
+    LoadedMeshes,
+    MeshFileError,
+    OutsideMeshError,
+    Report,
+    read_file,
+)
 from app.files.mesh_process import OpeningCancelledError, read_in_process
 from core.records.arrays import Floats
 from core.scene import Camera, DirectionalLight, Mesh, Scene
@@ -24,6 +31,7 @@ __all__ = [
     "MeshFileError",
     "OpenedFile",
     "OpeningCancelledError",
+    "OutsideMeshError",
     "frame_meshes",
     "load_meshes",
     "open_mesh",
@@ -50,6 +58,7 @@ def open_mesh(
     progress: Report | None = None,
     is_cancelled: Callable[[], bool] | None = None,
     size: tuple[int, int] = (512, 512),
+    allows_outside: bool = False,
 ) -> OpenedFile:
     """Open a mesh file as a scene.
 
@@ -63,6 +72,8 @@ def open_mesh(
         so that the work ends at once.
     size : (width, height)
         Raster of the scene in pixels.
+    allows_outside : bool
+        Whether files that it names may be read from outside its folder.
 
     Raises
     ------
@@ -71,7 +82,7 @@ def open_mesh(
     OpeningCancelledError
         If ``is_cancelled()``.
     """
-    loaded = load_meshes(path, progress, is_cancelled)
+    loaded = load_meshes(path, progress, is_cancelled, allows_outside)
     scene = frame_meshes(loaded.meshes, size)
     if is_cancelled is not None and is_cancelled():
         raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
@@ -82,14 +93,15 @@ def load_meshes(
     path: str | Path,
     progress: Report | None = None,
     is_cancelled: Callable[[], bool] | None = None,
+    allows_outside: bool = False,
 ) -> LoadedMeshes:
     """Return the meshes of a file; parameters and errors as ``open_mesh``."""
     report = progress or ignore_progress
     report(0.0, "")
     if is_cancelled is None:
-        loaded = read_file(Path(path), report)
+        loaded = read_file(Path(path), report, allows_outside)
     else:
-        loaded = read_in_process(Path(path), report, is_cancelled)
+        loaded = read_in_process(Path(path), report, is_cancelled, allows_outside)
         if is_cancelled():
             raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
     report(1.0, "")

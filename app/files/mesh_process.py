@@ -27,7 +27,9 @@ class OpeningCancelledError(Exception):
     """The person who opened a file does not want it any more."""
 
 
-def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]) -> LoadedMeshes:
+def read_in_process(
+    path: Path, report: Report, is_cancelled: Callable[[], bool], allows_outside: bool = False
+) -> LoadedMeshes:
     """Read ``path`` as ``app.files.mesh_formats.read_file`` does, in another process.
 
     Raises
@@ -43,8 +45,9 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
     """
     # -P and no empty entry: a file of the current folder must not be taken for a module.
     places = [*filter(None, sys.path), str(PROJECT)]
+    order = [json.dumps(places), os.fspath(path.absolute()), "outside" if allows_outside else ""]
     process = subprocess.Popen(
-        [sys.executable, "-P", "-c", START, json.dumps(places), os.fspath(path.absolute())],
+        [sys.executable, "-P", "-c", START, *order],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
@@ -66,7 +69,7 @@ def read_in_process(path: Path, report: Report, is_cancelled: Callable[[], bool]
             elif kind == "meshes":
                 return restored(content)
             elif kind == "error":
-                raise MeshFileError(content)
+                raise content
             else:
                 raise MeshFileError(f"{path.name} cannot be read: its reader ended {content}")
     finally:
@@ -116,6 +119,6 @@ def serve() -> None:
             say("progress", (fraction, doing))
 
         try:
-            say("meshes", read_file(Path(sys.argv[2]), report))
+            say("meshes", read_file(Path(sys.argv[2]), report, bool(sys.argv[3])))
         except MeshFileError as problem:
-            say("error", str(problem))
+            say("error", problem)

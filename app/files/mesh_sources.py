@@ -26,6 +26,7 @@ class _Remembered:
 
     stamp: tuple[int, int]
     fingerprints: Fingerprints
+    allows_outside: bool
 
 
 LARGE = 1 << 16
@@ -72,10 +73,16 @@ def fingerprints_of(meshes: tuple[Mesh, ...]) -> Fingerprints:
     return tuple({name: fingerprint(a) for name, a in of.items() if a is not None} for of in found)
 
 
-def remember_file(path: str | Path, meshes: tuple[Mesh, ...]) -> None:
-    """Remember that ``path`` holds these meshes as it is now."""
+def remember_file(path: str | Path, meshes: tuple[Mesh, ...], allows_outside: bool = False) -> None:
+    """Remember that ``path`` holds these meshes as it is now, and whether it may name files outside its folder."""
     key = Path(path).resolve()
-    _remembered[key] = _Remembered(_stamp(key), fingerprints_of(meshes))
+    _remembered[key] = _Remembered(_stamp(key), fingerprints_of(meshes), allows_outside)
+
+
+def may_name_outside(path: str | Path) -> bool:
+    """Return whether ``path`` was opened so that it may name files outside its folder."""
+    known = _remembered.get(Path(path).resolve())
+    return known is not None and known.allows_outside
 
 
 def remembered_fingerprints(path: str | Path) -> Fingerprints:

@@ -8,6 +8,7 @@ from app.files.file_names import shown_name
 from app.files.mesh_files import MeshFileError, open_mesh
 from app.files.mesh_formats import Report
 from app.files.mesh_sources import remember_file
+from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import Document, open_document
 from lessons.scenes import built_in_scene, scene_names
@@ -25,9 +26,17 @@ class Opened:
     path: str = ""
     """The file that was opened, absolute; empty: a built-in scene."""
 
+    @property
+    def left_outside(self) -> tuple[str, ...]:
+        """The warnings about files that were not read because they lie outside the folder of their mesh."""
+        return tuple(text for text in self.warnings if isinstance(text, OutsideWarning))
+
 
 def open_any(
-    target: str, progress: Report | None = None, is_cancelled: Callable[[], bool] | None = None
+    target: str,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+    allows_outside: bool = False,
 ) -> Opened:
     """Open a built-in scene by its name, a state file by its ending, or else a mesh file.
 
@@ -37,6 +46,8 @@ def open_any(
         A built-in scene goes before a file of the same name (which opens as ``./name``).
     progress, is_cancelled : callable, optional
         As in ``app.files.mesh_files.open_mesh``.
+    allows_outside : bool
+        Whether files that it names may be read from outside its folder.
 
     Raises
     ------
@@ -56,10 +67,10 @@ def open_any(
         )
     path = path.absolute()
     if path.suffix.lower() == EXTENSION:
-        state, warnings = load_state(path, progress, is_cancelled)
+        state, warnings = load_state(path, progress, is_cancelled, allows_outside)
         return Opened(state.document, warnings, state, str(path))
-    opened = open_mesh(target, progress, is_cancelled)
-    remember_file(path, opened.scene.meshes)
+    opened = open_mesh(target, progress, is_cancelled, allows_outside=allows_outside)
+    remember_file(path, opened.scene.meshes, allows_outside)
     return Opened(
         open_document(opened.scene, shown_name(path.stem), str(path)), opened.warnings, None, str(path)
     )

@@ -7,6 +7,8 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from app.files.input_files import read_input
+
 Model = TypeVar("Model", bound=BaseModel)
 SIZE_LIMIT = 1 << 26
 """Largest file in bytes."""
@@ -69,7 +71,7 @@ def _read(path: Path, limit: int) -> bytes:
     try:
         if path.stat().st_size > limit:
             raise SavedRecordError(f"it is larger than {limit >> 20} MiB")
-        return path.read_bytes()
+        return read_input(path, limit)
     except FileNotFoundError as problem:
         raise SavedRecordError(f"there is no file {path}") from problem
     except PermissionError as problem:

@@ -16,14 +16,21 @@ from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
 from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
-from app.files.state_scenes import Keep, StateFileError, in_field, scene_from_record, scene_record
+from app.files.state_scenes import (
+    Keep,
+    OutsideSourceError,
+    StateFileError,
+    in_field,
+    scene_from_record,
+    scene_record,
+)
 from app.session.document import VIEWS, Document, TeachingRaster
 from core import STAGES
 from core.scene import AnyScene
 from core.settings import settings_from_texts, settings_record
 from core.stages.vertices import check_needs
 
-__all__ = ["EXTENSION", "State", "StateFileError", "load_state", "save_state"]
+__all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]
 
 EXTENSION = ".rasterscope"
 SIZE_LIMIT = 1 << 30
@@ -95,7 +102,10 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
 
 
 def load_state(
-    path: str | Path, progress: Report | None = None, is_cancelled: Callable[[], bool] | None = None
+    path: str | Path,
+    progress: Report | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+    allows_outside: bool = False,
 ) -> tuple[State, tuple[str, ...]]:
     """Open a state file.
 
@@ -104,6 +114,9 @@ def load_state(
     path : str or Path
     progress, is_cancelled : callable, optional
         For the mesh file that the state names, as in ``app.files.mesh_files.open_mesh``.
+    allows_outside : bool
+        Whether files that it names may be read from outside its folder; those of a state that this program has
+        written on this machine may be.
 
     Returns
     -------
@@ -123,9 +136,13 @@ def load_state(
         record = read_record(
             path, StateRecord, "rasterscope", "a state file", VERSION, limit=SIZE_LIMIT, union="scene"
         )
-        scene, mesh_path, warnings = scene_from_record(record.scene, path.resolve(), progress, is_cancelled)
+        scene, mesh_path, warnings = scene_from_record(
+            record.scene, path.resolve(), progress, is_cancelled, allows_outside
+        )
         state = _state(record, scene, mesh_path)
         return without_stray_pin(state, warnings)
+    except OutsideSourceError as problem:
+        raise OutsideSourceError(f"{path.name} cannot be opened: {problem}") from problem
     except (SavedRecordError, StateFileError) as problem:
         raise StateFileError(f"{path.name} cannot be opened: {problem}") from problem
     except MemoryError as problem:

@@ -98,6 +98,10 @@ class SourceRecord(Record):
     """Name of a built-in scene."""
     file: str | None = None
     """Path of a mesh file, relative to the folder of the state file unless it is on another drive."""
+    allows_outside: bool = False
+    """Whether the user has allowed that the mesh file reads files outside its folder."""
+    mark: str = ""
+    """Of a state that names files outside its folder: that this program has written it on this machine."""
 
     @model_validator(mode="after")
     def _is_one(self) -> "SourceRecord":

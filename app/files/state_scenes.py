@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.files.file_names import is_text, shown_name
-from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
 from app.files.mesh_formats import Report
 from app.files.mesh_sources import (
     ARRAYS,
@@ -20,9 +20,12 @@ from app.files.mesh_sources import (
     built_in_fingerprints,
     fingerprint,
     fingerprints_of,
+    may_name_outside,
     remember_file,
     remembered_fingerprints,
 )
+from app.files.named_files import NamedFileError, NamedFiles, OutsideError
+from app.files.own_files import is_in_own_folder, is_marked, mark_of
 from app.files.state_arrays import array_folder, array_from, array_of_record, array_record
 from app.files.state_models import (
     ArrayRecord,
@@ -54,6 +57,10 @@ Keep = Callable[[NDArray[Any]], ArrayRecord]
 
 class StateFileError(ValueError):
     """A state file cannot be opened; the message is one sentence."""
+
+
+class OutsideSourceError(StateFileError):
+    """A state file cannot be opened unless a file is read that lies outside its folder."""
 
 
 @contextmanager
@@ -103,13 +110,22 @@ def scene_record(
 def _source_of(own: Fingerprints, path: str, folder: Path) -> tuple[SourceRecord | None, Fingerprints]:
     """Return the first source that has an array of these meshes, and what it has."""
     if path:
-        found, name = remembered_fingerprints(path), _relative(Path(path).resolve(), folder)
-        if _shares(own, found) and is_text(name):
-            return SourceRecord(file=name), found
+        found, source = remembered_fingerprints(path), _file_source(Path(path).resolve(), folder)
+        if _shares(own, found) and is_text(source.file or ""):
+            return source, found
     for name, found in built_in_fingerprints().items():
         if _shares(own, found):
             return SourceRecord(built_in=name), found
     return None, ()
+
+
+def _file_source(path: Path, folder: Path) -> SourceRecord:
+    """Return the record of a mesh file, with a mark if opening the state must read outside its folder for it."""
+    outside = may_name_outside(path)
+    is_marked = outside or not path.is_relative_to(folder)
+    return SourceRecord(
+        file=_relative(path, folder), allows_outside=outside, mark=mark_of(path, outside) if is_marked else ""
+    )
 
 
 def _shares(own: Fingerprints, theirs: Fingerprints) -> bool:
@@ -180,6 +196,7 @@ def scene_from_record(
     state: Path,
     progress: Report | None,
     is_cancelled: Callable[[], bool] | None,
+    allows_outside: bool,
 ) -> tuple[AnyScene, str, tuple[str, ...]]:
     """Return the scene of the file ``state``, the mesh file that it is from (or empty), and warnings of that file.
 
@@ -190,7 +207,7 @@ def scene_from_record(
     """
     if isinstance(record, ClipSceneRecord):
         return _clip_scene(record), "", ()
-    sources, path, warnings = _open_source(record.source, state.parent, progress, is_cancelled)
+    sources, path, warnings = _open_source(record.source, state, progress, is_cancelled, allows_outside)
     meshes = tuple(_mesh(k, mesh, sources, record.source, state) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
         camera_values: dict[str, Any] = {
@@ -216,9 +233,10 @@ def _clip_scene(record: ClipSceneRecord) -> ClipScene:
 
 def _open_source(
     source: SourceRecord | None,
-    folder: Path,
+    state: Path,
     progress: Report | None,
     is_cancelled: Callable[[], bool] | None,
+    allows_outside: bool,
 ) -> tuple[tuple[Mesh, ...], str, tuple[str, ...]]:
     """Return the meshes of the source, its path if it is a file, and warnings."""
     if source is None:
@@ -230,13 +248,34 @@ def _open_source(
             raise StateFileError(f"scene.source.built_in: {source.built_in} has no meshes")
         return scene.meshes, "", ()
     assert source.file is not None
-    path = Path(os.path.normpath(folder / source.file))
+    path, outside = _find_source(source.file, source, state, allows_outside)
     try:
-        loaded = load_meshes(path, progress, is_cancelled)
+        loaded = load_meshes(path, progress, is_cancelled, outside)
+    except OutsideMeshError as problem:
+        raise OutsideSourceError(f"its mesh file cannot be opened: {problem}") from problem
     except MeshFileError as problem:
         raise StateFileError(f"its mesh file is missing or broken: {problem}") from problem
-    remember_file(path, loaded.meshes)
+    remember_file(path, loaded.meshes, outside)
     return loaded.meshes, str(path), loaded.warnings
+
+
+def _find_source(name: str, source: SourceRecord, state: Path, allows_outside: bool) -> tuple[Path, bool]:
+    """Return the mesh file ``name`` of a state file, and whether it may itself name files outside its folder.
+
+    What this program has written on this machine names what its user has opened. A state of another program or machine
+    names a file in its own folder, or the user has to allow it.
+    """
+    path = Path(os.path.normpath(state.parent / name))
+    if is_marked(source.mark, path, source.allows_outside):
+        return path, allows_outside or source.allows_outside
+    if not source.mark and is_in_own_folder(state):
+        return path, True  # of an earlier version of the program, which wrote no marks
+    try:
+        return NamedFiles(state, allows_outside).find(name), allows_outside
+    except OutsideError as problem:
+        raise OutsideSourceError(f"its mesh file {name} {problem}") from problem
+    except NamedFileError as problem:
+        raise StateFileError(f"its mesh file is missing or broken: {name} {problem}") from problem
 
 
 def _mesh(

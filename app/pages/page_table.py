@@ -1,9 +1,8 @@
 """Which pages the window has: one row for each, in the order of the bar."""
 
-from pathlib import Path
-
 from PySide6.QtWidgets import QWidget
 
+from app.files.input_files import open_input
 from app.pages.page_bar import Page, PageKind
 from app.pages.step.page import StepPage
 from app.session.session import Session
@@ -72,7 +71,7 @@ def page_of_file(path: str) -> str:
 def _head(path: str) -> bytes:
     """Return the beginning of a file; nothing where it cannot be read: the page that opens it says why."""
     try:
-        with Path(path).open("rb") as file:
+        with open_input(path) as file:
             return file.read(HEAD)
     except OSError:
         return b""

@@ -3,6 +3,7 @@
 import sys
 import traceback
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -11,7 +12,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, Q
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from app.background.workers import ending_within
-from app.files.file_desk import FileActions
+from app.files.file_desk import READ_OUTSIDE, FileActions
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
@@ -171,7 +172,10 @@ class MainWindow(QMainWindow):
 
     @Slot(object)
     def _show_message(self, message: Message) -> None:
-        self.tell(message.text, message.kind, message.details)
+        if message.action:
+            self.messages.show_message(replace(message, text=sentence_case(message.text)))
+        else:
+            self.tell(message.text, message.kind, message.details)
 
     @Slot(object)
     def refuse(self, error: Exception) -> None:
@@ -288,9 +292,12 @@ class MainWindow(QMainWindow):
         self._offered = path
         self.messages.stand(message)
 
-    @Slot()
-    def _open_offered(self) -> None:
-        self.open_path(self._offered)
+    @Slot(object)
+    def _open_offered(self, message: Message) -> None:
+        if message.action == READ_OUTSIDE:
+            self.open_path(self.files.target, allows_outside=True)
+        else:
+            self.open_path(self._offered)
 
     @Slot(int)
     def end_by_signal(self, number: int) -> None:
@@ -343,11 +350,14 @@ class MainWindow(QMainWindow):
             self.open_path(paths[0])
 
     @Slot(str)
-    def open_path(self, path: str) -> None:
-        """Open a scene or a state, or what a page knows how to show, on that page."""
+    def open_path(self, path: str, allows_outside: bool = False) -> None:
+        """Open a scene or a state, or what a page knows how to show, on that page.
+
+        ``allows_outside``: files that it names may be read from outside its folder.
+        """
         name = page_of_file(path)
         if name:
             self.pages.show_page(name)
             self.pages.current.open_path(path)
         else:
-            self.files.open_path(path)
+            self.files.open_path(path, allows_outside)

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QStandardPaths
 
 from app.files.file_writing import FileWriteError, make_folder, write_file
+from app.files.input_files import read_input
 from app.files.saved_records import field_problem
 from core.stages.declared import STAGES
 
@@ -15,6 +16,8 @@ FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
 """Environment variable that names another folder."""
 FILE_NAME = "preferences.json"
 RECENT_LIMIT = 10
+SIZE_LIMIT = 1 << 22
+"""Most bytes of the file."""
 
 
 Base64 = Annotated[str, Field(pattern=r"^[A-Za-z0-9+/]*={0,2}$")]
@@ -79,7 +82,7 @@ def load_preferences() -> tuple[Preferences, str]:
     """
     try:
         path = preferences_folder() / FILE_NAME
-        content = path.read_bytes()
+        content = read_input(path, SIZE_LIMIT)
     except FileNotFoundError:
         return Preferences(), ""
     except OSError as problem:

@@ -38,7 +38,7 @@ def theme_of(name: str, application: QApplication) -> Theme:
     return DARK if is_dark else LIGHT
 
 
-def run_window(target: str | None = None) -> int:
+def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     """Show the window until it is closed; return the exit code.
 
     Parameters
@@ -46,6 +46,8 @@ def run_window(target: str | None = None) -> int:
     target : str, optional
         Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
         shown in the window.
+    allows_outside : bool
+        Whether files that it names may be read from outside its folder.
     """
     application = the_application()
     application.setApplicationName("Rasterscope")
@@ -70,7 +72,7 @@ def run_window(target: str | None = None) -> int:
         window.offer(first.message, first.offered)
     if target is not None:
         window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
-        window.open_path(target)
+        window.open_path(target, allows_outside)
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close()
@@ -94,6 +96,7 @@ def grab_window(
     view: str | None = None,
     choose: Callable[[Settings], Settings] | None = None,
     content: "PageContent | None" = None,
+    allows_outside: bool = False,
 ) -> None:
     """Save a picture of the window, as it shows a file or a built-in scene, without showing it.
 
@@ -111,6 +114,8 @@ def grab_window(
         Takes the document's settings and returns those that are shown.
     content : PageContent, optional
         Another page, and what it is filled with; by default the Step page, or that of a saved study or atlas.
+    allows_outside : bool
+        Whether files that it names may be read from outside its folder.
 
     Raises
     ------
@@ -120,7 +125,10 @@ def grab_window(
     application = the_application()
     apply_theme(application, theme_of(theme, application))
     is_saved = bool(page_of_file(target))
-    opened = Opened(open_document(CATALOGUE[0].make(), CATALOGUE[0].title)) if is_saved else open_any(target)
+    if is_saved:
+        opened = Opened(open_document(CATALOGUE[0].make(), CATALOGUE[0].title))
+    else:
+        opened = open_any(target, allows_outside=allows_outside)
     document = opened.document
     if choose is not None:
         document = replace(document, settings=choose(document.settings))

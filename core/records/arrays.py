@@ -31,6 +31,8 @@ def checked(
 ) -> NDArray[Any]:
     """Return ``values`` as a read-only copy of ``dtype``, or say what was wanted and what came.
 
+    An array that is read-only itself, with numbers of its own, is returned without a copy.
+
     Parameters
     ----------
     name : str
@@ -67,6 +69,13 @@ def checked(
             raise ValueError(f"{name} must be whole numbers, got {array.dtype}")
     if limit is not None and array.size and (largest := max(float(array.max()), -float(array.min()))) > limit:
         raise ValueError(f"{name} must be at most {limit:g} in size, got {largest:g}")
+    if (
+        array.dtype == dtype
+        and array.flags.owndata
+        and array.flags.c_contiguous
+        and not array.flags.writeable
+    ):
+        return array
     copy = np.array(array, dtype=dtype, order="C")
     copy.flags.writeable = False
     return copy

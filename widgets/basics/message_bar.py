@@ -54,8 +54,8 @@ class MessageBar(QWidget):
 
     message_dismissed = Signal()
     """The user has closed the message."""
-    action_requested = Signal()
-    """The user wants what the message offers."""
+    action_requested = Signal(object)
+    """The user wants what this ``Message`` offers."""
     cancel_requested = Signal()
     """The user wants the long work to stop."""
 
@@ -182,9 +182,10 @@ class MessageBar(QWidget):
 
     @Slot()
     def _request_action(self) -> None:
+        message = self._message
         self._end_standing()
         self.clear()
-        self.action_requested.emit()
+        self.action_requested.emit(message)
 
     def _end_standing(self) -> None:
         if self._message is self._standing:

@@ -3,19 +3,29 @@
 Formats made of polygons (OBJ, PLY, OFF) are read here, because every triangle must keep its
 place in the file and know its polygon, and a broken line must be named. trimesh's readers of these three
 sort triangles before quads, regroup them by material and leave out what they do not understand. Formats made
-of triangles (STL, GLB, glTF) go through trimesh.
+of triangles (STL, GLB, glTF) need less: STL goes through trimesh.
 """
 
 from pathlib import Path
 
 import numpy as np
 
+from app.files.memory import MemoryBoundError
 from app.files.mesh_formats.gltf import read_gltf
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Reader, Report, check_positions
+from app.files.mesh_formats.reading import (
+    LoadedMeshes,
+    MeshFileError,
+    OutsideMeshError,
+    Reader,
+    Report,
+    check_positions,
+)
 from app.files.mesh_formats.stl import read_stl
+from app.files.mesh_formats.through_trimesh import describe
+from app.files.named_files import NamedFiles
 from core.scene import Mesh
 
 READERS: dict[str, Reader] = {
@@ -34,11 +44,23 @@ EXTENSIONS = tuple(READERS)
 TOGETHER = 4096
 """Triangles looked at together: nearly always some of the first have an area."""
 
-__all__ = ["EXTENSIONS", "READERS", "LoadedMeshes", "MeshFileError", "Reader", "Report", "read_file"]
+__all__ = [
+    "EXTENSIONS",
+    "READERS",
+    "LoadedMeshes",
+    "MeshFileError",
+    "OutsideMeshError",
+    "Reader",
+    "Report",
+    "read_file",
+]
 
 
-def read_file(path: Path, report: Report) -> LoadedMeshes:
-    """Read ``path`` with the reader of its extension and check that there is something to draw."""
+def read_file(path: Path, report: Report, allows_outside: bool = False) -> LoadedMeshes:
+    """Read ``path`` with the reader of its extension and check that there is something to draw.
+
+    ``allows_outside``: files that it names may be read from outside its folder.
+    """
     try:
         if path.is_dir():
             raise MeshFileError(f"{path.name} is a folder, not a mesh file")
@@ -51,7 +73,7 @@ def read_file(path: Path, report: Report) -> LoadedMeshes:
             raise MeshFileError(f"{path.name} is not a file")
         if path.stat().st_size == 0:
             raise MeshFileError(f"{path.name} is empty")
-        loaded = reader(path, report)
+        loaded = reader(path, report, NamedFiles(path, allows_outside))
         check_meshes(path, loaded.meshes)
     except MeshFileError:
         raise
@@ -63,9 +85,11 @@ def read_file(path: Path, report: Report) -> LoadedMeshes:
         raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
     except MemoryError as problem:
         raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
-    except (ValueError, OverflowError) as problem:
-        # The checks of the core on the arrays of a mesh.
-        raise MeshFileError(f"{path.name} cannot be used: {problem}") from problem
+    except MemoryBoundError as problem:
+        raise MeshFileError(f"{path.name} is too large: {problem}") from problem
+    except (LookupError, ValueError, ArithmeticError, RecursionError) as problem:
+        # The checks of the core on the arrays of a mesh, and whatever a reader has not thought of.
+        raise MeshFileError(f"{path.name} cannot be used: {describe(problem)}") from problem
     return loaded
 
 

@@ -1,33 +1,32 @@
 """glTF 2.0 and its binary form GLB: a graph of nodes with meshes, materials and textures."""
 
-import json
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from app.files.mesh_formats.images import ImageError, texture_from_image
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory
-from app.files.mesh_formats.through_trimesh import MissingFiles, load_with_trimesh, translated_errors
-from core.records.arrays import Floats
+from app.files.memory import Need
+from app.files.mesh_formats.gltf_buffers import GltfFile
+from app.files.mesh_formats.gltf_header import MeshParts, Node, Primitive
+from app.files.mesh_formats.images import TextureReader
+from app.files.mesh_formats.reading import DRAWING, LoadedMeshes, MeshFileError, Report
+from app.files.named_files import NamedFileError, NamedFiles, left_out
+from core.records.arrays import Floats, Integers
 from core.scene import Mesh, Texture
 
-MEMORY_PER_VALUE = 64
-"""Bytes of memory that one number of an accessor takes at most while it is opened (measured)."""
-
-VALUES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-
-TRIANGLES = (4, 5)
-"""Modes of primitives that are read: triangles and triangle strips."""
+TRIANGLES, STRIP = 4, 5
+"""Modes of primitives that are read."""
 
 UNREADABLE = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 """Extensions without whose decoder there are no positions."""
 
 
-def read_gltf(path: Path, report: Report) -> LoadedMeshes:
-    """Read a GLB or glTF file; every mesh of every node is a mesh with the node's transform.
+def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+    """Read a GLB or glTF file; every primitive of the mesh of every node is a mesh with the node's transform.
 
-    Positions, normals, texture coordinates, vertex colours, base colours and their textures are read.
+    Positions, normals, texture coordinates, vertex colours, base colours and their textures are read. Meshes of
+    several nodes share their arrays.
 
     Raises
     ------
@@ -36,136 +35,203 @@ def read_gltf(path: Path, report: Report) -> LoadedMeshes:
     OSError
         If ``path`` cannot be read.
     """
-    header = read_header(path)
-    warnings = check_header(path, header)
     report(None, "reading nodes and meshes")
-    files = MissingFiles(path)
-    textures: dict[int, Texture | None] = {}
-    with translated_errors(path, files):
-        scene = load_with_trimesh(path, files)
-        report(None, "converting meshes")
-        warnings += [f"{name} is missing; its content is left out" for name in dict.fromkeys(files.missing)]
-        order = {name: place for place, name in enumerate(scene.geometry)}
-        nodes = [(node, *scene.graph[node]) for node in scene.graph.nodes_geometry]
-        meshes = [
-            convert(path, scene.geometry[name], np.asarray(transform), str(node), textures, warnings)
-            for node, transform, name in sorted(nodes, key=lambda found: order[found[2]])
-            if len(getattr(scene.geometry[name], "faces", ()))
-        ]
-        warnings += missing_textures(header, scene, bool(files.missing))
+    file = GltfFile(path, TextureReader(files))
+    warnings = check_header(file)
+    nodes = list(placed_nodes(file))
+    check_instances(file, [mesh for mesh, _, _ in nodes])
+    parts_of = [drawn_parts(mesh) for mesh in file.header.meshes]
+    placed = sorted(
+        (
+            (mesh, place, node)
+            for node, (mesh, _, _) in enumerate(nodes)
+            for place in range(len(parts_of[mesh]))
+        )
+    )
+    maker = PrimitiveMaker(file, warnings)
+    meshes: list[Mesh] = []
+    for mesh, place, node in placed:
+        report(len(meshes) / len(placed), "converting meshes")
+        _, transform, name = nodes[node]
+        title = name if len(parts_of[mesh]) == 1 else f"{name}_{place}"
+        made = maker.made(parts_of[mesh][place], bool(np.linalg.det(transform[:3, :3]) < 0))
+        meshes.append(replace(made, transform=transform, name=title))
     if not meshes:
         raise MeshFileError(f"{path.name} has no faces")
     return LoadedMeshes(tuple(meshes), tuple(warnings))
 
 
-def read_header(path: Path) -> dict[str, Any]:
-    """Return the JSON part of ``path``, or raise MeshFileError if it is not all there."""
-    if path.suffix.lower() == ".gltf":
-        content = path.read_bytes()
-    else:
-        size = path.stat().st_size
-        with path.open("rb") as file:
-            head = file.read(20)
-            if head[:4] != b"glTF":
-                raise MeshFileError(f"{path.name} is not a GLB file: it does not begin with glTF")
-            wanted = int.from_bytes(head[8:12], "little")
-            if len(head) < 20 or size < wanted:
-                raise MeshFileError(f"{path.name} is cut short: it has {size} of its {wanted} bytes")
-            content = file.read(min(int.from_bytes(head[12:16], "little"), size))
-    try:
-        header = json.loads(content)
-        if not isinstance(header, dict) or not isinstance(header["asset"]["version"], str):
-            raise ValueError("it names no version of glTF")
-    except (ValueError, KeyError, TypeError, RecursionError) as problem:
-        raise MeshFileError(f"{path.name} is not a glTF file: {problem}") from problem
-    if header["asset"]["version"].partition(".")[0] != "2":
-        raise MeshFileError(f"{path.name} is glTF {header['asset']['version']}; only glTF 2 is read")
-    return header
+def drawn_parts(mesh: MeshParts) -> list[Primitive]:
+    """Return the primitives of a mesh that are read."""
+    return [part for part in mesh.primitives if part.mode in (TRIANGLES, STRIP)]
 
 
-def check_header(path: Path, header: dict[str, Any]) -> list[str]:
+def check_header(file: GltfFile) -> list[str]:
     """Raise MeshFileError for what cannot be read at all; return warnings for parts that are left out."""
-    try:
-        needed = [name for name in header.get("extensionsRequired", []) if name in UNREADABLE]
-        accessors = header.get("accessors", [])
-        values = sum(int(accessor["count"]) * VALUES[accessor["type"]] for accessor in accessors)
-        is_sparse = any("sparse" in accessor for accessor in accessors)
-        modes = [part.get("mode", 4) for mesh in header.get("meshes", []) for part in mesh["primitives"]]
-        bytes_ = sum(int(buffer["byteLength"]) for buffer in header.get("buffers", []))
-    except (KeyError, TypeError, ValueError, AttributeError) as problem:
-        raise MeshFileError(f"{path.name} is not a valid glTF file: {problem!r} in its header") from problem
+    needed = [name for name in file.header.extensions_required if name in UNREADABLE]
     if needed:
-        raise MeshFileError(f"{path.name} is compressed with {needed[0]}, which is not read")
-    if is_sparse:
-        raise MeshFileError(f"{path.name} has sparse accessors, which are not read")
-    check_memory(path, max(values * MEMORY_PER_VALUE, bytes_))
-    others = sum(mode not in TRIANGLES for mode in modes)
+        raise MeshFileError(f"{file.path.name} is compressed with {needed[0]}, which is not read")
+    modes = [part.mode for mesh in file.header.meshes for part in mesh.primitives]
+    others = sum(mode not in (TRIANGLES, STRIP) for mode in modes)
     return [f"{others} of its parts are points, lines or triangle fans; they are left out"] if others else []
 
 
-def convert(
-    path: Path,
-    part: Any,
-    transform: Floats,
-    name: str,
-    textures: dict[int, Texture | None],
-    warnings: list[str],
-) -> Mesh:
-    """Return one geometry of trimesh as a mesh; ``textures`` keeps what images became, by their id."""
-    count = len(part.vertices)
-    triangles = np.asarray(part.faces)
-    if np.linalg.det(transform[:3, :3]) < 0:
-        # A mirrored node turns its triangles over: the format wants them to face outward still.
-        triangles = triangles[:, ::-1]
-    visual = part.visual
-    material, uvs = getattr(visual, "material", None), getattr(visual, "uv", None)
-    factor = getattr(material, "baseColorFactor", None)
-    colors = np.ones((count, 4)) if factor is None else np.tile(np.asarray(factor) / 255.0, (count, 1))
-    own = own_colors(visual)
-    if own is not None and len(own) == count:
-        colors[:, : own.shape[1]] *= own
-    image = getattr(material, "baseColorTexture", None)
-    texture = None
-    if image is not None and uvs is not None and len(uvs) == count:
-        if id(image) not in textures:
-            try:
-                textures[id(image)] = texture_from_image(image, getattr(material, "name", None) or path.stem)
-            except (ImageError, OSError, SyntaxError, ValueError) as problem:
-                textures[id(image)] = None
-                warnings.append(f"a texture of {name} cannot be read ({problem}); it is left out")
-        texture = textures[id(image)]
-    return Mesh(
-        positions=np.asarray(part.vertices),
-        triangles=triangles,
-        normals=np.asarray(part.vertex_normals) if "vertex_normals" in part._cache else None,
-        uvs=None if uvs is None or len(uvs) != count else np.asarray(uvs),
-        colors=None if own is None and factor is None else colors,
-        texture=texture,
-        transform=transform,
-        name=name,
+def check_instances(file: GltfFile, meshes: list[int]) -> None:
+    """Raise MeshFileError where drawing all ``meshes`` of the nodes takes too much memory for what the file holds."""
+    need = Need()
+    corners = sum(
+        file.item(file.header.accessors, index, "accessor").count
+        for number in meshes
+        for part in file.item(file.header.meshes, number, "mesh").primitives
+        for index in (part.attributes.get("POSITION"), part.indices)
+        if index is not None
+    )
+    need.ask(corners * DRAWING, file.byte_count, f"drawing the meshes of its {len(meshes)} nodes")
+
+
+def placed_nodes(file: GltfFile) -> Iterator[tuple[int, Floats, str]]:
+    """Yield mesh, transform (4, 4) float64 and name of every node of the scene that has a mesh."""
+    header = file.header
+    if header.scenes:
+        roots = file.item(header.scenes, header.scene, "scene").nodes
+    else:
+        children = {child for node in header.nodes for child in node.children}
+        roots = [k for k in range(len(header.nodes)) if k not in children]
+    waiting = [(root, np.eye(4)) for root in roots]
+    seen = set()
+    while waiting:
+        index, above = waiting.pop()
+        if index in seen:
+            continue
+        seen.add(index)
+        node = file.item(header.nodes, index, "node")
+        transform = above @ local_transform(node)
+        waiting += [(child, transform) for child in node.children]
+        if node.mesh is not None:
+            file.item(header.meshes, node.mesh, "mesh")
+            yield node.mesh, transform, node.name or str(index)
+
+
+def local_transform(node: Node) -> Floats:
+    """Return the transform (4, 4) float64 of a node in its parent: its matrix, then T R S."""
+    transform = np.eye(4) if node.matrix is None else np.array(node.matrix).reshape(4, 4).T
+    if node.translation is not None:
+        move = np.eye(4)
+        move[:3, 3] = node.translation
+        transform = transform @ move
+    if node.rotation is not None:
+        transform = transform @ rotation(np.array(node.rotation))
+    if node.scale is not None:
+        transform = transform @ np.diag([*node.scale, 1.0])
+    return transform
+
+
+def rotation(quaternion: Floats) -> Floats:
+    """Return the matrix (4, 4) float64 of a quaternion x, y, z, w of any length; of length 0 the identity."""
+    length = float(quaternion @ quaternion)
+    if not np.isfinite(length) or length == 0:
+        return np.eye(4)
+    x, y, z, w = quaternion * np.sqrt(2 / length)
+    return np.array(
+        [
+            [1 - y * y - z * z, x * y - z * w, x * z + y * w, 0],
+            [x * y + z * w, 1 - x * x - z * z, y * z - x * w, 0],
+            [x * z - y * w, y * z + x * w, 1 - x * x - y * y, 0],
+            [0, 0, 0, 1],
+        ]
     )
 
 
-def own_colors(visual: Any) -> Floats | None:
-    """Return (N, 3 or 4) linear vertex colours of a geometry, or None."""
-    if visual.kind == "vertex":
-        return np.asarray(visual.vertex_colors) / 255.0
-    stored = getattr(visual, "vertex_attributes", {}).get("color")
-    if stored is None:
-        return None
-    values = np.asarray(stored)
-    return values / (np.iinfo(values.dtype).max if values.dtype.kind in "iu" else 1.0)
+class PrimitiveMaker:
+    """Makes the meshes of primitives, each once, and each again where a mirrored node turns its triangles over."""
+
+    def __init__(self, file: GltfFile, warnings: list[str]) -> None:
+        self._file, self._warnings = file, warnings
+        self._made: dict[tuple[int, bool], Mesh] = {}
+        self._textures: dict[int, Texture | None] = {}
+
+    def made(self, part: Primitive, is_mirrored: bool) -> Mesh:
+        """Return the mesh of a primitive without a place; mirrored, its triangles face outward still."""
+        key = id(part), is_mirrored
+        if key not in self._made:
+            other = self._made.get((id(part), not is_mirrored))
+            if other is None:
+                mesh = self._make(part)
+                self._made[id(part), False] = other = mesh
+            if is_mirrored:
+                self._made[key] = replace(other, triangles=other.triangles[:, ::-1])
+        return self._made[key]
+
+    def _make(self, part: Primitive) -> Mesh:
+        file = self._file
+        if "POSITION" not in part.attributes:
+            raise file.fail("a part has no positions")
+        positions = file.floats(part.attributes["POSITION"])
+        count = len(positions)
+        factor, texture, uvs = None, None, None
+        if part.material is not None:
+            material = file.item(file.header.materials, part.material, "material")
+            factor, image = material.color()
+            uvs = self._optional(part, "TEXCOORD_0", count, 2)
+            if uvs is not None:
+                # The file counts v from the top, in 32 bits.
+                uvs = np.stack([uvs[:, 0], 1 - uvs[:, 1].astype(np.float32)], axis=1)
+                texture = None if image is None else self._texture(image, material.name or f"{part.material}")
+        return Mesh(
+            positions=positions,
+            triangles=self._triangles(part, count),
+            normals=self._optional(part, "NORMAL", count, 3),
+            uvs=uvs,
+            colors=self._colors(part, count, factor),
+            texture=texture,
+        )
+
+    def _triangles(self, part: Primitive, count: int) -> Integers:
+        """Return the triangles (T, 3) int64 of a primitive of ``count`` vertices."""
+        indices = np.arange(count) if part.indices is None else self._file.values(part.indices).reshape(-1)
+        if indices.dtype.kind == "f":
+            raise self._file.fail("its indices are not whole numbers")
+        if part.mode == TRIANGLES:
+            if len(indices) % 3:
+                raise self._file.fail(f"{len(indices)} corners make no triangles")
+            return indices.reshape(-1, 3).astype(np.int64)
+        strip = np.stack([indices[k : len(indices) - 2 + k] for k in range(3)], axis=1).astype(np.int64)
+        strip[1::2] = strip[1::2, ::-1]
+        return strip
+
+    def _optional(self, part: Primitive, name: str, count: int, width: int) -> Floats | None:
+        """Return an attribute (count, width) float64, ``None`` where there is none of this shape."""
+        index = part.attributes.get(name)
+        found = None if index is None else self._file.floats(index)
+        if found is None or found.shape != (count, width):
+            return None
+        kind = self._file.values(part.attributes[name]).dtype
+        return found if kind.kind == "f" else found / np.iinfo(kind).max
+
+    def _colors(self, part: Primitive, count: int, factor: tuple[float, ...] | None) -> Floats | None:
+        """Return linear colours (count, 4) of the vertices: the factor of the material times their own, if any."""
+        own = self._optional(part, "COLOR_0", count, 4)
+        if own is None:
+            own = self._optional(part, "COLOR_0", count, 3)
+        if own is None and factor is None:
+            return None
+        colors = np.tile(in_bytes(np.ones(4) if factor is None else np.array(factor)), (count, 1))
+        if own is not None:
+            colors[:, : own.shape[1]] *= own if part.material is not None else in_bytes(own)
+        return colors
+
+    def _texture(self, index: int, material: str) -> Texture | None:
+        """Return a texture of the header; why it cannot be had is a warning, once."""
+        if index not in self._textures:
+            try:
+                self._textures[index] = self._file.image(index)
+            except NamedFileError as problem:
+                self._textures[index] = None
+                name = self._file.image_name(index)
+                self._warnings.append(left_out(f"texture {name} of material {material}", problem))
+        return self._textures[index]
 
 
-def missing_textures(header: dict[str, Any], scene: Any, is_told: bool) -> list[str]:
-    """Say that images which the file holds could not be decoded."""
-    named = [
-        material
-        for material in header.get("materials", [])
-        if "baseColorTexture" in material.get("pbrMetallicRoughness", {})
-    ]
-    used = [getattr(part.visual, "material", None) for part in scene.geometry.values()]
-    images = sum(getattr(material, "baseColorTexture", None) is not None for material in used)
-    if named and not images and not is_told:
-        return ["its textures cannot be decoded; they are left out"]
-    return []
+def in_bytes(values: Floats) -> Floats:
+    """Return colours, any shape, in steps of 1/255: saved states know the colours of their file by these numbers."""
+    return np.round(np.clip(values, 0, 1) * 255) / 255

@@ -1,17 +1,24 @@
 """MTL: the materials that an OBJ file names."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats.images import ImageError, linear_from_srgb, read_texture
+from app.files.input_files import read_input
+from app.files.mesh_formats.images import TextureReader, linear_from_srgb
+from app.files.named_files import NamedFileError, NamedFiles, OutsideError, OutsideWarning, left_out
 from core.records.arrays import Floats
 from core.scene import Material, Texture
 
 DIFFUSE = 0.8
 """Grey of a material that gives no Kd."""
+SIZE_LIMIT = 2**25
+"""Most bytes of an MTL file."""
+NAMES_SHOWN = 10
+"""Names of missing materials that a warning gives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,20 +32,30 @@ class ObjMaterial:
     material: Material = field(default_factory=Material)
 
 
-def beside(path: Path, name: str) -> Path:
-    """Return where the file ``name`` is that ``path`` names.
+@dataclass(frozen=True, eq=False)
+class MaterialText:
+    """A material as its MTL file gives it: the texture is not read yet."""
 
-    Notes
-    -----
-    Names written on another machine may have backslashes, or folders that are not here; then the file
-    that stands beside ``path`` is meant.
-    """
-    name = name.strip().strip('"').replace("\\", "/")
-    whole = path.parent / name
-    return whole if whole.is_file() else path.parent / name.rsplit("/", 1)[-1]
+    look: ObjMaterial
+    texture: str = ""
+    """Name of the image file; empty: none."""
+    folder: Path | None = None
+    """Folder of the MTL file."""
+
+    def made(self, textures: TextureReader, warnings: list[str]) -> ObjMaterial:
+        """Return the material with its texture; why that cannot be had is added to ``warnings``."""
+        if not self.texture:
+            return self.look
+        try:
+            texture = textures.read(self.texture, self.folder)
+        except NamedFileError as problem:
+            warnings.append(left_out(f"texture {self.texture} of material {self.look.name}", problem))
+            return self.look
+        # The core multiplies the two, and many files give Kd 0 0 0 beside a texture.
+        return replace(self.look, texture=texture, color=np.append(np.ones(3), self.look.color[3]))
 
 
-def read_mtl(path: Path) -> tuple[dict[str, ObjMaterial], list[str]]:
+def read_mtl(path: Path) -> tuple[dict[str, MaterialText], list[str]]:
     """Read the materials of an MTL file.
 
     Kd, Ks, Ns, d, Tr and map_Kd are read; colours count as sRGB. Ns and Ks become the exponent and, as the
@@ -49,48 +66,41 @@ def read_mtl(path: Path) -> tuple[dict[str, ObjMaterial], list[str]]:
     materials : dict
         By name.
     warnings : list of str
-        Textures that cannot be had and lines that cannot be read.
+        Lines that cannot be read.
 
     Raises
     ------
     OSError
         If ``path`` cannot be read.
     """
-    materials: dict[str, ObjMaterial] = {}
+    materials: dict[str, MaterialText] = {}
     warnings: list[str] = []
-    current: ObjMaterial | None = None
-    for number, line in enumerate(path.read_text(encoding="utf-8-sig", errors="replace").splitlines(), 1):
+    current: MaterialText | None = None
+    content = read_input(path, SIZE_LIMIT).decode("utf-8-sig", errors="replace")
+    for number, line in enumerate(content.splitlines(), 1):
         keyword, _, rest = line.strip().partition(" ")
         if keyword == "newmtl":
-            current = ObjMaterial(name=rest.strip())
+            current = MaterialText(ObjMaterial(name=rest.strip()), folder=path.parent)
+        elif current is not None and keyword.lower() == "map_kd":
+            current = replace(current, texture=texture_name(rest.strip()))
         elif current is not None:
             try:
-                current = with_property(current, keyword.lower(), rest.strip(), path)
-            except ImageError as problem:
-                warnings.append(
-                    f"texture {texture_name(rest)} of material {current.name} {problem}; it is left out"
-                )
+                current = replace(current, look=with_property(current.look, keyword.lower(), rest.strip()))
             except ValueError:
-                warnings.append(f"line {number} of {path.name} cannot be read: {line.strip()}")
+                warnings.append(f"line {number} of {path.name} cannot be read: {line.strip()[:80]}")
         if current is not None:
-            materials[current.name] = current
+            materials[current.look.name] = current
     return materials, warnings
 
 
-def with_property(material: ObjMaterial, keyword: str, rest: str, path: Path) -> ObjMaterial:
+def with_property(material: ObjMaterial, keyword: str, rest: str) -> ObjMaterial:
     """Return ``material`` with one line of its MTL file put in; unknown keywords change nothing."""
-    if keyword == "map_kd":
-        # The core multiplies the two, and many files give Kd 0 0 0 beside a texture.
-        texture = read_texture(beside(path, texture_name(rest)))
-        return replace(material, texture=texture, color=np.append(np.ones(3), material.color[3]))
     if keyword not in ("kd", "ks", "ns", "d", "tr"):
         return material
     values = [float(value) for value in rest.split() if value != "-halo"]
     if not values or not np.isfinite(values).all():
         raise ValueError(f"{keyword} must be finite numbers, got {rest}")
     if keyword == "kd":
-        if material.texture is not None:
-            return material
         red, green, blue = values if len(values) == 3 else values[:1] * 3
         return replace(material, color=np.append(linear_from_srgb([red, green, blue]), material.color[3]))
     if keyword == "ks":
@@ -127,14 +137,14 @@ def is_option_value(word: str) -> bool:
 
 
 def find_materials(
-    path: Path, libraries: Sequence[str], names: Sequence[str], has_uvs: bool
+    textures: TextureReader, libraries: Sequence[str], names: Sequence[str], has_uvs: bool
 ) -> tuple[dict[str, ObjMaterial], list[str]]:
-    """Read the materials that an OBJ file names; what cannot be had gives a warning each.
+    """Read the materials that an OBJ file uses; what cannot be had gives a warning each.
 
     Parameters
     ----------
-    path : Path
-        The OBJ file.
+    textures : TextureReader
+        Of the OBJ file.
     libraries : sequence of str
         What its ``mtllib`` lines say.
     names : sequence of str
@@ -142,43 +152,71 @@ def find_materials(
     has_uvs : bool
         Whether it has texture coordinates: then an image beside it is its texture if it names no library.
     """
-    materials: dict[str, ObjMaterial] = {}
-    warnings: list[str] = []
-    unread = 0
-    for line in dict.fromkeys(libraries):
-        # A line may give several files, or one whose name has spaces.
-        for name in [line] if beside(path, line).is_file() else line.split() or ["(no name)"]:
-            try:
-                more, problems = read_mtl(beside(path, name))
-            except OSError as problem:
-                unread += 1
-                warnings.append(
-                    f"material file {name} cannot be read ({problem.strerror}); its materials are left out"
-                )
-            else:
-                materials.update(more)
-                warnings += problems
+    texts, warnings, unread = read_libraries(textures.files, libraries)
     used = dict.fromkeys(name for name in names if name)
+    materials = {name: texts[name].made(textures, warnings) for name in used if name in texts}
     missing = [name for name in used if name not in materials]
     if missing and libraries and not unread:
-        warnings.append(f"material {', '.join(missing)} is in no material file; it is left out")
+        warnings.append(f"material {named(missing)} is in no material file; it is left out")
     elif missing and not libraries:
-        warnings.append(f"the file names material {', '.join(missing)} but no material file; it is left out")
+        warnings.append(f"the file names material {named(missing)} but no material file; it is left out")
     if not libraries and has_uvs:
-        texture, problems = texture_beside(path)
+        texture, problems = texture_beside(textures)
         warnings += problems
         if texture is not None:
             materials = {name: ObjMaterial(name, np.ones(4), texture) for name in ("", *used)}
     return materials, warnings
 
 
-def texture_beside(path: Path) -> tuple[Texture | None, list[str]]:
-    """Return the image that stands beside ``path`` under its name, and why it cannot be used if so."""
+def read_libraries(
+    files: NamedFiles, libraries: Sequence[str]
+) -> tuple[dict[str, MaterialText], list[str], int]:
+    """Return the materials of all MTL files by name, warnings, and how many files could not be read."""
+    materials: dict[str, MaterialText] = {}
+    warnings: list[str] = []
+    unread = 0
+    done: set[Path] = set()
+    for name in dict.fromkeys(name for line in libraries for name in library_names(files, line)):
+        try:
+            path = files.find(name)
+            if path in done:
+                continue
+            done.add(path)
+            more, problems = read_mtl(path)
+        except (OSError, NamedFileError) as problem:
+            unread += 1
+            reason = problem if isinstance(problem, NamedFileError) else f"cannot be read: {problem.strerror}"
+            text = f"material file {name} {reason}; its materials are left out"
+            warnings.append(OutsideWarning(text) if isinstance(problem, OutsideError) else text)
+        else:
+            materials.update(more)
+            warnings += problems
+    return materials, warnings, unread
+
+
+def library_names(files: NamedFiles, line: str) -> list[str]:
+    """Return the names that a ``mtllib`` line gives: several files, or one whose name has spaces."""
+    try:
+        files.find(line)
+    except NamedFileError:
+        return line.split() or ["(no name)"]
+    return [line]
+
+
+def named(names: Sequence[str]) -> str:
+    """Return a few of many names as a text."""
+    more = [f"and {len(names) - NAMES_SHOWN} more"] if len(names) > NAMES_SHOWN else []
+    return ", ".join([*names[:NAMES_SHOWN], *more])
+
+
+def texture_beside(textures: TextureReader) -> tuple[Texture | None, list[str]]:
+    """Return the image that stands beside an OBJ file under its name, and why it cannot be used if so."""
+    path = textures.files.path
     for ending in ("_texture.png", ".png", "_texture.jpg", ".jpg"):
-        image = path.with_name(path.stem + ending)
-        if image.is_file():
+        name = path.stem + ending
+        if os.path.isfile(path.with_name(name)):
             try:
-                return read_texture(image), []
-            except ImageError as problem:
-                return None, [f"texture {image.name} {problem}; it is left out"]
+                return textures.read(name), []
+            except NamedFileError as problem:
+                return None, [left_out(f"texture {name}", problem)]
     return None, []

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats.images import linear_from_srgb
+from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.mtl import ObjMaterial, find_materials
 from app.files.mesh_formats.obj_lines import ObjLines, read_lines
 from app.files.mesh_formats.polygons import share_vertices, triangulate_polygons
@@ -16,6 +16,7 @@ from app.files.mesh_formats.reading import (
     check_positions,
     check_text,
 )
+from app.files.named_files import NamedFiles
 from core.geometry.vertex_stage import vertex_normals
 from core.records.arrays import Floats, Integers
 from core.scene import Mesh
@@ -26,7 +27,7 @@ MEMORY_PER_BYTE = 16
 KINDS = ("vertex", "texture coordinate", "normal")
 
 
-def read_obj(path: Path, report: Report) -> LoadedMeshes:
+def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an OBJ file with its materials and textures.
 
     Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where
@@ -51,7 +52,7 @@ def read_obj(path: Path, report: Report) -> LoadedMeshes:
         raise MeshFileError(f"{path.name} has no faces")
     numbers = np.array(found.corners).reshape(-1, 3)
     check_numbers(path, found, numbers)
-    return build_meshes(path, found, numbers - 1)
+    return build_meshes(path, found, numbers - 1, TextureReader(files))
 
 
 def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
@@ -67,7 +68,7 @@ def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
         )
 
 
-def build_meshes(path: Path, found: ObjLines, numbers: Integers) -> LoadedMeshes:
+def build_meshes(path: Path, found: ObjLines, numbers: Integers, textures: TextureReader) -> LoadedMeshes:
     """Make the meshes of the runs of one material; ``numbers`` (n, 3) count from 0, -1 is none."""
     positions = np.array(found.positions).reshape(-1, 3)
     uvs, normals = np.array(found.uvs).reshape(-1, 2), np.array(found.normals).reshape(-1, 3)
@@ -78,7 +79,7 @@ def build_meshes(path: Path, found: ObjLines, numbers: Integers) -> LoadedMeshes
     corners = numbers[corners]
     averaged = None
     materials, warnings = find_materials(
-        path, found.libraries, [name for _, name in found.materials], bool(found.uvs)
+        textures, found.libraries, [name for _, name in found.materials], bool(found.uvs)
     )
     meshes: list[Mesh] = []
     for first, end, name in runs(found, len(sizes)):

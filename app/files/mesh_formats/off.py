@@ -17,6 +17,7 @@ from app.files.mesh_formats.reading import (
     check_positions,
     check_text,
 )
+from app.files.named_files import NamedFiles
 from core.records.arrays import Floats
 from core.scene import Mesh
 
@@ -76,7 +77,7 @@ class OffLines:
         return np.asarray(colors)
 
 
-def read_off(path: Path, report: Report) -> LoadedMeshes:
+def read_off(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an OFF file, also with colours (COFF) and normals (NOFF) of vertices.
 
     Colours count as sRGB, from 0 to 255 or, where one has a point, from 0 to 1. Colours of faces are left out

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats.images import ImageError, linear_from_srgb, read_texture
-from app.files.mesh_formats.mtl import beside
+from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
 from app.files.mesh_formats.polygons import check_polygons, share_vertices, triangulate_polygons
 from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, check_positions
+from app.files.named_files import NamedFileError, NamedFiles, left_out
 from core.geometry.vertex_stage import vertex_normals
 from core.records.arrays import Floats
 from core.scene import Mesh, Texture
@@ -74,7 +74,7 @@ def read_header(path: Path) -> Header:
     raise MeshFileError(f"{path.name} is cut short: its header has no end")
 
 
-def read_ply(path: Path, report: Report) -> LoadedMeshes:
+def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read a PLY file: text or binary of either byte order, polygons of any size.
 
     Positions, normals, colours of vertices or faces, and texture coordinates of vertices or corners are read.
@@ -97,10 +97,12 @@ def read_ply(path: Path, report: Report) -> LoadedMeshes:
     if corners is None or not len(corners.sizes):
         raise MeshFileError(f"{path.name} has no faces")
     report(None, "joining corners")
-    return build_mesh(path, header, vertex, face, corners)
+    return build_mesh(path, header, vertex, face, corners, TextureReader(files))
 
 
-def build_mesh(path: Path, header: Header, vertex: Rows, face: Rows, polygons: Column) -> LoadedMeshes:
+def build_mesh(
+    path: Path, header: Header, vertex: Rows, face: Rows, polygons: Column, textures: TextureReader
+) -> LoadedMeshes:
     """Make the one mesh of a PLY file."""
     positions = stacked(vertex, "xyz")
     check_positions(path, positions)
@@ -135,7 +137,7 @@ def build_mesh(path: Path, header: Header, vertex: Rows, face: Rows, polygons: C
         colors = (
             face_colors[sources[-1]] if face_colors is not None else None if colors is None else colors[v]
         )
-    texture = read_named_texture(path, header.texture, warnings)
+    texture = read_named_texture(textures, header.texture, warnings)
     mesh = Mesh(
         positions,
         triangles,
@@ -168,12 +170,12 @@ def read_colors(rows: Rows) -> Floats | None:
     return colors
 
 
-def read_named_texture(path: Path, name: str, warnings: list[str]) -> Texture | None:
+def read_named_texture(textures: TextureReader, name: str, warnings: list[str]) -> Texture | None:
     """Return the texture of the ``TextureFile`` comment; why it cannot be had is added to ``warnings``."""
     if not name:
         return None
     try:
-        return read_texture(beside(path, name))
-    except ImageError as problem:
-        warnings.append(f"texture {name} {problem}; it is left out")
+        return textures.read(name)
+    except NamedFileError as problem:
+        warnings.append(left_out(f"texture {name}", problem))
         return None

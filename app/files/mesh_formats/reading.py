@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.files.named_files import NamedFiles
 from core.records.arrays import Floats
 from core.scene import Mesh
 
@@ -19,8 +20,16 @@ Report = Callable[[float | None, str], None]
 """Told how far the work is, from 0 to 1 (``None``: cannot be said), and what is being done."""
 
 
+DRAWING = 100
+"""Bytes of memory that a vertex, and a corner of a triangle, takes at least while it is drawn (measured)."""
+
+
 class MeshFileError(ValueError):
     """A mesh file cannot be opened; the message is one sentence for the person who chose it."""
+
+
+class OutsideMeshError(MeshFileError):
+    """A mesh file cannot be opened unless a file is read that lies outside its folder."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +41,8 @@ class LoadedMeshes:
     """One sentence for each thing that is missing though the file names it, as a texture."""
 
 
-Reader = Callable[[Path, Report], LoadedMeshes]
+Reader = Callable[[Path, Report, NamedFiles], LoadedMeshes]
+"""Reads the file at a path; the last argument finds the files that it names."""
 
 
 def check_memory(path: Path, wanted: int) -> None:

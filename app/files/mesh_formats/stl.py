@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, first_bytes
-from app.files.mesh_formats.through_trimesh import MissingFiles, load_with_trimesh, translated_errors
+from app.files.mesh_formats.through_trimesh import load_with_trimesh, translated_errors
+from app.files.named_files import NamedFiles
 from core.scene import Mesh
 
 HEADER = 84
@@ -21,7 +22,7 @@ MEMORY_PER_BYTE = 10
 """Bytes of memory that a byte of a text file takes at most while it is opened (measured)."""
 
 
-def read_stl(path: Path, report: Report) -> LoadedMeshes:
+def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an STL file; each of its solids is a mesh.
 
     The triangles share no vertices and keep no normals of the file, so that each is shaded by its own plane.
@@ -35,9 +36,8 @@ def read_stl(path: Path, report: Report) -> LoadedMeshes:
     """
     count = check_layout(path)
     report(None, "reading triangles")
-    files = MissingFiles(path)
-    with translated_errors(path, files):
-        scene = load_with_trimesh(path, files)
+    with translated_errors(path):
+        scene = load_with_trimesh(path)
     report(None, "checking")
     meshes = [
         Mesh(

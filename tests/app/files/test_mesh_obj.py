@@ -133,7 +133,7 @@ def test_paths_of_another_machine_lead_to_the_file_beside(tmp_path):
 @pytest.mark.parametrize(
     ("materials", "wanted"),
     [
-        (None, "material file looks.mtl cannot be read"),
+        (None, "material file looks.mtl does not exist; its materials are left out"),
         ("newmtl a\nmap_Kd gone.png\n", "texture gone.png of material a does not exist"),
         ("newmtl a\nmap_Kd a.obj\n", "texture a.obj of material a is not an image"),
         ("newmtl b\n", "material a is in no material file"),

@@ -248,9 +248,8 @@ class TestMeshFiles:
         other = tmp_path / "deep" / "er"
         other.mkdir(parents=True)
         save_state(other / path.name, loaded)
-        assert json.loads((other / path.name).read_text())["scene"]["source"] == {
-            "file": "../../meshes/square.obj"
-        }
+        source = json.loads((other / path.name).read_text())["scene"]["source"]
+        assert source["file"] == "../../meshes/square.obj"
         assert_same(state, load_state(other / path.name)[0])
 
     def test_a_mesh_file_that_is_gone(self, mesh, tmp_path):

@@ -14,6 +14,7 @@ from app.window.preferences import load_preferences
 from app.window.reopening import reopen
 from core.records.steps import Level
 from core.scene import Scene
+from tests.app.files.mesh_writing import write_image
 
 TETRAHEDRON = """
 v 0 0 0
@@ -91,6 +92,28 @@ def test_a_file_that_is_gone(window: MainWindow, qtbot: QtBot, tmp_path: Path) -
     window.files.open_path(str(tmp_path / "gone.obj"))
     qtbot.waitUntil(window.messages.isVisible, timeout=20000)
     assert window.session.document is document
+
+
+def test_a_texture_outside_is_read_once_the_user_allows_it(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    (tmp_path / "meshes").mkdir()
+    write_image(tmp_path / "skin.png", [[(255, 0, 0)]])
+    (tmp_path / "meshes" / "looks.mtl").write_text("newmtl a\nmap_Kd ../skin.png\n")
+    path = tmp_path / "meshes" / "a.obj"
+    path.write_text(f"mtllib looks.mtl\nvt 0 0\nusemtl a\n{TETRAHEDRON.replace('f 1 3 2', 'f 1/1 3/1 2/1')}")
+    drop(window, path)
+    qtbot.waitUntil(window.messages.action_button.isVisible, timeout=20000)
+    assert window.messages.text.text().startswith("Texture ../skin.png of material a is outside the folder")
+    scene = window.session.document.scene
+    assert isinstance(scene, Scene)
+    assert scene.meshes[0].texture is None
+    window.messages.action_button.click()
+    qtbot.waitUntil(lambda: not window.files.job.is_running, timeout=20000)
+    scene = window.session.document.scene
+    assert isinstance(scene, Scene)
+    assert scene.meshes[0].texture is not None
+    assert not window.messages.action_button.isVisible()
 
 
 def test_a_built_in_scene_by_menu(window: MainWindow, qtbot: QtBot) -> None:
