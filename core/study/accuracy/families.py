@@ -7,11 +7,13 @@ by itself; a better one is added here.
 from core.methods import table
 from core.settings import families
 from core.study.accuracy.colors import ANTIALIASING, SHADING, TEXTURE_FILTER
+from core.study.accuracy.depth_steps import DEPTH_STEPS
 from core.study.accuracy.family import StudyFamily
 from core.study.accuracy.fill import COVERAGE, FILL
 from core.study.accuracy.interpolated import INTERPOLATION
 from core.study.accuracy.line_clippers import LINE_CLIPPING
 from core.study.accuracy.lines import LINE
+from core.study.accuracy.orientation import ORIENTATION
 from core.study.accuracy.visible import CLIPPING, CULL, DEPTH, VISIBILITY
 from core.study.accuracy.whole_picture import PIPELINE, standing_in
 
@@ -19,11 +21,13 @@ OWN = (
     LINE,
     FILL,
     COVERAGE,
+    ORIENTATION,
     LINE_CLIPPING,
     CLIPPING,
     INTERPOLATION,
     TEXTURE_FILTER,
     DEPTH,
+    DEPTH_STEPS,
     ANTIALIASING,
     SHADING,
     VISIBILITY,

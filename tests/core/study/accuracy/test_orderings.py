@@ -1,43 +1,23 @@
 """What every chart shows, derived by hand for one case of each family: errors and work counts, never times."""
 
-from collections.abc import Mapping
-from typing import NamedTuple
-
 import numpy as np
 import pytest
 
 from core.methods import table
 from core.settings import no_effect
-from core.study import study_families, study_family
-from core.study.accuracy.family import Assignment, chosen_dials, settings_of
+from core.study import study_families
 from core.study.accuracy.whole_picture import PICTURE
+from tests.core.study.accuracy.untimed_runs import run
 
+PUBLISHED = {"orientation", "depth-steps"}
+"""Families that are published tests: ``test_published`` derives them."""
 CHOICES = {"polygon_mode", "pixel_center", "provoking", "wrap", "blend"}
 """Families that choose what is to be seen, and share one derivation."""
 
 
-class Found(NamedTuple):
-    counts: Mapping[str, int]
-    errors: Mapping[str, float | str]
-
-
-def run(family: str, work: str = "", seed: int = 0, **dials: float) -> dict[str, Found]:
-    """Run every method of a family once, without a clock; by the method's name."""
-    study = study_family(family)
-    kind = study.work(work or None)
-    task = study.make(Assignment(kind.name, chosen_dials(kind, dials), seed, study.base))
-    found = {}
-    for candidate in study.candidates(study.base):
-        settings = settings_of(study.base, candidate.method)
-        made = task.start(settings)()
-        name = candidate.method.removeprefix(f"{study.varies[0]}=") if study.varies else candidate.method
-        found[name] = Found(task.counts(settings, made), task.errors(settings, made))
-    return found
-
-
 def test_every_family_has_its_derivation() -> None:
     tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
-    assert {family.name.replace("-", "_") for family in study_families()} <= tested | CHOICES
+    assert {family.name for family in study_families()} <= tested | CHOICES | PUBLISHED
 
 
 def test_a_setting_is_varied_where_it_shows() -> None:
