@@ -1,0 +1,79 @@
+"""Where a number comes from: always an earlier step, where the same number stands."""
+
+import numpy as np
+import pytest
+
+from core import STAGES, Settings, Trace, trace
+from core.scene import AnyScene
+from core.trace.origins import SOURCES, origin
+from lessons.scenes import CATALOGUE
+
+
+def middle(scene: AnyScene) -> tuple[int, int, int, int]:
+    """Return a small region in the middle of a scene's picture."""
+    width, height = scene.size
+    return width // 2 - 8, height // 2 - 6, 16, 12
+
+
+def origins(run: Trace, stage: str, rows: int) -> list[tuple[str, int]]:
+    """Return the variables that come from elsewhere, at some rows of a stage, after checking each."""
+    here = run.stage(stage)
+    found = []
+    for row in (
+        np.unique(np.linspace(0, here.steps.row_count - 1, rows).astype(int)) if here.steps.row_count else ()
+    ):
+        position = int(here.steps.starts[row + 1])
+        for name, column in here.columns.items():
+            for element in (None, *range(3)) if column.ndim == 2 and column.shape[1] == 3 else (None,):
+                made = origin(run, stage, position, name, element)
+                if made is None:
+                    continue
+                assert (STAGES.index(made.stage), made.position) < (STAGES.index(stage), position)
+                there = run.stage(made.stage)
+                its_row, _ = there.steps.row_at(made.position)
+                held = np.ravel(there.columns[made.variable][its_row])
+                value = np.ravel(column[row] if element is None else column[row][element])
+                if f"{stage}.{name}" in SOURCES or made.stage != stage:
+                    assert np.array_equal(held[: len(value)], value) or its_row == row
+                found.append((f"{stage}.{name}", int(row)))
+    return found
+
+
+@pytest.mark.parametrize("number", [0, 3, 4, 6])
+def test_the_same_number_stands_in_an_earlier_step(number: int) -> None:
+    scene = CATALOGUE[number].make()
+    run = trace(scene, Settings(fill="bounding-box"), region=middle(scene))
+    names = {name for stage in STAGES for name, _ in origins(run, stage, 12)}
+    assert {"raster.a", "raster.b", "raster.c", "blend.source", "resolve.linear"} <= names
+
+
+def test_a_byte_is_followed_to_a_vertex() -> None:
+    scene = CATALOGUE[5].make()
+    run = trace(scene, region=middle(scene))
+    shown = np.argwhere(run.source.picture.primitive >= 0)[0][::-1] + run.source.raster.bounds[:2]
+    rows = run.stage("resolve").rows_at_pixel(*shown)
+    at = origin(run, "resolve", int(run.stage("resolve").steps.starts[rows[0] + 1]), "linear")
+    way = []
+    for variable in ("source", "vertex_color"):
+        assert at is not None
+        way.append(at.stage)
+        at = origin(run, at.stage, at.position, variable)
+    assert at is not None
+    way.append(at.stage)
+    at = origin(run, at.stage, at.position, "corner_w", 0)
+    while at is not None:
+        way.append(at.stage)
+        at = origin(run, at.stage, at.position, "before_w")
+    assert way == ["blend", "shade", "interpolate", "transform", "transform", "transform"]
+
+
+def test_what_was_given_and_what_this_step_made_come_from_nowhere() -> None:
+    run = trace(CATALOGUE[0].make(), region=(10, 10, 20, 16))
+    raster = run.stage("edges")
+    assert origin(run, "edges", 0, "a") is None
+    assert origin(run, "edges", int(raster.steps.starts[4]) + 1, "a") is None
+    later = origin(run, "edges", int(raster.steps.starts[4]) + 3, "a")
+    assert later is not None
+    assert (later.stage, later.position) == ("edges", int(raster.steps.starts[4]) + 1)
+    assert origin(run, "transform", 1, "before_x") is None
+    assert origin(run, "transform", 1, "no such variable") is None
