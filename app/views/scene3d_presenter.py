@@ -51,8 +51,6 @@ class Scene3dPresenter(QObject):
     """A triangle that was clicked."""
     refused = Signal(str)
     """Why a drag did nothing, or a picture could not be drawn."""
-    frame_measured = Signal(object)
-    """:class:`~app.views.scene_figures.FrameFigures` of a picture that was shown; None: no picture is."""
 
     def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -65,7 +63,6 @@ class Scene3dPresenter(QObject):
         self._home = Orbit()
         self._size_name = OWN_SIZE
         self._rate = FrameRate()
-        self._is_shown = False
         self._has_new_figures = False
         self._drags = 0
         self._band_workers, self._backs = BandWorkers(1), HiddenBacks()
@@ -123,11 +120,9 @@ class Scene3dPresenter(QObject):
         if self._drawn is not None:
             self._show(self._drawn)
 
-    def set_shown(self, is_shown: bool) -> None:
-        """Set whether the view is in sight: figures are reported only then."""
-        self._is_shown = is_shown
-        self._tell_figures()
-        if is_shown and self._drawn is not None and self._drawn.shot.size != self._view.picture_size():
+    def appear(self) -> None:
+        """Draw at the size that the view has now that it comes in sight."""
+        if self._drawn is not None and self._drawn.shot.size != self._view.picture_size():
             self._draw()
 
     @Slot(str)
@@ -181,7 +176,6 @@ class Scene3dPresenter(QObject):
         self._view.empty_text = "Drawing…"
         self._view.show_picture(None)
         self._view.show_figures("")
-        self._tell_figures()
         self._offer_sizes()
         self._go_home()
 
@@ -256,11 +250,6 @@ class Scene3dPresenter(QObject):
             self._figures_timer.start()
             self._view.show_figures(figures_text(self._drawn.figures, self._rate.per_second()))
             self._view.corner().show_details(drawing_text(self._drawn.figures))
-            self._tell_figures()
-
-    def _tell_figures(self) -> None:
-        drawn = self._drawn if self._is_shown else None
-        self.frame_measured.emit(None if drawn is None else drawn.figures)
 
     def _caption(self) -> str:
         document = self._session.document

@@ -1,5 +1,6 @@
 """The sizes that the 3D view draws at, and what drawing one frame took, as numbers and as a line of text."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from core.fast_path import Route
@@ -7,6 +8,7 @@ from core.fast_path.record import Coloring, Visibility
 from core.fast_path.workers import Sharing
 from core.records.frame import StageCount
 from core.records.words import counted
+from core.stages.declared import stage_of
 from widgets.space.frame_corner import SizeChoice
 
 VISIBILITIES: dict[Visibility, str] = {
@@ -28,6 +30,10 @@ COLORS: dict[Coloring, str] = {
     "deferred": "attributes and light once per visible pixel",
 }
 """Ways of ``core.fast_path.Route``, in words."""
+
+
+MOST_STAGES = 4
+"""Stages whose time is told."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +67,7 @@ def figures_text(figures: FrameFigures, per_second: float | None) -> str:
 def drawing_text(figures: FrameFigures) -> str:
     """Return by how many processes and in what way a frame was drawn: a few lines."""
     backs = ["Back faces are left out: the meshes are closed and seen from outside."]
-    lines = [*_sharing_lines(figures.sharing), *_route_lines(figures.route)]
+    lines = [*_sharing_lines(figures.sharing), *_route_lines(figures.route), *_stage_lines(figures.stages)]
     return "\n".join(lines + backs if figures.are_backs_hidden else lines)
 
 
@@ -72,6 +78,13 @@ def _sharing_lines(sharing: Sharing) -> list[str]:
         f"rows {band.first:,} to {band.end - 1:,} in {band.seconds * 1000:,.1f} ms" for band in sharing.bands
     )
     return [f"Drawn by {sharing.process_count} processes: {', '.join(bands)}."]
+
+
+def _stage_lines(stages: Mapping[str, StageCount]) -> list[str]:
+    """Return where the time went: the stages that took most of it."""
+    longest = sorted(stages, key=lambda stage: -stages[stage].seconds)[:MOST_STAGES]
+    times = [f"{stage_of(stage).short_title} {stages[stage].seconds * 1000:.1f} ms" for stage in longest]
+    return [f"Longest stages: {', '.join(times)}."] if times else []
 
 
 def _route_lines(route: Route) -> list[str]:

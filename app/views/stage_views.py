@@ -23,8 +23,6 @@ class StageViews(QObject):
     """A triangle of the scene was clicked in the 3D view."""
     refused = Signal(str)
     """Why a drag in a view did nothing."""
-    frame_measured = Signal(object)
-    """:class:`~app.views.scene_figures.FrameFigures` of a picture of the 3D view; None: it is not in sight."""
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -38,7 +36,6 @@ class StageViews(QObject):
         self._scene_presenter = Scene3dPresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
-        self._scene_presenter.frame_measured.connect(self.frame_measured)
         for widget in self._views.values():
             widget.installEventFilter(self)
         session.document_changed.connect(self._refresh_visible)
@@ -77,9 +74,9 @@ class StageViews(QObject):
         self._scene_presenter.stop()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Bring a view up to date when it appears, and tell the 3D view whether it is in sight."""
-        if watched is self._scene and event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
-            self._scene_presenter.set_shown(event.type() == QEvent.Type.Show)
+        """Bring a view up to date when it appears."""
+        if watched is self._scene and event.type() == QEvent.Type.Show:
+            self._scene_presenter.appear()
         if event.type() == QEvent.Type.Show:
             for name, widget in self._views.items():
                 if widget is watched and name in self._stale:

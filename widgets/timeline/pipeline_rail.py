@@ -35,6 +35,8 @@ class StageEntry:
     """The key that chooses it, such as ``3``."""
     counts: str = ""
     """What goes in and out, such as ``12 → 8``."""
+    unit: str = ""
+    """What is counted, such as ``triangles``."""
     duration: str = ""
     """Measured time, such as ``0.4 ms``."""
     state: StageState = StageState.DONE
@@ -44,8 +46,6 @@ class StageEntry:
     """Why it is not needed or was inserted."""
     share: float | None = None
     """Part of the whole time, 0 to 1, shown as a bar; ``None``: not known."""
-    measured: str = ""
-    """What took that time, such as ``the traced picture``."""
 
 
 class StageButton(QAbstractButton):
@@ -67,9 +67,10 @@ class StageButton(QAbstractButton):
         if entry.is_inserted and entry.state is not StageState.INSERTED:
             words.append(StageState.INSERTED.value)
         status = f"{', '.join(words)}: {entry.reason}" if entry.reason else ", ".join(words)
-        figures = " in ".join(part for part in (entry.counts, entry.duration) if part)
+        counted = f"{entry.counts} {entry.unit}".strip()
+        figures = " in ".join(part for part in (counted, entry.duration) if part)
         if entry.share is not None:
-            figures += f", {100 * entry.share:.0f} % of {entry.measured or 'all stages'}"
+            figures += f", {100 * entry.share:.0f} % of all stages"
         key = f" ({entry.key})" if entry.key else ""
         self.setToolTip("\n".join(part for part in (f"{entry.name}{key}", figures, status) if part))
         self.setAccessibleName(f"Stage {entry.name}")
@@ -87,7 +88,7 @@ class StageButton(QAbstractButton):
         name = QFontMetrics(self._name_font(is_bold=True)).horizontalAdvance(entry.name)
         small = QFontMetrics(self._small_font())
         key = small.horizontalAdvance(entry.key) + 6 if entry.key else 0
-        lines = (entry.counts or self._state_word(), entry.duration)
+        lines = (entry.counts or self._state_word(), entry.unit)
         width = max(name + key, *(small.horizontalAdvance(line) for line in lines))
         height = QFontMetrics(self._name_font()).height() + 2 * small.height() + 12 + _BAR_ROOM
         return QSize(width + 14, height)
@@ -132,7 +133,9 @@ class StageButton(QAbstractButton):
         painter.drawText(QRect(left, inner.top(), room, name_height), middle, name)
         painter.setFont(self._small_font())
         painter.setPen(QColor(theme.muted_text))
-        lines = [entry.counts or self._state_word(), entry.duration]
+        room = small.horizontalAdvance(f"{entry.unit}  {entry.duration}")
+        figures = (entry.unit, entry.duration) if room <= inner.width() else (entry.unit or entry.duration,)
+        lines = [entry.counts or self._state_word(), "  ".join(figures)]
         for number, line in enumerate(lines):
             top = inner.top() + name_height + 1 + number * small.height()
             text = small.elidedText(line, Qt.TextElideMode.ElideRight, inner.width() + 4)

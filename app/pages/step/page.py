@@ -84,7 +84,6 @@ class StepPage(Page):
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.stepping.message_sent.connect(self.message_sent)
-        self.views.frame_measured.connect(self.stepping.show_frame)
         for refusal in (
             self.scene.edit_refused,
             self.views.refused,

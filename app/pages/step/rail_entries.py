@@ -1,11 +1,10 @@
 """What the pipeline rail shows of each stage: what went in and came out, how long it took, why it is there."""
 
-from collections.abc import Mapping
-
-from core import STAGES
+from core import STAGES, Trace
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
-from core.stages.declared import stage_of
+from core.resolved import resolve
+from core.stages.declared import GEOMETRY_STAGES, stage_of
 from widgets.timeline.pipeline_rail import StageEntry, StageState
 
 INSERTED_FOR = {
@@ -17,50 +16,62 @@ COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
 
 
-def rail_entries(
-    counts: Mapping[str, StageCount],
-    *,
-    current: str,
-    whole_seconds: float,
-    measured: str,
-    coverage: str,
-    is_predicting: bool,
-) -> list[StageEntry]:
+UNITS = dict.fromkeys(GEOMETRY_STAGES, "triangles") | {"bin": "pixels", "resolve": "pixels"}
+"""What comes out of a stage, where it is not fragments."""
+
+
+def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
+    """Return what goes into and comes out of every stage as it is stepped.
+
+    A picture interpolates and shades only what is seen in the end; the trace does it with every fragment, in pipeline
+    order. With several samples a pixel, the counts are those of the picture.
+    """
+    source, counts = trace.source, trace.source.picture.statistics
+    found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
+    if not found["raster"][0] and found["raster"][1]:
+        found["raster"] = found["bin"][1], found["raster"][1]
+    if resolve(source.settings).sampling.count == 1:
+        fragments, passed = len(source.fragments), int(source.depth_tests.passes.sum())
+        found |= dict.fromkeys(("interpolate", "shade"), (fragments, fragments))
+        found |= {"depth": (fragments, passed), "blend": (passed, passed)}
+    return found
+
+
+def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[StageEntry]:
     """Return the entries of all stages.
 
     Parameters
     ----------
-    counts : mapping
-        Of every name of ``core.STAGES``.
+    trace : Trace
+        What is stepped; the times are those of its picture.
     current : str
         The stage that is stepped.
-    whole_seconds : float
-        What the parts of the time are parts of.
-    measured : str
-        What took that time, as ``the traced picture``.
-    coverage : str
-        The number format, which some fills do not take.
     is_predicting : bool
         Whether counts would tell the answer.
     """
+    counts, through = trace.source.picture.statistics, traced_counts(trace)
+    whole_seconds = sum(count.seconds for count in counts.values())
     entries = []
     for index, stage in enumerate(STAGES):
-        count = counts[stage]
-        state, is_inserted, reason = _state_and_reason(stage, count, stage == current, coverage)
-        incoming = count.incoming
-        if stage == "raster" and not incoming and count.outgoing:
-            incoming, reason = counts["bin"].outgoing, reason or COMPUTED
+        count, (incoming, outgoing) = counts[stage], through[stage]
+        state, is_inserted, reason = _state_and_reason(
+            stage, count, stage == current, trace.source.settings.coverage
+        )
+        if stage == "raster" and incoming != count.incoming:
+            reason = reason or COMPUTED
+        if stage in ("interpolate", "shade") and outgoing > count.outgoing:
+            reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         entries.append(
             StageEntry(
                 stage_of(stage).short_title,
                 str((index + 1) % 10) if index < 10 else "",
-                "? → ?" if is_predicting else f"{incoming:,} → {count.outgoing:,}",
+                "? → ?" if is_predicting else f"{incoming:,} → {outgoing:,}",
+                UNITS.get(stage, "fragments"),
                 f"{count.seconds * 1000:.1f} ms",
                 state,
                 is_inserted,
                 reason,
                 count.seconds / whole_seconds if whole_seconds > 0 else 0.0,
-                measured,
             )
         )
     return entries

@@ -8,7 +8,6 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.pages.step.rail_entries import rail_entries
 from app.session.session import Session
-from app.views.scene_figures import FrameFigures
 from core import STAGES
 from core.methods import table
 from core.raster.fills.tested import effective_fill
@@ -78,7 +77,6 @@ class SteppingPresenter(QObject):
         """Name of the listing's function and line."""
         self.bookmarks: list[Bookmark] = []
         self._condition: Condition | None = None
-        self._frame: FrameFigures | None = None
         self._told = ""
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
@@ -156,32 +154,11 @@ class SteppingPresenter(QObject):
         self._timeline.show_run(TimelineRun(trace.steps.count, marks, place > 0, place < last))
         self._timeline.show_position(self._session.cursor.position)
 
-    @Slot(object)
-    def show_frame(self, figures: FrameFigures | None) -> None:
-        """Show in the rail where the time of a frame of the 3D view went; None: of the traced picture again."""
-        if figures is not self._frame:
-            self._frame = figures
-            self.show_rail()
-
     def show_rail(self) -> None:
         """Show what every stage took in, gave out, and which part of the time it took."""
-        # A prediction is about the traced picture, whose figures are hidden then.
-        frame = None if self._session.is_predicting else self._frame
-        if frame is not None:
-            counts, whole, measured = frame.stages, frame.seconds, "the last frame of the 3D view"
-        else:
-            counts = self._session.trace.source.picture.statistics
-            whole, measured = sum(count.seconds for count in counts.values()), "the traced picture"
         session = self._session
         self._rail.show_stages(
-            rail_entries(
-                counts,
-                current=session.cursor.stage,
-                whole_seconds=whole,
-                measured=measured,
-                coverage=session.document.settings.coverage,
-                is_predicting=session.is_predicting,
-            )
+            rail_entries(session.trace, current=session.cursor.stage, is_predicting=session.is_predicting)
         )
 
     # Moving.

@@ -263,24 +263,16 @@ def test_every_picture_is_whole_and_as_large_as_the_view(show, qtbot):
         assert widget.picture().pixels.shape[1::-1] == figures.size
 
 
-def test_the_corner_and_the_signal_tell_what_a_frame_took(show, qtbot):
+def test_the_corner_tells_what_a_frame_took(show, qtbot):
     _, views, widget = show("scene", "torus")
-    told: list[object] = []
-    views.frame_measured.connect(told.append)
     for k in range(4):
         drag(widget, QPoint(30, 30), QPoint(60 + k, 40))
         rested(qtbot, views)
         widget.repaint()
     figures = views.scene_presenter.drawn.figures
-    qtbot.waitUntil(lambda: bool(told) and told[-1] is figures)
-    text = widget.corner().text()
-    assert "frames/s" in text
-    assert f"{figures.size[0]} × {figures.size[1]} · {figures.triangle_count:,} triangles" in text
+    text = f"{figures.size[0]} × {figures.size[1]} · {figures.triangle_count:,} triangles"
+    qtbot.waitUntil(lambda: "frames/s" in widget.corner().text() and text in widget.corner().text())
     assert widget.corner().isVisible()
-    widget.hide()
-    assert told[-1] is None
-    widget.show()
-    assert told[-1] is figures
 
 
 def test_workers_that_are_given_draw_and_end_with_the_views(show, qtbot):

@@ -8,10 +8,12 @@ from pytestqt.qtbot import QtBot
 
 from app.pages.step.grid_records import buffers_of
 from app.pages.step.stepping_presenter import EVENT_TITLES
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
 from core.stages.declared import stage_of
+from lessons.scenes import make_scene
 from widgets.basics.marks import Mark
 
 
@@ -248,23 +250,19 @@ def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
         assert np.array_equal(shown, pixel[None])
 
 
-def test_the_rail_shows_the_frames_of_the_3d_view_while_it_is_seen(window: MainWindow, qtbot: QtBot) -> None:
-    def raster_tip() -> str:
-        return window.page.rail.buttons()[STAGES.index("raster")].toolTip()
+def test_the_rail_counts_what_is_stepped_whatever_the_view(window: MainWindow) -> None:
+    def counted() -> dict[str, str]:
+        buttons = window.page.rail.buttons()
+        return {stage: button.entry().counts for stage, button in zip(STAGES, buttons, strict=True)}
 
-    traced = raster_tip()
-    assert "of the traced picture" in traced
+    session = window.session
+    session.open(open_document(make_scene("intersecting"), "intersecting"))
+    of_pixels = counted()
+    for stage in ("interpolate", "shade", "depth", "blend", "resolve"):
+        rows = session.trace.stage(stage).steps.row_count
+        assert of_pixels[stage].split(" → ")[0] == f"{rows:,}"
     window.page.show_view("scene")
-    qtbot.waitUntil(lambda: "of the last frame of the 3D view" in raster_tip())
-
-    def tells_of_the_last_frame() -> bool:
-        drawn = window.page.views.scene_presenter.drawn
-        assert drawn is not None
-        binned, count = (drawn.figures.stages[stage] for stage in ("bin", "raster"))
-        return f"{binned.outgoing:,} → {count.outgoing:,} in {count.seconds * 1000:.1f} ms" in raster_tip()
-
-    qtbot.waitUntil(tells_of_the_last_frame)  # a second frame may have come meanwhile
-    shares = [button.entry().share for button in window.page.rail.buttons()]
-    assert 0 < sum(share or 0.0 for share in shares) <= 1
-    window.page.show_view("pixels")
-    assert raster_tip() == traced
+    window.page.settle()
+    assert counted() == of_pixels
+    units = [button.entry().unit for button in window.page.rail.buttons()]
+    assert units == ["triangles"] * 4 + ["pixels"] + ["fragments"] * 5 + ["pixels"]
