@@ -88,7 +88,7 @@ class StageButton(QAbstractButton):
         name = QFontMetrics(self._name_font(is_bold=True)).horizontalAdvance(entry.name)
         small = QFontMetrics(self._small_font())
         key = small.horizontalAdvance(entry.key) + 6 if entry.key else 0
-        lines = (entry.counts or self._state_word(), entry.unit)
+        lines = (entry.counts or self._state_word(), f"{entry.unit}  {entry.duration}")
         width = max(name + key, *(small.horizontalAdvance(line) for line in lines))
         height = QFontMetrics(self._name_font()).height() + 2 * small.height() + 12 + _BAR_ROOM
         return QSize(width + 14, height)
