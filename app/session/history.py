@@ -1,21 +1,32 @@
 """Undo: a history of frozen values, not of commands."""
 
+from collections.abc import Callable, Mapping
 from typing import Generic, TypeVar
 
 State = TypeVar("State")
 LIMIT = 500
 """Values that are kept."""
+BYTES_LIMIT = 64 << 20
+"""Bytes of arrays that are kept only to be gone back to; the last value before the present one stays all the same."""
+
+
+def _holds_nothing(state: object) -> Mapping[int, int]:
+    return {}
 
 
 class History(Generic[State]):
     """Values in the order they were made, and which one is present.
 
-    Values that belong to one gesture (a drag) are put in with one ``merge`` key and undone together.
+    Values that belong to one gesture (a drag) are put in with one ``merge`` key and undone together. Values share the
+    arrays in which they are the same, so what is kept is bounded by the bytes that all of them hold together.
     """
 
-    def __init__(self, state: State) -> None:
+    def __init__(self, state: State, held: Callable[[State], Mapping[int, int]] = _holds_nothing) -> None:
+        """Begin with one value; ``held`` returns the bytes that a value holds by the identity of what holds them."""
+        self._held = held
         self._states = [state]
         self._keys: list[str] = [""]
+        self._bytes = [held(state)]
         self._at = 0
 
     @property
@@ -40,15 +51,31 @@ class History(Generic[State]):
 
     def put(self, state: State, merge: str = "") -> None:
         """Make ``state`` the present value and forget what was undone; one of the same gesture replaces the last."""
-        del self._states[self._at + 1 :], self._keys[self._at + 1 :]
+        self._drop(slice(self._at + 1, None))
         if merge and self._keys[-1] == merge:
-            self._states[-1] = state
-            return
+            self._drop(slice(self._at, None))
+        else:
+            # What is shown computes more than a new value holds.
+            self._bytes[-1] = self._held(self._states[-1])
         self._states.append(state)
         self._keys.append(merge)
-        excess = max(len(self._states) - LIMIT, 0)
-        del self._states[:excess], self._keys[:excess]
+        self._bytes.append(self._held(state))
+        self._drop(slice(self._excess()))
         self._at = len(self._states) - 1
+
+    def _excess(self) -> int:
+        """Return how many of the oldest values are too many."""
+        kept = dict(self._bytes[-1])
+        room = BYTES_LIMIT
+        for count, held in enumerate(reversed(self._bytes[:-1]), 1):
+            room -= sum(size for identity, size in held.items() if identity not in kept)
+            kept |= held
+            if (room < 0 and count > 1) or count >= LIMIT:
+                return len(self._states) - count
+        return 0
+
+    def _drop(self, which: slice) -> None:
+        del self._states[which], self._keys[which], self._bytes[which]
 
     def is_within(self, gesture: str) -> bool:
         """Return whether the present value was put in by this gesture."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session.document import Document
+from app.session.held_bytes import held_arrays
 from app.session.history import History
 from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_now
 from core import STAGES, Settings, Trace
@@ -52,7 +53,7 @@ class Session(QObject):
         self.tracing.traced.connect(self._take_traced)
         self.tracing.failed.connect(self.edit_failed)
         self.tracing.busy_changed.connect(self.history_changed)
-        self._history = History(document)
+        self._history = History(document, held_arrays)
         self._cursor = Cursor()
         self._visited = History(self._cursor)
         self._pin: Pixel | None = None

@@ -1,6 +1,13 @@
 """Undo keeps values, and a gesture is undone as one."""
 
-from app.session.history import LIMIT, History
+from dataclasses import replace
+
+import pytest
+
+from app.session.held_bytes import held_arrays
+from app.session.history import BYTES_LIMIT, LIMIT, History
+from core.scene import Scene
+from lessons.scenes import make_scene
 
 
 def test_undo_and_redo_walk_the_values() -> None:
@@ -53,3 +60,35 @@ def test_the_oldest_values_are_dropped() -> None:
     while history.can_undo:
         history.undo()
     assert history.present == 20
+
+
+def test_values_are_kept_by_the_bytes_that_they_hold_together() -> None:
+    half = BYTES_LIMIT // 2 + 1
+    history = History("a", lambda state: {ord(name): half for name in state})
+    for state in ("ab", "ab", "a", "b"):
+        history.put(state)
+    assert undone(history) == ["b", "a", "ab", "ab", "a"], (
+        "a and b are held once, whatever number of values has them"
+    )
+    history.put("c")
+    assert undone(history) == ["c", "b"], "what was before stays, however large it is"
+
+
+def undone(history: History[str]) -> list[str]:
+    """Return the present value and all before it; the present one stays."""
+    found = [history.present]
+    while history.can_undo:
+        found.append(history.undo())
+    while history.can_redo:
+        history.redo()
+    return found
+
+
+def test_the_arrays_of_a_record_count_once() -> None:
+    scene = make_scene("sphere")
+    assert isinstance(scene, Scene)
+    (mesh,) = scene.meshes
+    moved = replace(scene, meshes=(replace(mesh, positions=mesh.positions + 1.0),))
+    one, both = held_arrays(scene), held_arrays((scene, moved))
+    assert sum(one.values()) >= mesh.positions.nbytes + mesh.triangles.nbytes
+    assert sum(both.values()) - sum(one.values()) == pytest.approx(mesh.positions.nbytes, abs=2000)
