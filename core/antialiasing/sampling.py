@@ -8,8 +8,8 @@ sample, by the very arithmetic of the edge functions and spans.
 References
 ----------
 OpenGL 4.6 (core profile), 14.3.1 "Multisampling"; Direct3D 11, "Standard multisample quality patterns" (4 samples).
-LMU, *Computer Graphics 1*, tutorial 6, "Supersampling (SSAA)", "Multisampling (MSAA)", 2020.
-H. Jubair, *Computer Graphics*, lecture "Antialiasing", supersampling.
+LMU, *Computer Graphics 1*, tutorial 5, "Super Sampling Antialiasing (SSAA)", which takes MSAA for one kind of it, 2020.
+M. I. Jubair, *Computer Graphics*, "Anti-aliasing": box filtering by supersampling.
 """
 
 from dataclasses import dataclass
@@ -74,7 +74,7 @@ def grid_positions(side: int) -> Floats:
     "antialiasing",
     "none",
     "None (one sample a pixel)",
-    source="Zwicker 2016, Pixel inside/outside test; LMU 2020, Aliasing",
+    source="Zwicker 2016, Pixel inside/outside test; LMU 2020, Point Aliasing",
     exact_for="edges along pixel borders",
     breaks_where="every other edge: staircases. Details between pixel centres are lost",
 )
@@ -87,7 +87,7 @@ def one_sample(samples_across: int) -> Sampling:
     "antialiasing",
     "ssaa-4",
     "Supersampling, 2 x 2 samples",
-    source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
+    source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/4 pixel, shading included",
     breaks_where="nearly horizontal or vertical edges: only two steps a pixel. Four times the work",
     takes=("resolve_filter",),
@@ -101,7 +101,7 @@ def supersample_by_2(samples_across: int) -> Sampling:
     "antialiasing",
     "ssaa-16",
     "Supersampling, 4 x 4 samples",
-    source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
+    source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/16 pixel, shading included",
     breaks_where="nearly horizontal or vertical edges: only four steps a pixel. Sixteen times the work",
     takes=("resolve_filter",),
@@ -115,7 +115,7 @@ def supersample_by_4(samples_across: int) -> Sampling:
     "antialiasing",
     "ssaa-n",
     "Supersampling, n x n samples",
-    source="LMU 2020, Supersampling (SSAA); Jubair, Antialiasing, supersampling",
+    source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/n^2 pixel, shading included (n is samples_across)",
     breaks_where="nearly horizontal or vertical edges: only n steps a pixel. n^2 times the work",
     takes=("resolve_filter", "samples_across"),
@@ -142,7 +142,7 @@ def exact_area(samples_across: int) -> Sampling:
     "antialiasing",
     "msaa-4",
     "Multisampling, 4 samples",
-    source="OpenGL 4.6, 14.3.1 Multisampling; LMU 2020, Multisampling (MSAA)",
+    source="OpenGL 4.6, 14.3.1 Multisampling; LMU 2020, Super Sampling Antialiasing",
     exact_for="edges, with area in steps of 1/4 pixel",
     breaks_where="details inside triangles (textures, highlights), and colours extrapolated beyond an edge",
     takes=("resolve_filter",),

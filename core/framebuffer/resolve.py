@@ -9,8 +9,8 @@ picture of one colour keeps it.
 
 References
 ----------
-LMU, *Computer Graphics 1*, tutorial 6, "Supersampling (SSAA)", 2020.
-H. Jubair, *Computer Graphics*, lecture "Antialiasing", supersampling and filtering by weighted masks.
+LMU, *Computer Graphics 1*, tutorial 5, "Super Sampling Antialiasing (SSAA)", 2020.
+M. I. Jubair, *Computer Graphics*, "Anti-aliasing": box filtering by supersampling.
 A. Glassner, *Principles of digital image synthesis*, 1995, 10.6 (box and tent, there "triangle").
 """
 
@@ -30,7 +30,7 @@ AROUND = (-1, 0, 1)
     "resolve_filter",
     "box",
     "Box (mean of the pixel's samples)",
-    source="LMU 2020, Supersampling; OpenGL 4.6, 18.3.1 (resolving by BlitFramebuffer)",
+    source="Jubair, Anti-aliasing: box filtering; OpenGL 4.6, 18.3.1 (resolving by BlitFramebuffer)",
     exact_for="the mean over the pixel's square, as the number of samples grows",
     breaks_where="fine regular patterns: moiré stays visible",
 )
@@ -43,7 +43,7 @@ def box(distance: Floats) -> Floats:
     "resolve_filter",
     "tent",
     "Tent (samples of the neighbours too)",
-    source="Glassner 1995, 10.6; Jubair, Antialiasing, weighted masks",
+    source="Glassner 1995, 10.6",
     exact_for="linear gradients, and a constant colour at the border",
     breaks_where="sharp details: one pixel spreads over three",
 )

@@ -23,7 +23,7 @@ def filled() -> bool:
     "polygon_mode",
     "wireframe",
     "Wireframe",
-    source="OpenGL 4.6, 14.6.4 (POLYGON_MODE LINE); Pellacini, Interactive Graphics, lines",
+    source="OpenGL 4.6, 14.6.4 (POLYGON_MODE LINE); Pellacini, line rasterization",
     exact_for="outlines of triangles in front of the eye, as exact as the line method",
     breaks_where="edges seen end-on and triangles seen edge-on: they vanish. Shared edges: they are drawn twice",
     needs=("projected",),

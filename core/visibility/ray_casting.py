@@ -11,7 +11,8 @@ the pixels of a layer at once (``run_ray_tests``). What a ray has met so far is 
 References
 ----------
 A. Appel, *Some techniques for shading machine renderings of solids*, 1968.
-F. Pellacini, *Computer Graphics*, lecture "Raytracing": for each pixel, the closest intersection.
+F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline", "hidden surface removal – raycasting": for each ray, the
+closest surface.
 """
 
 from collections.abc import Iterator
@@ -32,7 +33,7 @@ FIRST, BY_FLOATS, EXACTLY = 0, 1, 2
     "visibility",
     "ray-casting",
     "Ray casting (exact)",
-    source="Appel 1968; Pellacini, Raytracing",
+    source="Appel 1968; Pellacini, hidden surface removal: raycasting",
     exact_for="opaque triangles in any order: depths are compared exactly, without a depth buffer",
     breaks_where="coplanar triangles: a tie keeps the first one drawn",
 )

@@ -10,7 +10,7 @@ an edge and outside it is kept. ``cyrus-beck`` looks at its side; ``cyrus-beck-l
 References
 ----------
 M. Cyrus, J. Beck, *Generalized two- and three-dimensional clipping*, 1978.
-Jubair, *Computer Graphics*, "Cyrus-Beck Parametric Line Clipping Algorithm".
+M. I. Jubair, *Computer Graphics*, "Cyrus-Beck Parametric Line Clipping Algorithm".
 """
 
 import numpy as np

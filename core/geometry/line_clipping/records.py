@@ -165,7 +165,7 @@ def need_rectangle(window: ClipWindow, name: str) -> None:
     "line_clipping",
     "none",
     "None: pixels outside are dropped",
-    source="Pellacini, Interactive Graphics, line clipping: or test every pixel",
+    source="Pellacini, line clipping: only clip when necessary",
     exact_for="every segment: the pixels are those of the whole line",
     breaks_where="long lines: time is spent on pixels outside the window",
 )

@@ -4,7 +4,7 @@ Each returns the runs it looks at; all of them decide by the same rule and cover
 
 References
 ----------
-M. Zwicker, *Computergrafik*, lecture "Binning"; F. Pellacini, lecture "brute force triangle rasterization".
+M. Zwicker, *Computergrafik*, lecture "Binning"; F. Pellacini, "brute force triangle rasterization".
 """
 
 from dataclasses import replace

@@ -7,7 +7,7 @@ ties can tell, and by whole pixels in float32.
 
 References
 ----------
-F. Pellacini, *Interactive Graphics*, lecture "Rasterization": midpoint line rasterization, DDA.
+F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline": midpoint line rasterization, DDA.
 """
 
 from collections.abc import Callable
@@ -170,7 +170,7 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
     "line",
     "midpoint",
     "Midpoint, line equation per column",
-    source="Pellacini, Interactive Graphics, Midpoint line rasterization",
+    source="Pellacini, Midpoint line rasterization",
     exact_for="any ends: the pixel nearest to the line in every column, up to the rounding of m x + b",
     breaks_where="ties: they always go up (steep lines: right), so a mirrored line is not the mirror image. Far "
     "from the origin, m x + b loses digits",
@@ -205,7 +205,7 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
     "line",
     "dda",
     "DDA, slope added per column",
-    source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization",
+    source="Pellacini, Optimizing midpoint line rasterization",
     exact_for="slopes that are short binary fractions, with any ends: the same pixels as midpoint",
     breaks_where="ties, and near ties on long lines: the rounding errors of the sums grow along the line, and the "
     "neighbouring pixel is drawn",
@@ -257,7 +257,7 @@ def float32_coefficients(ends: Floats) -> Coefficients:
     "line",
     "dda-float32",
     "DDA, slope added in float32",
-    source="Pellacini, Interactive Graphics, Optimizing midpoint line rasterization, in 32 bits",
+    source="Pellacini, Optimizing midpoint line rasterization, in 32 bits",
     exact_for="short lines near the origin, except at ties",
     breaks_where="long lines: all sums between two powers of two are rounded alike, so the line drifts by whole "
     f"pixels over thousands of columns, more so far from the origin. More than {STEP_LIMIT} steps are "

@@ -15,7 +15,7 @@ continue each other share none either.
 
 References
 ----------
-F. Pellacini, *Interactive Graphics*, lecture "Rasterization": point-sampled line rasterization.
+F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline": point-sampled line rasterization.
 """
 
 from dataclasses import dataclass
@@ -237,7 +237,7 @@ def _ends_in_pixels(segments: Segments) -> Floats:
     "line",
     "rectangle",
     "Rectangle, point-sampled",
-    source="Pellacini, Interactive Graphics, Point-sampled line rasterization",
+    source="Pellacini, Point-sampled line rasterization",
     exact_for="the one-pixel-wide rectangle around the segment, with ends snapped to 1/256 pixel: exactly the "
     "pixels whose centre it contains",
     breaks_where="sloping lines: some columns have two pixels. Lines that meet at a corner leave a notch. Many "
