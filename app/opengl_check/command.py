@@ -3,14 +3,17 @@
 import sys
 from collections.abc import Callable, Iterable
 
+import numpy as np
+
 from app.opengl_check.compare import Comparison, compare
 from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.families import FAMILIES, make_case
+from app.opengl_check.judge import BOUND
 
 LISTED = 5
 """Cases of a family that are listed one by one where they disagree."""
-TITLES = ("cases", "pixels", "drawn", "differing", "depth error", "colour error")
-WIDTHS = (6, 12, 12, 11, 14, 14)
+TITLES = ("cases", "pixels", "drawn", "differing", "px from edge", "depth error", "colour error")
+WIDTHS = (6, 12, 12, 11, 14, 14, 14)
 
 
 def run_opengl_check(
@@ -58,6 +61,10 @@ def run_opengl_check(
     if disagreeing:
         write(f"Not the same: {', '.join(disagreeing)}.")
         return 1
+    write(
+        f"Pixels that differ lie within {BOUND:.4f} px (sqrt(2)/256) of an edge, in exact arithmetic; "
+        "on the 1/256-pixel grid none differs."
+    )
     write("All families agree within the tolerances.")
     return 0
 
@@ -81,8 +88,10 @@ def _check_family(
         f"{max(numbers):.1e}"
         for numbers in zip(*((result.depth_error, result.color_error) for result in results), strict=True)
     ]
+    distance = np.concatenate([result.distance for result in results])
+    beside = f"{distance.max():.4f}" if len(distance) and np.isfinite(distance).all() else ""
     verdict = f"{len(disagreeing)} cases differ" if disagreeing else "agrees"
-    write(f"{_row(family, (str(count), *sums, *errors))}  {verdict}")
+    write(f"{_row(family, (str(count), *sums, beside, *errors))}  {verdict}")
     for number in disagreeing[:LISTED]:
         write(f"    case {number}: {describe(results[number])}")
     return not disagreeing
@@ -99,8 +108,8 @@ def describe(result: Comparison) -> str:
     if len(result.differing):
         column, row, ours, theirs = result.differing[0].tolist()
         parts.append(
-            f"{len(result.differing)} pixels show another primitive ({result.allowed} allowed), "
-            f"first column {column}, row {row}: {ours}, OpenGL {theirs}"
+            f"{len(result.differing)} pixels show another primitive, {result.unexplained} of them not beside an edge "
+            f"({result.allowed} allowed), first column {column}, row {row}: {ours}, OpenGL {theirs}"
         )
     for name, error, excess in (
         ("depth", result.depth_error, result.depth_excess),

@@ -11,7 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.opengl_check.case import Case
+from app.opengl_check.clipped_families import CLIPPED_FAMILIES
 from app.opengl_check.draw import Picture
+from app.opengl_check.judge import BOUND, edge_distances
 from core import draw_triangles
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.raster.edges.snapping import place_corners
@@ -19,16 +21,18 @@ from core.raster.lines.drawing import draw_lines, interpolate_line
 from core.records.arrays import Floats, Integers
 
 DISPLACEMENT = 2.0**-18
-"""How far a sample may lie beside its place, in sides of the raster; twice as far where OpenGL makes new corners
-by clipping, in float32 too."""
+"""How far a sample may lie beside its place, in sides of the raster; four times as far where OpenGL makes new corners
+by clipping, plane after plane in float32."""
 DEPTH_TOLERANCE = 2e-6
 COLOR_TOLERANCE = 2e-5
 BILINEAR_TOLERANCE = 5e-4
 """Implementations weigh the texels of the bilinear filter with fewer bits than float32 has."""
-PIXELS_ALLOWED = {"clipped": 2, "near": 2, "line-ends": 4}
-"""Pixels per case that may show another primitive, by family. Where OpenGL clips, or moves the end of a line
-to the border of its pixel, the new corner is snapped to 1/256 pixel and the edge moves by as much. (A line
-through another pixel than ours makes two of them.)"""
+BESIDE_EDGES = frozenset({"clipped", "near", *CLIPPED_FAMILIES})
+"""Families in which pixels beside an edge may show another triangle: see `app.opengl_check.judge`."""
+PIXELS_ALLOWED = {"line-ends": 4}
+"""Pixels per case that may show another primitive, by family; none of the others, but those beside an edge. Where
+OpenGL moves the end of a line to the border of its pixel, the new corner is snapped to 1/256 pixel and the line moves
+by as much. (A line through another pixel than ours makes two of them.)"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +45,10 @@ class Comparison:
     """Those on which OpenGL drew."""
     differing: Integers
     """(D, 4) int64: column, row, our primitive, OpenGL's primitive, where these are not the same."""
+    distance: Floats
+    """(D,) float64, pixels from the edge that may decide them; infinite in families where no pixel may differ."""
     allowed: int
-    """How many may differ."""
+    """How many may differ, but for those beside an edge."""
     depth_error: float
     """Largest difference of depth where the primitives agree."""
     color_error: float
@@ -55,7 +61,12 @@ class Comparison:
     @property
     def agrees(self) -> bool:
         """Whether the pictures are the same within the tolerances."""
-        return len(self.differing) <= self.allowed and self.depth_excess <= 1 and self.color_excess <= 1
+        return self.unexplained <= self.allowed and self.depth_excess <= 1 and self.color_excess <= 1
+
+    @property
+    def unexplained(self) -> int:
+        """How many of the differing pixels do not lie beside an edge."""
+        return int((self.distance > BOUND).sum())
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,10 +105,13 @@ def compare(case: Case, expected: Picture, fill: str = "hierarchy", line: str = 
     color_error = np.abs(ours.color - expected.color).max(axis=-1)[is_same]
     color_tolerance = ours.color_tolerance[is_same]
     is_compared = np.isfinite(color_tolerance)
+    differing = np.stack([column, row, *primitives], axis=1).astype(np.int64)
+    is_beside = case.family in BESIDE_EDGES
     return Comparison(
         pixels=is_same.size,
         drawn=int((expected.primitive >= 0).sum()),
-        differing=np.stack([column, row, *primitives], axis=1).astype(np.int64),
+        differing=differing,
+        distance=edge_distances(case, differing) if is_beside else np.full(len(differing), np.inf),
         allowed=PIXELS_ALLOWED.get(case.family, 0),
         depth_error=float(depth_error.max(initial=0)),
         color_error=float(color_error[is_compared].max(initial=0)),
@@ -118,7 +132,7 @@ def _draw_triangles(case: Case, fill: str) -> OurPicture:
     primitive = frame.primitive.astype(np.int64)
     row, column = np.nonzero(primitive >= 0)
     triangle = primitive[row, column]
-    reach = DISPLACEMENT * max(case.size) * (2 if case.family in PIXELS_ALLOWED else 1)
+    reach = DISPLACEMENT * max(case.size) * (4 if case.family in BESIDE_EDGES else 1)
 
     # Depth is linear in the window, attributes are or are not.
     clip = case.clip.astype(float)

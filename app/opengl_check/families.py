@@ -4,7 +4,8 @@ OpenGL leaves three things to an implementation, and most cases keep clear of th
 one right answer. Window positions are computed in float32: corners stand near the middle of a step of the
 1/256-pixel grid, never where a rounding error would snap them to the next one. Triangles that reach out of
 the window may be clipped there and snapped again: the clip planes are moved out (``guard``), except in the
-families that are about clipping. Values are evaluated in float32: see `app.opengl_check.compare`.
+families that are about clipping and those of `app.opengl_check.clipped_families`. Values are evaluated in
+float32: see `app.opengl_check.compare`.
 """
 
 from collections.abc import Callable
@@ -12,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from app.opengl_check.case import STEP, Case, clip_positions, settle
+from app.opengl_check.clipped_families import CLIPPED_FAMILIES
 from app.opengl_check.shapes import (
     fan,
     gradual_values,
@@ -300,6 +302,7 @@ FAMILIES: dict[str, Callable[[np.random.Generator, int], Case]] = {
     "mesh": _mesh,
     "octants": _octants,
     "line-ends": _line_ends,
+    **CLIPPED_FAMILIES,
 }
 """The families by name; each makes one case from a random generator and the largest raster side."""
 

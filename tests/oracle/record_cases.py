@@ -36,6 +36,13 @@ PER_VARIANT = {
     "depth": 4,
     "octants": 3,
     "line-ends": 3,
+    "off-grid": 2,
+    "one-ended": 5,
+    "ground": 4,
+    "any-w": 3,
+    "zero-w": 3,
+    "guard-band": 3,
+    "depth-planes": 2,
 }
 """Cases to keep of each variant (culling, provoking corner, wrap ...) of a family; one of the others."""
 TRIED = 60

@@ -78,7 +78,9 @@ def test_the_lecture_scanline_is_not_the_same():
     assert sum(differing) > 10
 
 
-@pytest.mark.parametrize("name", ["single_0", "mesh_0", "near_0", "bilinear_0", "depth_1", "octants_0"])
+@pytest.mark.parametrize(
+    "name", ["single_0", "mesh_0", "near_0", "ground_0", "bilinear_0", "depth_1", "octants_0"]
+)
 def test_a_change_is_noticed(name):
     case, picture = read(name)
     row, column = np.argwhere(picture.primitive >= 0)[0]
@@ -94,7 +96,7 @@ def test_a_change_is_noticed(name):
     assert "colour off by 1.0e-02" in describe(compare(case, replace(picture, color=color)))
 
     primitive = picture.primitive.copy()
-    primitive[picture.primitive >= 0] += 1
+    primitive[picture.primitive >= 0] = -1
     result = compare(case, replace(picture, primitive=primitive))
     assert not result.agrees
     assert len(result.differing) == (picture.primitive >= 0).sum()

@@ -1,8 +1,9 @@
 """Edge functions: coefficients from the 3x3 matrix of (x, y, w) rows as its adjugate, and the inside decision.
 
 Edge k lies opposite corner k. Its function is the cross product of the two other corners in the homogeneous
-window, ``v1 x v2 = (a, b, c)``; at the pixel (x, y) it is ``a x + b y + c``, which is det times alpha/w. Nothing is
-divided by w, so corners behind the eye or at w = 0 need no clipping.
+window, ``v1 x v2 = (a, b, c)``; at the pixel (x, y) it is ``a x + b y + c``, which is det times alpha/w. On the
+triangle's plane alpha + beta + gamma = 1, so the three add up to det/w. Nothing is divided by w, so corners behind the
+eye or at w = 0 need no clipping.
 
 Exactness
 ---------
