@@ -47,6 +47,10 @@ class Variable:
     """0, 1 or 2 where the variable belongs to that vertex, edge or weight."""
     digits: Mapping[float, int] = field(default_factory=dict, compare=False)
     """Significant digits of numbers by their size, as the formula of the step shows them; of others the usual four."""
+    column: str = ""
+    """Its column in the trace."""
+    element: int | None = None
+    """Which number of that column's array it is; ``None``: all of it."""
 
     def is_changed(self) -> bool:
         """Return whether the step changed it; NaN equals NaN here."""

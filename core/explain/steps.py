@@ -130,7 +130,7 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
         if name not in values or name in hidden or (needed != GIVEN and needed not in known):
             continue
         before: Any = values.get(text.previous) if name in explanation.changed else values[name]
-        found += _shown(step, text, values[name], before)
+        found += (replace(variable, column=name) for variable in _shown(step, text, values[name], before))
     made = formula(explanation)
     return (
         tuple(replace(variable, digits=made.digits) for variable in found)
@@ -156,6 +156,7 @@ def _shown(step: StepValues, text: VariableText, now: Any, before: Any) -> list[
             _value(earlier[k]),
             meaning,
             k if text.spread == "edges" else None,
+            element=k,
         )
         for k, element in enumerate(elements)
         if text.spread != "corners" or np.isfinite(element).all()

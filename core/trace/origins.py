@@ -47,6 +47,11 @@ def _same_fragment(here: StageTrace, row: int, there: StageTrace, element: int) 
     return same
 
 
+def _plain_fragment(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
+    """Return the same where nothing is done to the colour: it has no texture and no light."""
+    return _same_fragment(here, row, there, element)[: None if here.kind_of(row) == "plain" else 0]
+
+
 def _same_pixel(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
     """Return the rows about the same pixel, and sample where there are several."""
     rows = there.rows_at_pixel(*here.pixel[row])
@@ -89,12 +94,26 @@ def _edge(first: int) -> Finder:
     return rows
 
 
+def _end_of_edge(turn: int) -> Finder:
+    """Return how the row of the corner is found that an edge starts (1) or ends (2) at."""
+
+    def rows(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
+        corner = row // ROWS * ROWS + (int(here.columns["edge"][row]) + turn) % 3
+        return np.array([corner] if corner < row else [], int)
+
+    return rows
+
+
 SOURCES = {
     **{f"transform.before_{axis}": _Source("transform", f"after_{axis}", _space_before) for axis in "xyzw"},
+    "transform.before": _Source("transform", "after", _space_before),
     "cull.w": _Source("transform", "after_w", _corner("camera-to-clip")),
     "edges.window": _Source("transform", "after", _corner("viewport")),
+    "edges.start": _Source("edges", "snapped", _end_of_edge(1)),
+    "edges.finish": _Source("edges", "snapped", _end_of_edge(2)),
     **{f"raster.{name}": _Source("edges", name, _edge(4)) for name in ("a", "b", "c", "owns_tie")},
     "interpolate.corner_w": _Source("transform", "after_w", _corner("camera-to-clip")),
+    **{f"shade.{name}": _Source("interpolate", "color", _plain_fragment) for name in ("albedo", "color")},
     "shade.vertex_color": _Source("interpolate", "color", _same_fragment),
     **{
         f"shade.{name}": _Source("interpolate", name, _same_fragment)
@@ -140,7 +159,8 @@ def origin(
         value = value if element is None or np.ndim(value) == 0 else value[element]
         held = there.columns.get(source.variable, np.empty(0))
         for candidate in source.rows(here, row, there, element or 0)[::-1] if len(held) else ():
-            if np.array_equal(np.ravel(held[candidate])[: np.size(value)], np.ravel(value)):
+            # A position may have a further component in one of the two.
+            if all(a == b for a, b in zip(np.ravel(held[candidate]), np.ravel(value), strict=False)):
                 return Origin(source.stage, _done_at(there, int(candidate), source.variable), source.variable)
     made = _done_at(here, row, variable)
     return Origin(stage, made, variable) if made < position else None

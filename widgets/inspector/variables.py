@@ -1,6 +1,7 @@
 """The variables of a step: value now, value before, and which of them the step has changed."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
@@ -74,6 +75,8 @@ class VariablesView(QTreeWidget):
 
     values_copied = Signal(str)
     """The user has copied the selected variables; the argument is the text."""
+    origin_requested = Signal(object)
+    """The user asks where the value of this `Variable` comes from."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -107,7 +110,12 @@ class VariablesView(QTreeWidget):
         self._fraction_action = QAction("Exact 1/256ths", self)
         self._fraction_action.setCheckable(True)
         self._fraction_action.toggled.connect(self.show_fractions)
-        self.addActions([copy, self._fraction_action])
+        origin = QAction("Go to the step that made it", self)
+        origin.setShortcut(QKeySequence(Qt.Key.Key_Return))
+        origin.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+        origin.triggered.connect(self._ask_for_current)
+        self.itemClicked.connect(self._click)
+        self.addActions([origin, copy, self._fraction_action])
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
@@ -143,6 +151,25 @@ class VariablesView(QTreeWidget):
             text = "\n".join(lines)
             QGuiApplication.clipboard().setText(text)
             self.values_copied.emit(text)
+
+    @Slot()
+    def _ask_for_current(self) -> None:
+        self._ask_for(self.currentItem())
+
+    @Slot(QTreeWidgetItem, int)
+    def _click(self, item: QTreeWidgetItem, column: int) -> None:
+        """Go where a value comes from; a click on its name only selects it."""
+        if column == 1:
+            self._ask_for(item)
+
+    def _ask_for(self, item: QTreeWidgetItem | None) -> None:
+        if item is None:
+            return
+        parent = item.parent()
+        variable = self._variables[self.indexOfTopLevelItem(parent or item)]
+        if parent is not None and variable.element is None:
+            variable = replace(variable, element=parent.indexOfChild(item))
+        self.origin_requested.emit(variable)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Say what the pane is for when it is empty."""
@@ -186,6 +213,7 @@ class VariablesView(QTreeWidget):
             item.setText(column, value_text(value, is_fraction=self._is_fraction, digits=variable.digits))
             item.setTextAlignment(column, _RIGHT)
             item.setToolTip(column, f"{variable.name} = {value_text(value, is_full=True)}")
+        item.setToolTip(1, f"{item.toolTip(1)}\nClick: go to the step that made it. Ctrl+[ comes back.")
         name_font = QFont(self.font())
         name_font.setBold(is_changed)
         item.setFont(0, name_font)

@@ -10,8 +10,10 @@ from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
 from core import STAGES
 from core.explain import formula, initial_sentence, sentence, stage_card, summary_sentence, variables
+from core.explain.records import Variable
 from core.records.listing import Listing
 from core.records.steps import Level
+from core.trace.origins import origin
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import HINT as NO_HISTORY
 from widgets.inspector.history_view import PixelHistory
@@ -53,6 +55,7 @@ class InspectorPresenter(QObject):
         session.pin_changed.connect(self.refresh_history)
         session.hover_changed.connect(self.refresh_history)
         session.predicting_changed.connect(self.refresh_history)
+        variables_view.origin_requested.connect(self._go_to_origin)
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
@@ -163,6 +166,21 @@ class InspectorPresenter(QObject):
         rows = rows[trace.triangle[rows] == triangle]
         if len(rows):
             self._session.set_stage("depth", trace.steps.position_after(int(rows[0])))
+
+    @Slot(object)
+    def _go_to_origin(self, variable: Variable) -> None:
+        """Go to the step that made a variable's number."""
+        session = self._session
+        made = origin(
+            session.trace, session.cursor.stage, session.cursor.position, variable.column, variable.element
+        )
+        if made is not None:
+            session.set_stage(made.stage, made.position)
+            self._stepping.tell(f"{variable.name} was made here. Ctrl+[ goes back.")
+        elif variable.is_changed():
+            self._stepping.tell(f"{variable.name} was made in this step.")
+        else:
+            self._stepping.tell(f"No step shows how {variable.name} was made: it comes in from outside.")
 
     @Slot(int)
     def _run_to_line(self, line: int) -> None:

@@ -93,7 +93,8 @@ class SteppingPresenter(QObject):
         self._stage = ""
         self.refresh_run()
 
-    def _tell(self, text: str) -> None:
+    def tell(self, text: str) -> None:
+        """Say something that holds until the cursor or the pin moves."""
         self._told = text
         self.message_sent.emit(text)
 
@@ -170,7 +171,7 @@ class SteppingPresenter(QObject):
         self._session.step(direction)
         if self._session.cursor == before:
             self._timeline.show_playing(False)
-            self._tell(LAST_STEP if direction > 0 else FIRST_STEP)
+            self.tell(LAST_STEP if direction > 0 else FIRST_STEP)
 
     @Slot(int)
     def go_to_end(self, direction: int) -> None:
@@ -205,7 +206,7 @@ class SteppingPresenter(QObject):
         """Go to the next or last step at the pinned pixel."""
         pin = self._session.pin
         if pin is None:
-            self._tell("Pin a pixel first: click it.")
+            self.tell("Pin a pixel first: click it.")
             return
         reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
         self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
@@ -232,19 +233,19 @@ class SteppingPresenter(QObject):
         if len(rows):
             self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
         else:
-            self._tell(f"{stage_of(stage).short_title} does nothing at pixel ({column}, {row}).")
+            self.tell(f"{stage_of(stage).short_title} does nothing at pixel ({column}, {row}).")
 
     def _go_on(self, reached: int | None, direction: int, what: str) -> None:
         """Go to a position that a run has reached, or tell that there is none."""
         if reached is not None:
             self._session.go_to(reached)
         else:
-            self._tell(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
+            self.tell(f"No {'further' if direction > 0 else 'earlier'} step {what} in this stage.")
 
     def toggle_pixel_breakpoint(self) -> None:
         """Set or take away a breakpoint at the pinned pixel."""
         if self._session.pin is None:
-            self._tell("Pin a pixel first: click it.")
+            self.tell("Pin a pixel first: click it.")
             return
         self.pixel_breakpoints ^= {self._session.pin}
         self.refresh_marks()
@@ -328,7 +329,7 @@ class SteppingPresenter(QObject):
         if mark in self.bookmarks:
             self.bookmarks.remove(mark)
         elif len(self.bookmarks) >= 10:
-            self._tell("All ten bookmarks are set. Remove one first.")
+            self.tell("All ten bookmarks are set. Remove one first.")
         else:
             self.bookmarks.append(mark)
         self.refresh_marks()
@@ -336,7 +337,7 @@ class SteppingPresenter(QObject):
     def go_to_bookmark(self, index: int) -> None:
         """Go to a bookmark by its number from 0."""
         if index >= len(self.bookmarks):
-            self._tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
+            self.tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
             return
         mark = self.bookmarks[index]
         self._session.set_stage(mark.stage, mark.position)

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.grid_records import buffers_of
@@ -266,3 +267,28 @@ def test_the_rail_counts_what_is_stepped_whatever_the_view(window: MainWindow) -
     assert counted() == of_pixels
     units = [button.entry().unit for button in window.page.rail.buttons()]
     assert units == ["triangles"] * 4 + ["pixels"] + ["fragments"] * 5 + ["pixels"]
+
+
+def test_a_click_on_a_value_goes_to_the_step_that_made_it(window: MainWindow, qtbot: QtBot) -> None:
+    session, table = window.session, window.page.variables
+    covered = session.trace.stage("resolve")
+    picture = session.trace.source.picture.primitive.ravel()
+    session.set_stage("resolve", int(covered.steps.starts[np.flatnonzero(picture >= 0)[0] + 1]))
+
+    def click(name: str) -> None:
+        item = table.findItems(name, Qt.MatchFlag.MatchExactly)[0]
+        table.scrollToItem(item)
+        where = table.visualItemRect(item)
+        at = QPoint(table.columnViewportPosition(1) + table.columnWidth(1) - 12, where.center().y())
+        qtbot.mouseClick(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
+
+    start = session.cursor
+    way = []
+    for name in ("linear", "source", "colour", "λ0 (unsnapped)"):
+        click(name)
+        way.append(session.cursor.stage)
+    assert way == ["blend", "shade", "interpolate", "interpolate"]
+    assert "λ0 (unsnapped) was made here" in window.statusBar().currentMessage()
+    for _ in range(4):
+        window.run_action("visited_back")
+    assert session.cursor == start
