@@ -184,6 +184,10 @@ ACTIONS: tuple[KeyAction, ...] = (
 
 LOCAL_KEYS = (
     *_on(
+        "step",
+        KeyAction("value_origin", ("Return",), "In Variables: go to the step that made the number", STEPPING),
+    ),
+    *_on(
         "compare",
         KeyAction(
             "chart_go", ("Left", "Right", "Up", "Down"), "In a chart: go to the neighbouring point", CHARTS
