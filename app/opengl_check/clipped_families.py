@@ -1,7 +1,7 @@
 """Families of random cases off the grid, and that OpenGL clips: through the eye, at infinity, beyond near and far.
 
 Corners lie anywhere, not on the 1/256-pixel grid. OpenGL computes window positions in float32 and snaps the corners
-that clipping makes, so its edges lie elsewhere than the core's, by less than a step of the grid: see
+that clipping makes, so its edges lie elsewhere than the core's, by a step's diagonal at most: see
 `app.opengl_check.judge`.
 """
 
