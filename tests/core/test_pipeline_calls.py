@@ -42,19 +42,19 @@ def counted_calls() -> Iterator[list[str]]:
         sys.setprofile(before)
 
 
-def test_a_triangle_is_drawn_again_in_under_150_calls_of_25_files() -> None:
+def test_a_triangle_is_drawn_again_in_under_135_calls_of_25_files() -> None:
     scene = ClipScene(CLIP, COLORS, size=(64, 64))
     render(scene)
     with counted_calls() as files:
         render(scene)
-    assert len(files) < 150
+    assert len(files) < 135
     assert len(set(files)) <= 25
 
 
-def test_a_new_triangle_is_drawn_in_under_240_calls_of_35_files() -> None:
+def test_a_new_triangle_is_drawn_in_under_210_calls_of_32_files() -> None:
     render(ClipScene(CLIP, COLORS, size=(64, 64)))
     scene = ClipScene(CLIP, COLORS, size=(64, 64))
     with counted_calls() as files:
         render(scene)
-    assert len(files) < 240
-    assert len(set(files)) <= 35
+    assert len(files) < 210
+    assert len(set(files)) <= 32
