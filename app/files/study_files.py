@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_files import readable_json
@@ -88,6 +88,16 @@ class StudyRecord(Record):
     measures: Annotated[tuple[MeasureRecord, ...], Field(min_length=1)]
     points: tuple[PointRecord, ...]
     growth: tuple[GrowthRecord, ...]
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> "StudyRecord":
+        wanted, found = {dial.name for dial in self.work.dials}, set(self.dials)
+        if wanted != found:
+            names = ", ".join(sorted(wanted)) or "none"
+            raise ValueError(
+                f"dials must be those of its work ({names}), got {', '.join(sorted(found)) or 'none'}"
+            )
+        return self
 
 
 def study_json(study: Study) -> str:

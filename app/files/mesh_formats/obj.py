@@ -52,7 +52,7 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         raise MeshFileError(f"{path.name} has no faces")
     numbers = np.array(found.corners).reshape(-1, 3)
     check_numbers(path, found, numbers)
-    return build_meshes(path, found, numbers - 1, TextureReader(files))
+    return build_meshes(path, found, numbers - 1, TextureReader(files), report)
 
 
 def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
@@ -68,14 +68,16 @@ def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:
         )
 
 
-def build_meshes(path: Path, found: ObjLines, numbers: Integers, textures: TextureReader) -> LoadedMeshes:
+def build_meshes(
+    path: Path, found: ObjLines, numbers: Integers, textures: TextureReader, report: Report
+) -> LoadedMeshes:
     """Make the meshes of the runs of one material; ``numbers`` (n, 3) count from 0, -1 is none."""
     positions = np.array(found.positions).reshape(-1, 3)
     uvs, normals = np.array(found.uvs).reshape(-1, 2), np.array(found.normals).reshape(-1, 3)
     colors = np.array(found.colors).reshape(-1, 3)
     sizes = np.array(found.sizes, np.int64)
     check_positions(path, positions, first=1)
-    corners, faces = triangulate_polygons(positions, numbers[:, 0], sizes)
+    corners, faces = triangulate_polygons(positions, numbers[:, 0], sizes, report)
     corners = numbers[corners]
     averaged = None
     materials, warnings = find_materials(

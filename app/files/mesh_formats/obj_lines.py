@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from app.files.input_files import open_input
 from app.files.mesh_formats.alike_lines import corner_rows, decimal_rows, runs_of_lines, single_spaced
 from app.files.mesh_formats.reading import MeshFileError, Report
 
@@ -104,7 +105,8 @@ class ObjLines:
 def read_lines(path: Path, report: Report) -> ObjLines:
     """Read all lines of ``path``; a line that cannot be read raises MeshFileError with its number."""
     found = ObjLines()
-    content = path.read_bytes().removeprefix(b"\xef\xbb\xbf")
+    with open_input(path) as file:
+        content = file.read().removeprefix(b"\xef\xbb\xbf")
     content = content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
     # A line that goes on in the next one is not read together with others.
     fewest = len(content) if b"\\\n" in content else FEWEST_ALIKE

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.files.input_files import open_text_input
 from app.files.mesh_formats.images import linear_from_srgb
 from app.files.mesh_formats.polygons import check_polygons, triangulate_polygons
 from app.files.mesh_formats.reading import (
@@ -102,7 +103,7 @@ def read_off(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     corners = np.array(found.corners, np.int64)
     check_positions(path, positions)
     check_polygons(path, sizes, corners, len(positions))
-    places, faces = triangulate_polygons(positions, corners, sizes)
+    places, faces = triangulate_polygons(positions, corners, sizes, report)
     mesh = Mesh(
         positions=positions,
         triangles=corners[places],
@@ -144,7 +145,7 @@ def read_lines(path: Path, report: Report) -> OffLines:
 def content_lines(path: Path, report: Report) -> Iterator[tuple[int, str]]:
     """Yield number and text of every line that is more than a comment."""
     size, done = path.stat().st_size, 0
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
+    with open_text_input(path) as file:
         for number, line in enumerate(file, 1):
             if number % REPORT_LINES == 0:
                 report(min(1.0, done / size), "reading lines")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.files.input_files import open_input
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
 from app.files.mesh_formats.polygons import check_polygons, share_vertices, triangulate_polygons
@@ -45,7 +46,7 @@ def read_header(path: Path) -> Header:
     """Read the header of ``path``, or raise MeshFileError."""
     elements: list[tuple[str, int, list[Property]]] = []
     encoding = texture = ""
-    with path.open("rb") as file:
+    with open_input(path) as file:
         if file.readline(64).strip() != b"ply":
             raise MeshFileError(f"{path.name} is not a PLY file: it does not begin with the line ply")
         for line in iter(lambda: file.readline(65536), b""):
@@ -97,22 +98,28 @@ def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     if corners is None or not len(corners.sizes):
         raise MeshFileError(f"{path.name} has no faces")
     report(None, "joining corners")
-    return build_mesh(path, header, vertex, face, corners, TextureReader(files))
+    return build_mesh(path, header, vertex, face, corners, TextureReader(files), report)
 
 
 def build_mesh(
-    path: Path, header: Header, vertex: Rows, face: Rows, polygons: Column, textures: TextureReader
+    path: Path,
+    header: Header,
+    vertex: Rows,
+    face: Rows,
+    polygons: Column,
+    textures: TextureReader,
+    report: Report,
 ) -> LoadedMeshes:
     """Make the one mesh of a PLY file."""
     positions = stacked(vertex, "xyz")
     check_positions(path, positions)
     check_polygons(path, polygons.sizes, polygons.items, len(positions))
     indices = polygons.items.astype(np.int64)
-    corners, faces = triangulate_polygons(positions, indices, polygons.sizes)
+    corners, faces = triangulate_polygons(positions, indices, polygons.sizes, report)
     triangles = indices[corners]
     warnings: list[str] = []
-    normals = stacked(vertex, ("nx", "ny", "nz")) if "nx" in vertex.columns else None
-    uvs = next((stacked(vertex, names) for names in UV_NAMES if names[0] in vertex.columns), None)
+    normals = whole(vertex, ("nx", "ny", "nz"), warnings)
+    uvs = next((found for names in UV_NAMES if (found := whole(vertex, names, warnings)) is not None), None)
     colors = read_colors(vertex)
 
     # What differs between the faces around a vertex makes several vertices of it.
@@ -149,6 +156,15 @@ def build_mesh(
         name=path.stem,
     )
     return LoadedMeshes((mesh,), tuple(warnings))
+
+
+def whole(rows: Rows, names: tuple[str, ...], warnings: list[str]) -> Floats | None:
+    """Return columns side by side as `stacked`, ``None`` where one is missing; if only some are, that is a warning."""
+    missing = [name for name in names if name not in rows.columns]
+    if missing and len(missing) < len(names):
+        present = ", ".join(name for name in names if name in rows.columns)
+        warnings.append(f"vertices have {present} without {', '.join(missing)}; {present} is left out")
+    return None if missing else stacked(rows, names)
 
 
 def stacked(rows: Rows, names: str | tuple[str, ...]) -> Floats:

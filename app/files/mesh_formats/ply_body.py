@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.files.input_files import open_input
 from app.files.mesh_formats.reading import MeshFileError, Report
 from core.records.arrays import Integers
 
@@ -81,7 +82,8 @@ class Layout:
         """Return a function that reads the count of a list at a cell."""
         cells, width = self.cells, self.width(kind)
         if self.order == "ascii":
-            return lambda place: int(cells[place])
+            # A count that is no whole number is none.
+            return lambda place: int(count) if (count := float(cells[place])).is_integer() else -1
         raw = memoryview(cells)  # type: ignore[arg-type]
         if self.order == "<":
             return lambda place: int.from_bytes(raw[place : place + width], "little")
@@ -102,10 +104,13 @@ def read_body(
         layout = Layout(read_numbers(path, start, report), encoding)
     else:
         report(None, "reading bytes")
-        layout = Layout(np.fromfile(path, np.uint8, offset=start), encoding)
+        with open_input(path) as file:
+            layout = Layout(np.fromfile(file, np.uint8, offset=start), encoding)
     rows: dict[str, Rows] = {}
     place = 0
     for element in elements:
+        if not element.properties:
+            continue  # Any number of rows takes no room.
         # A header may claim any count: rows that cannot be there are refused before room is made for them.
         least = sum(layout.width(p.count_kind or p.kind) for p in element.properties)
         if element.count < 0 or place + element.count * least > len(layout.cells):
@@ -120,7 +125,7 @@ def read_numbers(path: Path, start: int, report: Report) -> Cells:
     """Return all numbers of the text behind byte ``start``, float64."""
     pieces = []
     size = path.stat().st_size
-    with path.open("rb") as file:
+    with open_input(path) as file:
         file.seek(start)
         while lines := file.readlines(2**20):
             try:
@@ -224,9 +229,9 @@ def values_by_length(
         for p in element.properties
     }
     # Rows with lists of the same lengths have the same layout: read them together.
-    shapes, which = np.unique(lengths, axis=0, return_inverse=True)
-    for number, shape in enumerate(shapes.tolist()):
-        chosen = np.nonzero(which.reshape(-1) == number)[0]
+    shapes, which, sizes = np.unique(lengths, axis=0, return_inverse=True, return_counts=True)
+    order = np.split(np.argsort(which.reshape(-1), kind="stable"), np.cumsum(sizes)[:-1])
+    for chosen, shape in zip(order, shapes.tolist(), strict=True):
         left = iter(shape)
         width = sum(
             cells_before(p, layout) + layout.width(p.kind) * (next(left) if p.count_kind else 1)

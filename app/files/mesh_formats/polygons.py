@@ -1,14 +1,16 @@
 """From the polygons of a file to triangles that share vertices."""
 
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.mesh_formats.reading import MeshFileError
+from app.files.mesh_formats.reading import MeshFileError, Report
 from core.records.arrays import Floats, Integers
+
+REPORT_POLYGONS = 5000
+"""Polygons between two reports."""
 
 
 def check_polygons(path: Path, sizes: Integers, indices: NDArray[Any], count: int) -> None:
@@ -59,7 +61,9 @@ def fan(sizes: Integers) -> tuple[Integers, Integers]:
     return np.stack([start, start + turn + 1, start + turn + 2], axis=1), faces
 
 
-def triangulate_polygons(vertices: Floats, indices: Integers, sizes: Integers) -> tuple[Integers, Integers]:
+def triangulate_polygons(
+    vertices: Floats, indices: Integers, sizes: Integers, report: Report
+) -> tuple[Integers, Integers]:
     """Split polygons into triangles: by a fan, or by cutting ears where a polygon is not convex.
 
     Parameters
@@ -69,6 +73,8 @@ def triangulate_polygons(vertices: Floats, indices: Integers, sizes: Integers) -
     indices : (C,) int64
         Vertices of the corners of all polygons, one polygon after the other.
     sizes : (P,) int64
+    report : callable
+        Told that there is something to do, many times where there is much.
 
     Returns
     -------
@@ -86,12 +92,23 @@ def triangulate_polygons(vertices: Floats, indices: Integers, sizes: Integers) -
     polygon_normals = np.stack([np.bincount(faces, normals[:, k], count) for k in range(3)], axis=1)
 
     # A triangle of the fan that faces against its polygon shows a polygon that the fan leaves.
-    against = (normals * polygon_normals[faces]).sum(axis=1) < 0
-    for face in np.unique(faces[against]):
-        first = int(sizes[:face].sum())
-        inside = positions[first : first + sizes[face]]
-        corners[faces == face] = first + cut_ears(inside, polygon_normals[face])
-    return corners, faces
+    against = np.unique(faces[(normals * polygon_normals[faces]).sum(axis=1) < 0])
+    first_corner, first_triangle = np.cumsum(sizes) - sizes, np.cumsum(sizes - 2) - (sizes - 2)
+    # The fan of a quad leaves it where its other diagonal does not.
+    quads = against[sizes[against] == 4]
+    for row, turned in enumerate(((3, 0, 1), (1, 2, 3))):
+        corners[first_triangle[quads] + row] = first_corner[quads, None] + turned
+    is_kept = np.ones(len(corners), np.bool_)
+    for done, face in enumerate(against[sizes[against] > 4].tolist()):
+        if done % REPORT_POLYGONS == 0:
+            report(None, "splitting polygons")
+        start, row = first_corner[face], first_triangle[face]
+        found = cut_ears(positions[start : start + sizes[face]], polygon_normals[face])
+        if not len(found):
+            continue  # All its corners lie on one line: the fan is as good as anything.
+        corners[row : row + len(found)] = start + found
+        is_kept[row + len(found) : row + sizes[face] - 2] = False
+    return corners[is_kept], faces[is_kept]
 
 
 def cut_ears(positions: Floats, normal: Floats) -> Integers:
@@ -105,39 +122,26 @@ def cut_ears(positions: Floats, normal: Floats) -> Integers:
 
     Returns
     -------
-    (n - 2, 3) int64
-        Corners of the triangles. A polygon that crosses itself runs out of ears at some point: what is
-        left then is split as a fan.
+    (m, 3) int64
+        Corners of the triangles, which turn as the polygon does: n - 2, or fewer where corners lie on one line or on
+        each other, or where the polygon crosses itself.
 
     References
     ----------
-    G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975.
+    G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975. The library, Mapbox' earcut, finds the
+    corners near an ear along a curve through the plane instead of looking at all of them.
     """
+    from mapbox_earcut import triangulate_float64  # Not before there is a polygon that needs it.
+
     # Drop the axis that the polygon faces most, keeping the sense of rotation.
     axis = int(np.argmax(np.abs(normal)))
     flat = positions[:, [(axis + 1) % 3, (axis + 2) % 3]] * np.array([np.sign(normal[axis]) or 1.0, 1.0])
-
-    def turn(p: int, q: int, r: int) -> float:
-        (px, py), (qx, qy), (rx, ry) = flat[p], flat[q], flat[r]
-        return float((qx - px) * (ry - py) - (qy - py) * (rx - px))
-
-    left = list(range(len(positions)))
-    triangles = []
-    while len(left) > 3:
-        for place in range(len(left)):
-            before, tip, after = left[place - 1], left[place], left[(place + 1) % len(left)]
-            others = [k for k in left if k not in (before, tip, after)]
-            if turn(before, tip, after) > 0 and not any(
-                turn(before, tip, k) >= 0 and turn(tip, after, k) >= 0 and turn(after, before, k) >= 0
-                for k in others
-            ):
-                triangles.append((before, tip, after))
-                del left[place]
-                break
-        else:
-            break
-    triangles += [(left[0], q, r) for q, r in pairwise(left[1:])]
-    return np.array(triangles, np.int64)
+    ends = np.array([len(flat)], np.uint32)
+    triangles = triangulate_float64(np.ascontiguousarray(flat), ends).reshape(-1, 3).astype(np.int64)
+    (ax, ay), (bx, by), (cx, cy) = (flat[triangles[:, k]].T for k in range(3))
+    is_turned = (bx - ax) * (cy - ay) < (by - ay) * (cx - ax)
+    triangles[is_turned] = triangles[is_turned, ::-1]
+    return triangles
 
 
 def share_vertices(*indices: Integers) -> tuple[Integers, tuple[Integers, ...]]:

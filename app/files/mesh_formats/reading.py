@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from app.files.input_files import open_input
+from app.files.memory import amounts, free_memory
 from app.files.named_files import NamedFiles
 from core.records.arrays import Floats
 from core.scene import Mesh
@@ -46,11 +48,12 @@ Reader = Callable[[Path, Report, NamedFiles], LoadedMeshes]
 
 
 def check_memory(path: Path, wanted: int) -> None:
-    """Raise MeshFileError if opening ``path`` would take ``wanted`` bytes and that is above MEMORY_LIMIT."""
-    if wanted > MEMORY_LIMIT:
+    """Raise MeshFileError if opening ``path`` takes ``wanted`` bytes: more than MEMORY_LIMIT, or than are free."""
+    limit = int(min(free_memory(), MEMORY_LIMIT))
+    if wanted > limit:
+        text, least = amounts(wanted, limit)
         raise MeshFileError(
-            f"{path.name} is too large: opening it would take about {wanted / 2**30:.1f} GiB of memory, "
-            f"the limit is {MEMORY_LIMIT / 2**30:.1f} GiB"
+            f"{path.name} is too large: opening it would take about {text} of memory, the limit is {least}"
         )
 
 
@@ -75,7 +78,7 @@ def check_positions(path: Path, positions: Floats, first: int = 0) -> None:
 
 def first_bytes(path: Path, count: int = 4096) -> bytes:
     """Return up to ``count`` bytes from the start of ``path``."""
-    with path.open("rb") as file:
+    with open_input(path) as file:
         return file.read(count)
 
 

@@ -4,7 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, first_bytes
+from app.files.input_files import open_input
+from app.files.mesh_formats.reading import (
+    LoadedMeshes,
+    MeshFileError,
+    Report,
+    check_memory,
+    check_positions,
+    first_bytes,
+)
 from app.files.mesh_formats.through_trimesh import load_with_trimesh, translated_errors
 from app.files.named_files import NamedFiles
 from core.scene import Mesh
@@ -34,8 +42,10 @@ def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     OSError
         If ``path`` cannot be read.
     """
-    count = check_layout(path)
+    count, is_binary = check_layout(path)
     report(None, "reading triangles")
+    if is_binary:
+        return read_binary(path, count)
     with translated_errors(path):
         scene = load_with_trimesh(path)
     report(None, "checking")
@@ -58,16 +68,34 @@ def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     return LoadedMeshes(tuple(meshes))
 
 
-def check_layout(path: Path) -> int:
-    """Return the number of triangles that ``path`` begins, or raise MeshFileError if it is no STL file."""
+def read_binary(path: Path, count: int) -> LoadedMeshes:
+    """Read the ``count`` triangles of a binary file."""
+    if not count:
+        raise MeshFileError(f"{path.name} has no faces")
+    row = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    with open_input(path) as file:
+        found = np.fromfile(file, row, count, offset=HEADER)
+    # A signalling NaN would warn here; it is refused later like any other.
+    with np.errstate(invalid="ignore"):
+        positions = found["corners"].astype(np.float64).reshape(-1, 3)
+    del found
+    check_positions(path, positions)
+    positions.flags.writeable = False
+    triangles = np.arange(len(positions)).reshape(-1, 3)
+    return LoadedMeshes((Mesh(positions=positions, triangles=triangles, name=path.stem),))
+
+
+def check_layout(path: Path) -> tuple[int, bool]:
+    """Return the number of triangles and whether ``path`` is binary, or raise MeshFileError if it is no STL file."""
     size, head = path.stat().st_size, first_bytes(path, HEADER)
     count = int.from_bytes(head[80:84], "little")
     if len(head) == HEADER and size == HEADER + TRIANGLE * count:
         check_memory(path, count * MEMORY_PER_TRIANGLE)
-        return count
+        return count, True
     if head.lstrip()[:5].lower() == b"solid" and b"\0" not in head:
         check_memory(path, size * MEMORY_PER_BYTE)
-        return path.read_bytes().lower().count(b"outer loop")
+        with open_input(path) as file:
+            return file.read().lower().count(b"outer loop"), False
     if HEADER <= size < HEADER + TRIANGLE * count and size > HEADER + TRIANGLE * count // 20:
         there = (size - HEADER) // TRIANGLE
         raise MeshFileError(f"{path.name} is cut short: it counts {count} triangles and ends after {there}")

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files import mesh_process
+from app.files import input_files, mesh_process
 from app.files.mesh_files import (
     EXTENSIONS,
     MeshFileError,
@@ -119,10 +119,10 @@ def test_a_file_without_permission_is_refused(tmp_path, monkeypatch):
     path.chmod(0)
     if os.access(path, os.R_OK):
         # The administrator may read everything: let the system say what it says to others.
-        def refuse(self, *arguments, **options):
+        def refuse(*arguments):
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr(type(path), "open", refuse)
+        monkeypatch.setattr(input_files, "_open_at_once", refuse)
     with pytest.raises(MeshFileError, match=r"a\.obj may not be read: permission is denied"):
         open_mesh(path)
 
@@ -139,7 +139,7 @@ def test_a_file_without_permission_is_refused(tmp_path, monkeypatch):
 )
 def test_a_file_above_the_limit_of_memory_is_refused_before_it_is_read(tmp_path, monkeypatch, name, content):
     monkeypatch.setattr(reading, "MEMORY_LIMIT", 100)
-    with pytest.raises(MeshFileError, match=r"is too large: opening it would take about .* GiB of memory"):
+    with pytest.raises(MeshFileError, match=r"is too large: opening it would take about .* MiB of memory"):
         open_mesh(write(tmp_path / name, content))
 
 

@@ -227,7 +227,7 @@ def test_each_solid_of_a_text_stl_is_a_mesh(tmp_path):
         (b"\x89PNG\r\n\x1a\n" + bytes(range(256)), "not an STL file"),
         (stl_binary(CORNERS[:0]), "no faces"),
         (stl_text(CORNERS[:0]), "no faces"),
-        (stl_binary(np.full((1, 3, 3), np.nan)), "must be finite"),
+        (stl_binary(np.full((1, 3, 3), np.nan)), "vertex 0 is at [nan, nan, nan]"),
         (stl_binary(np.zeros((4, 3, 3))), "only degenerate faces"),
         (b"solid", "no faces"),
     ],

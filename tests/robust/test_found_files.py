@@ -1,0 +1,64 @@
+"""Files that once ended in a traceback, or took far more memory or time than they hold, each as small as it can be."""
+
+import json
+import struct
+
+import pytest
+
+from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.study_files import StudyFileError, load_study
+from tests.app.files.mesh_writing import SQUARE, ply_text, write
+from tests.app.files.test_earlier_files import EARLIER
+
+LINES = ["0 0 0", "1 0 0", "0 1 0"]
+
+REFUSED = {
+    "rows without properties": (
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1000000000000\nelement face 1000000000\nend_header\n",
+        "has no vertices",
+    ),
+    "a list that is 2.5 long": (
+        "a.ply",
+        ply_text(LINES, ["2.5 0 1 2"]),
+        "a list of face has length -1",
+    ),
+    "a list that is not a number long": ("a.ply", ply_text(LINES, ["nan 0 1 2"]), "has length -1"),
+    "a texture coordinate without numbers": ("a.obj", SQUARE + "vt\nf 1 2 3\n", "line 5"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_file_that_was_found_is_refused_with_one_sentence(tmp_path, name):
+    file, content, wanted = REFUSED[name]
+    with pytest.raises(MeshFileError) as problem:
+        load_meshes(write(tmp_path / file, content))
+    assert wanted in str(problem.value)
+    assert file in str(problem.value)
+
+
+@pytest.mark.parametrize(
+    ("names", "wanted"),
+    [
+        ("x y z s", "vertices have s without t; s is left out"),
+        ("x y z nx nz", "vertices have nx, nz without ny; nx, nz is left out"),
+    ],
+)
+def test_a_ply_with_half_of_its_columns_opens_without_them(tmp_path, names, wanted):
+    lines = [f"{line}{' 0' * (len(names.split()) - 3)}" for line in LINES]
+    loaded = load_meshes(write(tmp_path / "a.ply", ply_text(lines, ["3 0 1 2"], names)))
+    assert loaded.warnings == (wanted,)
+    assert (loaded.meshes[0].uvs, loaded.meshes[0].normals) == (None, None)
+
+
+def test_a_study_without_the_value_of_its_dial_is_refused(tmp_path):
+    record = json.loads((EARLIER / "study-cull-closed.json").read_text())
+    record["dials"] = {}
+    with pytest.raises(StudyFileError, match="dials must be those of its work"):
+        load_study(write(tmp_path / "a.json", json.dumps(record)))
+
+
+def test_a_binary_stl_that_counts_more_than_it_has_is_refused(tmp_path):
+    content = b" " * 80 + struct.pack("<I", 2**32 - 1) + bytes(50)
+    with pytest.raises(MeshFileError, match=r"a\.stl"):
+        load_meshes(write(tmp_path / "a.stl", content))
