@@ -131,12 +131,10 @@ DEPTH_STEPS = StudyFamily(
     "Depth precision",
     ("depth",),
     (
-        WorkKind(
-            "separate", "Upchurch and Desbrun 2012: view, then projection, in float32", "depth", (FAR, STEPS)
-        ),
+        WorkKind("separate", "Two float32 matrices (Upchurch 2012)", "depth", (FAR, STEPS)),
         WorkKind(
             "precomposed",
-            "Upchurch and Desbrun 2012: view times projection, in float32",
+            "One float32 matrix (Upchurch 2012)",
             "depth",
             (FAR, STEPS),
         ),

@@ -84,12 +84,8 @@ INTERPOLATION = StudyFamily(
     "Interpolation",
     ("interpolation",),
     (
-        WorkKind(
-            "aside", "A square that recedes to the right: w changes along each row", "pixel", (RATIOS, SIDES)
-        ),
-        WorkKind(
-            "square", "A square that leans back: w is the same along each row", "pixel", (RATIOS, SIDES)
-        ),
+        WorkKind("aside", "A square that recedes to the right", "pixel", (RATIOS, SIDES)),
+        WorkKind("square", "A square that leans back", "pixel", (RATIOS, SIDES)),
     ),
     (MEAN_TEXEL, LARGEST_TEXEL),
     InterpolationTask,

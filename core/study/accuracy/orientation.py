@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from core.methods import table
 from core.records.arrays import Integers
 from core.settings import Settings
 from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task
@@ -90,7 +89,7 @@ class _Orientation(StudyFamily):
 
     def candidates(self, base: Settings) -> tuple[Candidate, ...]:
         """Return one point for each format."""
-        return tuple(Candidate(f"coverage={name}", table.get("coverage", name).title) for name in FORMATS)
+        return tuple(Candidate(f"coverage={name}", name) for name in FORMATS)
 
 
 ORIENTATION = _Orientation(
@@ -98,9 +97,9 @@ ORIENTATION = _Orientation(
     "Orientation of three points",
     ("coverage",),
     (
-        WorkKind("pivot-p", "Kettner et al. 2008: the point that moves is the pivot", "point", (SIDES,)),
-        WorkKind("pivot-q", "Kettner et al. 2008: the middle point is the pivot", "point", (SIDES,)),
-        WorkKind("pivot-r", "Kettner et al. 2008: the far point is the pivot", "point", (SIDES,)),
+        WorkKind("pivot-p", "Pivot p, moving (Kettner et al. 2008)", "point", (SIDES,)),
+        WorkKind("pivot-q", "Pivot q, in the middle (Kettner et al. 2008)", "point", (SIDES,)),
+        WorkKind("pivot-r", "Pivot r, far off (Kettner et al. 2008)", "point", (SIDES,)),
     ),
     (WRONG, TURNED),
     OrientationTask,
