@@ -7,6 +7,7 @@ from math import isfinite, pi
 import numpy as np
 
 from core.records.arrays import Floats, Integers, Singles, checked, checked_size
+from core.records.cached import cached_property
 
 SIZE_LIMIT = 16384
 """Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
@@ -28,6 +29,11 @@ class Texture:
         if pixels.shape[2] not in (1, 3, 4) or pixels.size == 0:
             raise ValueError(f"texture pixels must be (h, w, 1, 3 or 4) and not empty, got {pixels.shape}")
         object.__setattr__(self, "pixels", pixels)
+
+    @cached_property
+    def has_negative_light(self) -> bool:
+        """Whether some texel is below 0."""
+        return bool(self.pixels.min() < 0)
 
 
 @dataclass(frozen=True, eq=False)

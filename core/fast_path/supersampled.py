@@ -1,8 +1,8 @@
 """A supersampled picture the fast way: the bytes of its samples, drawn as any picture, resolved in linear light.
 
 Bytes end at 1, and light does not: where a pixel has samples as bright as a byte can be beside darker ones, what was
-cut off might have made it brighter. Such pixels are drawn by all buffers instead. Alpha is 1 at most, but where it adds
-up, or was given so.
+cut off might have made it brighter. Such pixels are drawn by all buffers instead; and where alpha may be above 1, or
+light below 0, all pixels whose samples reach either end.
 """
 
 from collections.abc import Callable, Iterator
@@ -59,7 +59,7 @@ def draw_supersampled(
     side = sampling.side
     finer, plain = finer_scene(scene, side), finer_settings(settings)
     weights = filter_weights(sampling.position, settings.resolve_filter)
-    channels = 4 if _alpha_exceeds_one(scene, settings) else 3
+    is_unusual = _has_unusual_light(scene, settings)
     counts = {stage: StageCount() for stage in STAGES}
     route = Route("supersampled", "bytes")
     for band in _pixel_bands(raster, side):
@@ -72,7 +72,7 @@ def draw_supersampled(
             inner = inner_of(wide_pixels, band)
             light = from_display(samples.reshape(-1, *samples.shape[2:])).reshape(samples.shape)
             color = resolve_samples(light, weights)[inner]
-            cut_off = is_cut_off(samples[..., :channels], reach_of(weights))[inner]
+            cut_off = is_cut_off(samples, reach_of(weights), is_unusual)[inner]
         if cut_off.any():
             _draw_exactly(color, cut_off, scene, settings, band, counts)
         with counts["resolve"]:
@@ -82,36 +82,47 @@ def draw_supersampled(
     return Picture(read_only(pixels.view("u1").reshape(*raster.shape, 4)), None, counts, route)
 
 
-def _alpha_exceeds_one(scene: AnyScene, settings: Settings) -> bool:
-    """Return whether some alpha may be above 1: an opaque fragment that does not hide adds its own."""
+def _has_unusual_light(scene: AnyScene, settings: Settings) -> bool:
+    """Return whether light may be below 0, or alpha above 1: given so, or added by fragments that hide nothing."""
     if not blend_traits(settings.blend).hides(np.ones(1)).all():
         return True
     if isinstance(scene, ClipScene):
-        given = [scene.attributes[..., 3:4]] if scene.attributes is not None else []
+        assert scene.attributes is not None
+        textures = [scene.texture]
+        colors = [scene.background, scene.attributes[..., : 4 if scene.texture is None else 0]]
     else:
-        given = [mesh.colors[:, 3:] for mesh in scene.meshes if mesh.colors is not None]
-    return any(alpha.max(initial=0.0) > 1 for alpha in [scene.background[3:], *given])
+        textures = [mesh.texture for mesh in scene.meshes]
+        colors = [scene.background, *(mesh.colors for mesh in scene.meshes if mesh.colors is not None)]
+        if any(light.color.min() < 0 for light in scene.lights):
+            return True
+    if any(texture is not None and texture.has_negative_light for texture in textures):
+        return True
+    return any(of.min(initial=0.0) < 0 or of[..., 3:].max(initial=0.0) > 1 for of in colors)
 
 
-def is_cut_off(samples: Bytes, reach: int) -> Flags:
-    """Tell of which pixels light above 1 may have been cut off before it was averaged with other samples.
+def is_cut_off(samples: Bytes, reach: int, is_unusual: bool) -> Flags:
+    """Tell of which pixels light may have been cut off before it was averaged with other samples.
 
     Parameters
     ----------
-    samples : (S, H, W, C) uint8
-        Red, green, blue, and alpha where it may be above 1.
+    samples : (S, H, W, 4) uint8
     reach : int
         How many pixels away the filter looks: 0 or 1.
+    is_unusual : bool
+        Whether not only red, green and blue may be above 1, but alpha too, and any of them below 0.
 
     Returns
     -------
     (H, W) bool
     """
-    greatest, least = samples.max(axis=0), samples.min(axis=0)
+    shown = samples if is_unusual else samples[..., :3]
+    greatest, least = shown.max(axis=0), shown.min(axis=0)
     if reach:
         greatest, least = _over_neighbours(greatest, np.maximum), _over_neighbours(least, np.minimum)
-    found: Flags = ((greatest == BRIGHTEST) & (least < BRIGHTEST)).any(axis=2)
-    return found
+    found: Flags = (greatest == BRIGHTEST) & (least < BRIGHTEST)
+    if is_unusual:
+        found |= (least == 0) & (greatest > 0)
+    return np.asarray(found.any(axis=2))
 
 
 def _over_neighbours(values: Bytes, choose: Callable[..., Bytes]) -> Bytes:

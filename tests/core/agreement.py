@@ -53,7 +53,8 @@ class Case:
 def random_case(seed: int) -> Case:
     """Return the case of a seed."""
     source = np.random.default_rng(seed)
-    size = int(source.integers(1, 17)), int(source.integers(1, 14))
+    longest = 60 if source.random() < 0.05 else 16
+    size = int(source.integers(1, longest + 1)), int(source.integers(1, longest))
     scene = _lit_scene(source, size) if source.random() < 0.2 else _clip_scene(source, size)
     pixels = [(int(source.integers(size[0])), int(source.integers(size[1]))) for _ in range(2)]
     return Case(scene, settings_of(_choice(source), scene), pixels)
@@ -88,7 +89,7 @@ def _triangles(source: Source, count: int, size: tuple[int, int]) -> np.ndarray:
 
 
 def _clip_scene(source: Source, size: tuple[int, int]) -> ClipScene:
-    count = int(source.integers(1, 9))
+    count = int(source.integers(1, 41 if source.random() < 0.1 else 9))
     clip, background = _triangles(source, count, size), source.random(4).round(2)
     kind = source.integers(4)
     if kind == 0:
@@ -97,6 +98,9 @@ def _clip_scene(source: Source, size: tuple[int, int]) -> ClipScene:
     values = source.random((count, 3, int(source.integers(1, 6))))
     if kind == 1:
         values[:] = values[:, :1]
+    elif kind == 2 and source.random() < 0.5:
+        # Light above 1, and less than none.
+        values = 3 * values - 1
     return ClipScene(clip, values, size, background=background)
 
 

@@ -32,6 +32,15 @@ FOUND = {
         scene(clip_of_window([[[0, 0], [4.3, 0], [0, 3.2]]] * 3, (4, 3)), (4, 3)),
         Settings(antialiasing="ssaa-4", blend="additive", visibility="last-drawn"),
     ),
+    # They ended at 0, too, which light that was given need not.
+    "light-below-0-over-samples": (
+        scene(
+            clip_of_window([[[0, 0], [4.3, 0], [0, 3.2]]], (4, 3)),
+            (4, 3),
+            np.ones((1, 3, 4)) * [-0.5, 0.2, 0.3, 1],
+        ),
+        Settings(antialiasing="ssaa-4"),
+    ),
     # The picture limited the depth on the plane, the trace did not.
     "printed-scanlines-outside-their-triangle": (
         scene(clip_of_window([[[5.5, 3.5], [4.5, 5.75], [5, 4.5]]], (6, 6), 1.0, [0.6, 0.6, -0.5]), (6, 6)),
