@@ -12,7 +12,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from core.study import Point, measure, study_families
-from core.study.accuracy.timing import CLOSE, is_faster, kendall_tau
+from core.study.accuracy.timing import CLOSE, is_faster
+from tests.core.study.accuracy.order_agreement import kendall_tau
 
 BUSY = (
     "import numpy as np\na = np.ones(1 << 21)\nwhile True:\n    a = a * 1.0000001 + sum(range(20000)) * 0.0\n"

@@ -68,11 +68,12 @@ class CoverageTask(FrameTask):
         return int((width * height).sum())
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
-        """Return the counts of the frame, and how many blocks the fill looked at."""
+        """Return the counts of the frame, and how many blocks or rows the fill looked at in place of pixels."""
         counts = super().counts(settings, made)
         geometry = process_geometry(self.scene, settings, {stage: StageCount() for stage in STAGES})
         _, runs = schedule(geometry.edges, settings, make_raster(SIZE, settings.pixel_center))
         counts["blocks tested"] = 0 if runs.blocks is None else len(runs.blocks.triangle)
+        counts["rows solved"] = 0 if runs.crossings is None else len(runs)
         return counts
 
     def errors(self, settings: Settings, made: Frame) -> Errors:

@@ -70,13 +70,14 @@ class _Watch:
     """What has been run."""
     load: Load = field(default_factory=Load)
 
-    def next(self, doing: str) -> None:
-        """Say what is run next; raise StudyCancelledError if nobody wants it any more."""
+    def next(self, doing: str, is_extra: bool = False) -> None:
+        """Say what is run next, beyond the plan if it is extra; raise StudyCancelledError if nobody wants it."""
         if self.is_cancelled is not None and self.is_cancelled():
             raise StudyCancelledError("The measurement was cancelled.")
         if self.progress is not None:
             self.progress(min(len(self.done) / max(self.run_count, 1), 1.0), doing)
-        self.done.append(doing)
+        if not is_extra:
+            self.done.append(doing)
 
     def show(self, point: Point) -> None:
         """Hand on a point."""
@@ -224,7 +225,8 @@ def _measure_points(
         first = number % max(len(turns), 1)
         for turn in turns[first:] + turns[:first]:
             if turn.takes_part():
-                watch.next(f"{turn.candidate.title}{where}, round {number + 1} of {rounds}")
+                of = f"{rounds}" if number < rounds else f"at most {rounds * MOST_TIMES}"
+                watch.next(f"{turn.candidate.title}{where}, round {number + 1} of {of}", number >= rounds)
                 _timed_block(task, turn, watch.load)
                 watch.show(turn.point)
         if number + 2 < rounds:

@@ -7,14 +7,13 @@ are not told apart.
 References
 ----------
 W. J. Conover, *Practical Nonparametric Statistics*, 1971 (an interval of the median from ordered values).
-M. Kendall, *A new measure of rank correlation*, 1938.
 """
 
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import comb, nan
+from math import comb
 from typing import Protocol
 
 import numpy as np
@@ -100,27 +99,6 @@ def is_settled(points: Sequence[Timed]) -> bool:
         if CLOSE * low < high and not (is_faster(first, second) or is_faster(second, first)):
             return False
     return True
-
-
-def kendall_tau(first: Sequence[Timed], second: Sequence[Timed]) -> float:
-    """Return how well two measurements of the same methods agree in order: 1 in all, -1 in no pair, NaN: none counts.
-
-    Notes
-    -----
-    A pair counts where both measurements tell it apart, and its medians differ by more than `CLOSE` in both.
-    """
-    others = {point.method: point for point in second if point.is_measured}
-    both = [(point, others[point.method]) for point in first if point.is_measured and point.method in others]
-    signs = [_sign(one[0], other[0]) * _sign(one[1], other[1]) for one, other in combinations(both, 2)]
-    counted = [sign for sign in signs if sign]
-    return sum(counted) / len(counted) if counted else nan
-
-
-def _sign(first: Timed, second: Timed) -> int:
-    """Return 1 where the first is faster by more than `CLOSE`, -1 where the second is, 0 where it is open."""
-    if CLOSE * first.median < second.median and is_faster(first, second):
-        return 1
-    return -1 if CLOSE * second.median < first.median and is_faster(second, first) else 0
 
 
 @dataclass(eq=False)

@@ -11,7 +11,8 @@ from core.study import Point, Study, measure, pareto_front
 from core.study.accuracy import speed_accuracy as module
 from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task
 from core.study.accuracy.record import ErrorMeasure, WorkKind
-from core.study.accuracy.timing import kendall_tau, median_interval, ranks
+from core.study.accuracy.timing import median_interval, ranks
+from tests.core.study.accuracy.order_agreement import kendall_tau
 
 NAMES = ("last-drawn", "painters", "z-buffer", "ray-casting")
 WRONG = ErrorMeasure("wrong", "Wrong", "")
@@ -114,8 +115,10 @@ def busy(name: str, block: int) -> float:
 
 def test_a_busy_machine_takes_more_rounds_and_ends_in_the_same_order(monkeypatch: pytest.MonkeyPatch) -> None:
     quiet = timed(monkeypatch, lambda name, _: true_time(name), rounds=9)
-    loud = timed(monkeypatch, busy, rounds=9)
+    fractions: list[float] = []
+    loud = timed(monkeypatch, busy, rounds=9, progress=lambda fraction, _: fractions.append(fraction))
     assert all(len(each.seconds) > 9 for each in loud.points)
+    assert fractions == sorted(fractions)
     assert ranks(loud.points) == ranks(quiet.points)
     assert kendall_tau(quiet.points, loud.points) == 1
     assert [each.least for each in loud.points] == [each.least for each in quiet.points]
