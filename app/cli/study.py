@@ -37,6 +37,7 @@ examples:
   rasterscope study --list
   rasterscope study fill --dial size=64
   rasterscope study line --work pixel-ends -o results
+  rasterscope study orientation --work pivot-q
   rasterscope study pipeline --scene teapot.obj --set cull=back -o results
 
 -o writes study-FAMILY-WORK .csv, .json, .svg and .png into a folder, with the machine, versions, date and settings.
