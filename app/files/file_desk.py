@@ -20,7 +20,7 @@ from app.pages.step.page import StepPage
 from app.pages.step.stepping_presenter import Bookmark
 from app.session.tracing import trace_now
 from app.window.message_words import sentences
-from core import Trace
+from core import STAGES, Trace
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
@@ -81,7 +81,7 @@ class FileActions(QObject):
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Opened, Trace]:
             opened = open_any(target, progress, is_cancelled, allows_outside)
-            stage = opened.state.stage if opened.state else "raster"
+            stage = opened.state.stage if opened.state else STAGES[0]
             return opened, trace_now(opened.document, stage)
 
         self.progress.begin(f"Opening {Path(target).name}")
@@ -107,7 +107,8 @@ class FileActions(QObject):
         session.open(opened.document, trace)
         page.stepping.forget_places()
         if state is None:
-            session.set_stage("raster", 0)
+            session.set_stage(STAGES[0], 0)
+            page.show_own_view()
             return
         page.stepping.set_bookmarks([Bookmark(stage, position) for stage, position in state.bookmarks])
         session.set_level(Level(state.level))

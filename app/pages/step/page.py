@@ -298,7 +298,12 @@ class StepPage(Page):
         if stage != self._viewed_stage:
             self._viewed_stage = stage
             if self.current_view() != "compare":
-                self.show_view(self._views_by_hand.get(stage, stage_of(stage).view))
+                self.show_own_view()
+
+    def show_own_view(self) -> None:
+        """Show the stage at hand in the view that was chosen for it, or else in its own."""
+        stage = self.session.cursor.stage
+        self.show_view(self._views_by_hand.get(stage, stage_of(stage).view))
 
     def view_names(self) -> list[str]:
         """Return the names of the main views."""

@@ -53,7 +53,8 @@ def test_a_dropped_mesh_opens_paused_at_the_start(window: MainWindow, qtbot: QtB
     qtbot.waitUntil(lambda: window.session.document.title == "tetrahedron", timeout=20000)
     assert isinstance(window.session.document.scene, Scene)
     assert window.session.document.triangle_count == 4
-    assert (window.session.cursor.stage, window.session.cursor.position) == ("raster", 0)
+    assert (window.session.cursor.stage, window.session.cursor.position) == ("transform", 0)
+    assert window.page.current_view() == "scene", "the model is shown first, large"
     assert window.windowTitle().startswith("tetrahedron")
     assert window.memory.preferences.recent_files[0] == str(mesh)
     assert window.menus.recent_menu.actions()[0].data() == str(mesh)

@@ -6,7 +6,6 @@ What is right follows from the triangles themselves, so any triangles can be jud
 from collections.abc import Callable
 from fractions import Fraction
 from math import floor
-from typing import Any
 
 import numpy as np
 
@@ -63,8 +62,8 @@ def printed_cover(scene: ClipScene, settings: Settings) -> Integers:
         if facing(placed) == 0:
             continue
         # Rounded, half up, to the pixel with the nearest centre: the one that the corner lies in.
-        whole: list[Any] = [(Fraction(x // w), Fraction(y // w)) for x, y, w in placed]
-        for row, first, second in draw_triangle(*whole):
+        v1, v2, v3 = ((Fraction(x // w), Fraction(y // w)) for x, y, w in placed)
+        for row, first, second in draw_triangle(v1, v2, v3, height):  # type: ignore[arg-type]
             start, stop = (floor(x + Fraction(1, 2)) for x in sorted((first, second)))
             if 0 <= row < height:
                 cover[row, max(start, 0) : max(stop + 1, 0)] += 1

@@ -107,7 +107,7 @@ def test_outlines_of_exact_areas_are_told_at_the_centre() -> None:
             "covers 0.5 of the pixel, 0.25 of it passes the depth test; none of it is visible in the end",
         ),
         (0.5, 0.0, 0.0, "covers 0.5 of the pixel, none of it passes the depth test"),
-        (1 - 1e-6, 1 - 1e-6, 1 - 1e-6, "covers almost all of the pixel"),
+        (1 - 1e-8, 1 - 1e-8, 1 - 1e-8, "covers almost all of the pixel"),
     ],
 )
 def test_what_became_of_a_piece(area: float, passed: float, seen: float, text: str) -> None:
