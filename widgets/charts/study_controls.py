@@ -55,7 +55,7 @@ class StudyControls(RunPanel):
             "Cost", "Time on this machine, or a count of work that is the same on every machine"
         )
         self.rounds_box = self.number(
-            "Rounds", "Rounds of measurement; the methods take turns", 1, MOST_ROUNDS
+            "Rounds", "Rounds of measurement, more until the order is stable", 1, MOST_ROUNDS
         )
         self.seed_box = self.number("Seed", "Seed of the random work", 0, 9999)
         self._dials: dict[str, DialControl] = {}
