@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
+from app.files.file_writing import FileWriteError
 
 PROGRAM = "rasterscope"
 USAGE_ERROR = 2
@@ -62,10 +63,18 @@ class UsageError(ValueError):
 
 
 def output_folder(options: argparse.Namespace) -> Path | None:
-    """Return the folder that ``-o`` names, ``None`` without it, or raise UsageError where there is none."""
+    """Return the folder that ``-o`` names, ``None`` without it.
+
+    Raises
+    ------
+    UsageError, FileWriteError
+        If there is none, or it may not be written to.
+    """
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")
+    if folder is not None and not os.access(folder, os.W_OK):
+        raise FileWriteError(f"{folder} cannot be written to: permission is denied")
     return folder
 
 
@@ -142,7 +151,7 @@ def _run_window(arguments: Sequence[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    named = [argument for argument in arguments if argument != "--allow-outside"]
+    named = [argument for argument in arguments if argument not in ("--allow-outside", "--")]
     if len(named) > 1 and not {"-h", "--help", "--version"} & set(arguments):
         names = ", ".join(command.name for command in COMMANDS)
         parser.error(f"expected one FILE or a command ({names}), got {' '.join(arguments)}")

@@ -15,7 +15,7 @@ from app.cli.arguments import (
     size_from_text,
 )
 from app.cli.commands import UsageError
-from app.files.file_writing import whole_file
+from app.files.file_writing import check_writable, whole_file
 from core import Frame, Settings, render
 from core.framebuffer.display import Bytes, to_display
 from core.records.arrays import Singles
@@ -57,6 +57,8 @@ def run(options: argparse.Namespace) -> int:
             raise UsageError(f"argument {name}: the name of the file must end with {ending}, got {path}")
     if options.output is None and options.buffers is None:
         raise UsageError("nothing would be written: give -o out.png, --buffers out.npz or both")
+    for path in filter(None, (options.output, options.buffers)):
+        check_writable(path)
 
     opened = open_file(options)
     settings = chosen_settings(opened.document.settings, options.set)

@@ -7,6 +7,7 @@ import sys
 from app.cli.arguments import add_file, add_settings, chosen_settings, rounds_from_text, size_from_text
 from app.cli.commands import UsageError
 from app.cli.window import load_qt
+from app.files.file_writing import check_writable
 from core import STAGES
 
 DESCRIPTION = """Save a picture of the window with FILE open, without showing the window."""
@@ -121,6 +122,7 @@ def run(options: argparse.Namespace) -> int:
     if sys.platform.startswith("linux"):
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     check_page(options)
+    check_writable(options.output)
     load_qt()
     from app.window.start import grab_window
 

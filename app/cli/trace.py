@@ -18,7 +18,7 @@ from app.cli.arguments import (
 )
 from app.cli.commands import UsageError
 from app.cli.trace_tables import arrays, csv_lines, json_lines, text_lines
-from app.files.file_writing import whole_file
+from app.files.file_writing import check_writable, whole_file
 from app.files.open_any import Opened
 from app.session.document import Document, focus_on
 from core import STAGES, Trace, trace
@@ -93,11 +93,13 @@ def run(options: argparse.Namespace) -> int:
     """Trace and write."""
     if options.format == "npz" and options.output is None:
         raise UsageError("argument --format: npz needs a file, -o PATH")
+    if options.output is not None:
+        check_writable(options.output)
     opened = open_file(options)
     with overflow_reported():
         traced = make_trace(opened, options)
         if STAGES.index(options.stage) >= STAGES.index("raster"):
-            check_length(traced)
+            check_length(traced, options)
         stage = traced.stage(options.stage)
     if options.format == "npz":
         with whole_file(options.output) as file:
@@ -119,13 +121,14 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
     if options.triangle is None and opened.state is None:
         triangle = None
     if triangle is not None and triangle >= document.triangle_count:
-        raise ValueError(
-            f"triangle must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
+        raise UsageError(
+            f"argument --triangle: must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
         )
     settings = chosen_settings(document.settings, options.set)
     before = options.before or document.before
     if options.size is not None or options.region is not None:
         scene = document.scene if options.size is None else replace(document.scene, size=options.size)
+        check_region(options.region, scene.size)
         return trace(scene, settings, triangle, options.region, before)
     document = replace(document, settings=settings, before=before)
     if opened.state is None:
@@ -133,7 +136,17 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
     return replace(document, triangle=triangle).make_trace()
 
 
-def check_length(traced: Trace) -> None:
+def check_region(region: tuple[int, int, int, int] | None, size: tuple[int, int]) -> None:
+    """Raise UsageError for a region without pixels of the picture."""
+    if region is not None:
+        column, row, columns, rows = region
+        if not (column < size[0] and row < size[1] and columns and rows):
+            raise UsageError(
+                f"argument --region: must contain pixels of the {size[0]}x{size[1]} picture, got {region}"
+            )
+
+
+def check_length(traced: Trace, options: argparse.Namespace) -> None:
     """Raise ValueError for a trace that tests more pixels than can be kept."""
     source = traced.source
     if source.geometry.outlines is not None:
@@ -143,9 +156,13 @@ def check_length(traced: Trace) -> None:
     if fill_traits(source.settings.fill).looks_everywhere:
         tests = len(source.geometry.edges) * source.raster.shape[0] * source.raster.shape[1]
     if tests > LONGEST_TRACE:
+        ways = ["one --triangle"] * (source.triangle is None and len(source.geometry.edges) > 1)
+        ways.append("a smaller --region" if options.region is not None else "a smaller --size, or a --region")
+        if fill_traits(source.settings.fill).looks_everywhere:
+            ways.append(f"another fill than {source.settings.fill}")
         raise ValueError(
-            f"the trace would have {tests:,} pixel tests, and at most {LONGEST_TRACE:,} fit: choose one --triangle, "
-            "a smaller --size or --region, or another fill"
+            f"the trace would have {tests:,} pixel tests, and at most {LONGEST_TRACE:,} fit: "
+            f"choose {', or '.join(ways)}"
         )
 
 

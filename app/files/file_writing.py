@@ -1,11 +1,22 @@
 """Writing a file whole or not at all: what was there stays until the new content is complete."""
 
 import os
+import sys
 import tempfile
+import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
+
+if sys.platform != "win32":
+    import fcntl
+
+
+PART = ".part"
+"""Ending of a file that is being written."""
+SECONDS_TO_BEGIN = 10.0
+"""A younger unfinished file may not have its lock yet."""
 
 
 class FileWriteError(OSError):
@@ -52,6 +63,19 @@ def write_files(
     return written
 
 
+def check_writable(path: str | Path) -> None:
+    """Raise FileWriteError, as `whole_file` would, where a file cannot be written: before the work for it is done."""
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        raise FileWriteError(f"{path} cannot be written: it is a folder")
+    if os.path.exists(path) and not os.path.isfile(path):
+        return  # a device or pipe
+    if not target.parent.is_dir():
+        raise FileWriteError(f"{path} cannot be written: there is no folder {target.parent}")
+    if not os.access(target if target.exists() else target.parent, os.W_OK):
+        raise FileWriteError(f"{path} cannot be written: permission is denied")
+
+
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     """Open a file beside ``path`` for binary writing, and move it there when the block is done.
@@ -68,8 +92,7 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     """
     target = Path(os.path.realpath(path))
     try:
-        if target.is_dir():
-            raise FileWriteError(f"{path} cannot be written: it is a folder")
+        check_writable(path)
         if os.path.exists(path) and not os.path.isfile(path):
             with open(path, "wb") as file:
                 yield file
@@ -79,17 +102,19 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     except FileWriteError:
         raise
     except OSError as problem:
-        raise FileWriteError(f"{path} cannot be written: {_reason(problem, target)}") from problem
+        raise FileWriteError(f"{path} cannot be written: {_reason(problem)}") from problem
 
 
 @contextmanager
 def _beside(target: Path) -> Iterator[BinaryIO]:
     """Open a new file in the folder of ``target`` that replaces it at the end, or disappears."""
-    if target.exists() and not os.access(target, os.W_OK):
-        raise FileWriteError(f"{target} cannot be written: permission is denied")
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part")
+    _remove_abandoned(target)
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=_part_prefix(target), suffix=PART)
     try:
         with os.fdopen(handle, "wb") as file:
+            if sys.platform != "win32":
+                with suppress(OSError):  # not every network drive has locks
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             yield file
             file.flush()
             os.fsync(file.fileno())
@@ -101,6 +126,30 @@ def _beside(target: Path) -> Iterator[BinaryIO]:
         raise
 
 
+def _remove_abandoned(target: Path) -> None:
+    """Remove unfinished files of ``target`` whose writer was killed; the others are locked, or have just begun."""
+    for entry in os.scandir(target.parent):
+        if entry.name.startswith(_part_prefix(target)) and entry.name.endswith(PART):
+            with suppress(OSError):
+                if time.time() - entry.stat().st_mtime > SECONDS_TO_BEGIN and not _is_locked(entry.path):
+                    os.unlink(entry.path)
+
+
+def _part_prefix(target: Path) -> str:
+    return f".{target.name[:40]}."
+
+
+def _is_locked(path: str) -> bool:
+    """Return whether another process writes to this file; Windows itself keeps a file that is open."""
+    if sys.platform != "win32":
+        with open(path, "rb") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            except OSError:
+                return True
+    return False
+
+
 def _mode(target: Path) -> int:
     """Return the permissions of the file that is replaced, or those of a new one."""
     if target.exists():
@@ -110,10 +159,8 @@ def _mode(target: Path) -> int:
     return 0o666 & ~umask
 
 
-def _reason(problem: OSError, target: Path) -> str:
+def _reason(problem: OSError) -> str:
     """Say in plain words why a file could not be written."""
-    if isinstance(problem, FileNotFoundError) and not target.parent.exists():
-        return f"there is no folder {target.parent}"
     if isinstance(problem, PermissionError):
         return "permission is denied"
     return (problem.strerror or str(problem) or type(problem).__name__).lower()

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QApplication
 
+from app.cli.commands import UsageError
 from app.pages.compare.page import ComparePage
 from app.pages.page_bar import Page
 from app.pages.plan.page import PlanPage
@@ -41,7 +42,8 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     Raises
     ------
     ValueError
-        If the page refuses, or has no such family, work, experiment or method; the message says which there are.
+        If the page refuses. A UsageError: it has no such family, work, experiment or method; the message says which
+        there are.
     """
     window.pages.show_page(content.page)
     page, refusals = window.pages.current, _Refusals()
@@ -112,7 +114,7 @@ def _show_result(page: ResultPage, content: PageContent) -> None:
 
 def _known(what: str, name: str, names: list[str]) -> str:
     if name not in names:
-        raise ValueError(f"{what} must be one of {', '.join(names)}, got {name}")
+        raise UsageError(f"{what} must be one of {', '.join(names)}, got {name}")
     return name
 
 

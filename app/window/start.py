@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
 from app.background.workers import is_work_left
+from app.cli.commands import UsageError
 from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
 from app.pages.page_table import page_of_file
@@ -137,7 +138,7 @@ def grab_window(
     if stage is not None or step is not None or opened.state is None:
         window.session.set_stage(stage or (window.session.cursor.stage if opened.state else "raster"), step)
     if view is not None and view not in window.page.view_names():
-        raise ValueError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
+        raise UsageError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
     if view is not None:
         window.page.show_view(view)
     window.resize(*size)

@@ -164,6 +164,8 @@ def apply_theme(app: QApplication, theme: Theme) -> None:
     if theme == notifier.theme and app.styleSheet() == sheet:
         return
     notifier.theme = theme
+    # From no sheet to another one takes Qt a quarter of the time that it takes from one sheet to another.
+    app.setStyleSheet("")
     app.setStyle("Fusion")
     app.setPalette(palette(theme))
     app.setFont(text_font(theme))

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -298,7 +299,7 @@ def test_commands_without_a_window_do_not_import_qt(tmp_path):
         [sys.executable, "-c", code, json.dumps(HEADLESS)],
         capture_output=True,
         text=True,
-        env={"PYTHONPATH": str(ROOT)},
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
         cwd=tmp_path,
     )
     assert (run.returncode, run.stderr) == (0, f"{[0] * len(HEADLESS)} []\n")
@@ -307,7 +308,7 @@ def test_commands_without_a_window_do_not_import_qt(tmp_path):
 def test_a_reader_that_leaves_is_no_error():
     command = [sys.executable, "-P", "-m", "app", "trace", "cube", "--stage", "raster", "--size", "60x60"]
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={"PYTHONPATH": str(ROOT)}
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(ROOT)}
     ) as process:
         assert process.stdout.readline() == b"{\n"
         process.stdout.close()
@@ -324,7 +325,7 @@ def test_an_interrupt_ends_with_130_and_without_a_word():
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        env={"PYTHONPATH": str(ROOT)},
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
         preexec_fn=heed,
     ) as process:
         assert process.stdout.readline() == b"{\n"

@@ -49,6 +49,20 @@ SOLID = "rasterscope render: "
         (["screenshot", "cube", "-o", "a.png", "--step", "-3"], "--step"),
         (["rendr", "cube", "-o", "a.png"], "one FILE or a command"),
         (["--magic"], "unrecognized arguments: --magic"),
+        (["--", "cube", "sphere"], "expected one FILE or a command"),
+        (["screenshot", "cube", "-o", "a.png", "--view", "magic"], "view must be one of"),
+        (
+            ["screenshot", "cube", "-o", "a.png", "--page", "compare", "--show", "magic"],
+            "family must be one of",
+        ),
+        (
+            ["screenshot", "cube", "-o", "a.png", "--page", "compare", "--show", "line", "--work", "magic"],
+            "work of line must be one of",
+        ),
+        (
+            ["screenshot", "cube", "-o", "a.png", "--page", "stability", "--show", "magic"],
+            "experiment must be one of",
+        ),
     ],
 )
 def test_wrong_usage(tmp_path, arguments, wanted):
@@ -93,10 +107,19 @@ def test_what_is_not_there_or_cannot_be_read(tmp_path):
     assert "gone.rasterscope" in refused(1, "render", "gone.rasterscope", "-o", "out.png", cwd=tmp_path)
 
 
+@pytest.mark.parametrize(
+    "command", [("render",), ("trace", "--stage", "raster"), ("screenshot",)], ids=lambda command: command[0]
+)
+def test_where_nothing_can_be_written_nothing_is_opened(tmp_path, command):
+    name, *more = command
+    line = refused(1, name, "gone.obj", *more, "-o", "nowhere/out.png", cwd=tmp_path)
+    assert "nowhere/out.png cannot be written: there is no folder" in line
+
+
 def test_a_triangle_that_is_not_there():
-    line = refused(1, "trace", "cube", "--stage", "raster", "--triangle", "12")
-    assert line == "rasterscope trace: triangle must be 0 to 11 in cube, got 12"
-    assert "must contain pixels" in refused(1, "trace", "cube", "--stage", "raster", "--region", "600,0,4,4")
+    line = refused(2, "trace", "cube", "--stage", "raster", "--triangle", "12")
+    assert line == "rasterscope trace: argument --triangle: must be 0 to 11 in cube, got 12"
+    assert "must contain pixels" in refused(2, "trace", "cube", "--stage", "raster", "--region", "600,0,4,4")
 
 
 def test_a_method_that_the_scene_cannot_serve(tmp_path):
@@ -189,7 +212,7 @@ class TestWriting:
             text=True,
             cwd=tmp_path,
             # Bytecode cut off at the limit would be taken for whole by every later start.
-            env={"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
+            env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
         )
         assert run.returncode == 1
         (line,) = run.stderr.splitlines()
@@ -204,7 +227,7 @@ class TestWriting:
                 [sys.executable, "-P", "-m", "app", "methods"],
                 stdout=full,
                 stderr=subprocess.PIPE,
-                env={"PYTHONPATH": str(ROOT)},
+                env={**os.environ, "PYTHONPATH": str(ROOT)},
                 text=True,
             )
         assert run.returncode == 1
@@ -282,4 +305,5 @@ def test_numbers_that_overflow_are_one_warning(tmp_path):
 def test_a_trace_that_cannot_be_kept(tmp_path, arguments):
     line = refused(1, "trace", *arguments, "--stage", "depth", "-o", "out.json", cwd=tmp_path)
     assert "pixel tests, and at most 5,000,000 fit: choose one --triangle" in line
+    assert line.endswith("fill than brute-force" if "knot" in arguments else "or a --region")
     assert list(tmp_path.iterdir()) == []

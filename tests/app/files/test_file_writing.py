@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from app.files.file_writing import FileWriteError, whole_file
+from app.files.file_writing import FileWriteError, check_writable, whole_file, write_file
 
 
 def test_the_file_appears_when_it_is_whole(tmp_path):
@@ -74,3 +74,29 @@ class TestPosix:
         os.close(writing)
         assert os.read(reading, 100) == b"through"
         os.close(reading)
+
+
+def test_unfinished_files_of_a_killed_program_are_removed_and_those_being_written_stay(tmp_path):
+    target = tmp_path / "a.txt"
+    abandoned, other = tmp_path / ".a.txt.killed.part", tmp_path / ".b.txt.killed.part"
+    for path in (abandoned, other):
+        path.write_text("half")
+        os.utime(path, (0, 0))
+    with whole_file(target) as first:
+        first.write(b"first")
+        (written,) = (path for path in tmp_path.glob(".a.txt.*.part"))
+        os.utime(written, (0, 0))
+        assert not abandoned.exists()
+        write_file(target, b"second")
+        assert written.exists(), "it is still being written"
+    assert target.read_bytes() == b"first"
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".b.txt.killed.part", "a.txt"]
+
+
+@pytest.mark.parametrize("name", ["gone/a.txt", "."])
+def test_what_cannot_be_written_is_known_before(tmp_path, name):
+    with pytest.raises(FileWriteError) as before:
+        check_writable(tmp_path / name)
+    with pytest.raises(FileWriteError) as after:
+        write_file(tmp_path / name, b"")
+    assert str(before.value) == str(after.value)
