@@ -224,3 +224,15 @@ def depth_test(new: float, old: float, larger_is_nearer: bool, writes: bool = Tr
     if not nearer:  #: decide
         return old, False  #: reject
     return new if writes else old, True  #: store
+
+
+def store_depth(new: float, old: float, writes: bool = True) -> float:
+    """Listing of a depth that is stored without a test; ``writes`` is false for the pale pixels of lines."""
+    return new if writes else old  #: store
+
+
+def depth_in_range(depth: float, is_in_range: bool) -> tuple[float, bool]:
+    """Listing of the depth range: a triangle with all corners in range is clamped, any other loses fragments."""
+    if is_in_range:
+        return min(max(depth, 0.0), 1.0), True  #: clamp
+    return depth, 0 <= depth <= 1  #: range

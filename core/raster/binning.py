@@ -225,9 +225,9 @@ def block_verdict(
     all_inside = True
     for a, b, c, owns_tie in coefficients:
         high = a * (right if a > 0 else left) + (b * (top if b > 0 else bottom) + c)  #: high
+        low = a * (left if a > 0 else right) + (b * (bottom if b > 0 else top) + c)  #: low
         if not (high > 0 or (high == 0 and owns_tie)):  #: reject
             return "outside"  #: outside
-        low = a * (left if a > 0 else right) + (b * (bottom if b > 0 else top) + c)  #: low
         if not (low > 0 or (low == 0 and owns_tie)):  #: accept
             all_inside = False
     return "inside" if all_inside else "split"  #: verdict

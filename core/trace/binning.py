@@ -1,17 +1,25 @@
 """Trace of binning: the box of every triangle and the verdict on every block."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from core.raster.binning import block_verdict
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
 from core.records.listing import listing
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
 KINDS = ("box", "behind", "whole-image", "block", "outer-box")
 VERDICTS = ("outside", "inside", "split", "leaf")
+
+
+def _verdict_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line of `block_verdict` that returns."""
+    return np.where(columns["verdict"][rows] == "outside", "outside", "verdict")
 
 
 def bounding_box(
@@ -100,12 +108,12 @@ def trace_bin(source: TraceSource) -> StageTrace:
                 Operation("low", "column", ("corners", "column", "row")),
                 Operation("high", "column-end", ("column_end", "row_end")),
             ),
-            "behind": (Operation("drop", "column"),),
-            "whole-image": (Operation("keep", "column", ("column", "row", "column_end", "row_end")),),
+            "behind": (Operation("drop", ""),),
+            "whole-image": (Operation("keep", "", ("column", "row", "column_end", "row_end")),),
             "block": (
                 Operation("high", "high", ("high", "rejected_by")),
                 Operation("low", "low", ("low",)),
-                Operation("verdict", "verdict", ("verdict",)),
+                Operation("verdict", _verdict_label, ("verdict",)),
             ),
         },
         triangle_ends=ends_of(geometry.primitives.triangle[owner]),

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from core.framebuffer.depth import depth_test
+from core.framebuffer.depth import depth_in_range, depth_test, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.records.arrays import Flags, Integers
 from core.records.listing import Listing, listing
-from core.records.operation import Operation
+from core.records.operation import Operation, either
 from core.records.steps import Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
 from core.trace.depth_values import value_columns, value_constants, value_listings, value_operations
@@ -16,13 +16,13 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "test": (
-        Operation("depth", "compare", ("depth", "stored")),
+        Operation("depth", "", ("depth", "stored")),
         Operation("compare", "compare", ("before", "passes")),
-        Operation("write", "store", ("after",)),
+        Operation("write", either("passes", "store", "reject"), ("after",)),
     ),
-    "out-of-range": (Operation("range", "compare", ("depth", "passes")),),
+    "out-of-range": (Operation("range", "range", ("depth", "passes")),),
     "store": (
-        Operation("depth", "compare", ("depth", "stored")),
+        Operation("depth", "", ("depth", "stored")),
         Operation("write", "store", ("before", "after", "passes")),
     ),
 }
@@ -52,7 +52,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
         "larger_is_nearer": np.full(len(fragments), source.depth_format.larger_is_nearer),
         "primitive": fragments.primitive,
     }
-    operations, listings = _operations(source), dict.fromkeys(OPERATIONS, listing(depth_test))
+    operations = _operations(source)
+    listings = {
+        "test": listing(depth_test),
+        "out-of-range": listing(depth_in_range),
+        "store": listing(store_depth),
+    }
     columns |= value_columns(source)
     listings |= value_listings(source)
     if source.depth_format.is_planar:

@@ -2,14 +2,15 @@
 
 import numpy as np
 
+from core.methods import table
 from core.raster.edges.edge_functions import edge_coefficients, edge_value
 from core.raster.edges.one_ended import anchored_coefficients, edge_left_out, given_directions
 from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
 from core.records.arrays import Floats
-from core.records.listing import listing
-from core.records.operation import Operation
+from core.records.listing import Listing, listing
+from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
@@ -46,6 +47,18 @@ def half_plane(source: TraceSource, primitive: int, edge: int) -> Floats:
     a, b, c = (part[primitive, edge] for part in (edges.a, edges.b, edges.c))
     with np.errstate(over="ignore", invalid="ignore"):
         return edges.numbers.shown_values(edge_value(a, b, c, x, y[:, None]))
+
+
+def _tie_label(rule: Listing) -> str | Labels:
+    """Return the line of a fill rule's listing that decides: the only one that returns, or that of a slanted edge."""
+    if "right" not in rule.lines:
+        return next(iter(rule.lines))
+    return lambda columns, rows: np.where(columns["a"][rows] != 0, "right", "up")
+
+
+def _unless_singular(label: str) -> Labels:
+    """Return a line of the inverse's listing; of a matrix without one the line that finds this out."""
+    return lambda columns, rows: np.where(columns["doubled_area"][rows] == 0, "singular", label)
 
 
 def trace_edges(source: TraceSource) -> StageTrace:
@@ -95,23 +108,29 @@ def trace_edges(source: TraceSource) -> StageTrace:
         "start": start,
         "finish": finish,
     }
+    rule = table.get("fill_rule", source.settings.fill_rule).listing
+    assert rule is not None, f"{source.settings.fill_rule} has no listing"
+    fill_rule = listing(rule)
     coefficients = (
         *(Operation(name, name, (name,)) for name in "abc"),
-        Operation("tie", "c", ("owns_tie",)),
+        Operation("tie", _tie_label(fill_rule), ("owns_tie",)),
     )
     steps = Steps(
         kinds=KINDS,
         kind=kind,
         operations={
             "snapped": (Operation("window", "snap", ("window",)), Operation("snap", "back", ("snapped",))),
-            "homogeneous": (Operation("keep", "snap", ("homogeneous",)),),
-            "orientation": (Operation("area", "a", ("doubled_area",)),),
+            "homogeneous": (Operation("keep", "", ("homogeneous",)),),
+            "orientation": (Operation("area", "", ("doubled_area",)),),
             "edge": coefficients,
             "anchored-edge": coefficients,
             "left-out-edge": (Operation("leave-out", "left-out", ("a", "b", "c", "owns_tie")),),
             "rounded": (Operation("round", "round", ("rounded",)),),
-            "inverse-edge": tuple(Operation(done.name, "inverse", done.sets) for done in coefficients),
-            "determinant": (Operation("area", "determinant", ("doubled_area",)),),
+            "inverse-edge": (
+                *(Operation(done.name, _unless_singular("inverse"), done.sets) for done in coefficients[:3]),
+                coefficients[3],
+            ),
+            "determinant": (Operation("area", _unless_singular("determinant"), ("doubled_area",)),),
         },
         triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
         group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
@@ -134,6 +153,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
             "rounded": listing(rounded_corner),
             "inverse-edge": listing(inverse_coefficients),
             "determinant": listing(inverse_coefficients),
+            **{f"{kind}.tie": fill_rule for kind in ("edge", "anchored-edge", "inverse-edge")},
         },
         marks={"rejected": (place == 3) & (edges.doubled_area[primitive] == 0)},
         extra={"edges": edges, "planes": geometry.planes},

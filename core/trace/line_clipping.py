@@ -16,11 +16,19 @@ from core.geometry.line_clipping.records import (
 )
 from core.methods import table
 from core.records.listing import listing
-from core.records.operation import Operation
+from core.records.operation import Labels, Operation
 from core.stages.clipped_outlines import OutlineClip
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace
+
+
+def _narrow_label(bound: str, changed: str, otherwise: str) -> Labels:
+    """Return the line of a clipper that sets a bound, or only compares it."""
+    return lambda columns, rows: np.where(
+        columns[bound][rows] == columns["bound_before"][rows], otherwise, changed
+    )
+
 
 _ROOM = Operation("room", "edges", ("border", "approach", "room"))
 _CODES = Operation("codes", "outcodes", ("code_start", "code_end"))
@@ -29,12 +37,12 @@ CLIP_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "clip-enter": (
         _ROOM,
         Operation("crossing", "t", ("crossing_t",)),
-        Operation("narrow", "enter", ("t_enter",)),
+        Operation("narrow", _narrow_label("t_enter", "enter", "entry"), ("t_enter",)),
     ),
     "clip-leave": (
         _ROOM,
         Operation("crossing", "t", ("crossing_t",)),
-        Operation("narrow", "leave", ("t_leave",)),
+        Operation("narrow", _narrow_label("t_leave", "leave", "exit"), ("t_leave",)),
     ),
     "clip-parallel": (_ROOM, Operation("side", "parallel")),
     "clip-outside": (_ROOM, Operation("drop", "outside")),

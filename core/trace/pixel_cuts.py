@@ -24,7 +24,7 @@ from core.antialiasing.pixel_pieces import (
 from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import listing
-from core.records.operation import Operation
+from core.records.operation import Columns, Labels, Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -33,15 +33,30 @@ MOST_NUMBERS = 1 << 22
 MOST_CORNERS = 7
 """Corners of a square that three edges have cut."""
 KINDS = ("cut", "piece")
+
+
+def _cut_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line of `cut_polygon` that returns: the whole polygon, nothing, or what is kept."""
+    distance = columns["corner_distance"][rows]
+    is_whole, is_nothing = ~(distance < 0).any(axis=1), ~(distance > 0).any(axis=1)
+    return np.select([is_whole, is_nothing], ["whole", "nothing"], "cut")
+
+
+def _area_label(name: str) -> Labels:
+    """Return the line of `shown_areas` that adds to an area last; of none the line that begins with 0."""
+    of_area = {"seen": "seen_area", "cover": "covered_area"}[name]
+    return lambda columns, rows: np.where(columns[of_area][rows] > 0, name, "none")
+
+
 OPERATIONS = {
     "cut": (
         Operation("distances", "distances", ("edge", "a", "b", "value", "before", "corner_distance")),
-        Operation("cut", "cut", ("polygon", "corner_count")),
+        Operation("cut", _cut_label, ("polygon", "corner_count")),
     ),
     "piece": (
         Operation("area", "area", ("polygon", "corner_count", "piece_area")),
-        Operation("seen", "seen", ("part_area", "part_primitive", "primitive", "seen_area")),
-        Operation("cover", "cover", ("covered_area",)),
+        Operation("seen", _area_label("seen"), ("part_area", "part_primitive", "primitive", "seen_area")),
+        Operation("cover", _area_label("cover"), ("covered_area",)),
     ),
 }
 

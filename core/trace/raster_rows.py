@@ -1,11 +1,30 @@
 """What rows of the raster stage are: pixels and spans of fills, pixels of lines; and how often pixels are covered."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from core.records.arrays import Integers
-from core.records.operation import Operation
+from core.records.operation import Columns, Labels, Operation
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack
+
+
+def _side_label(k: int) -> Labels:
+    """Return the line of `span` that edge ``k`` is looked at in: the loop of its side, or the test of a level edge."""
+
+    def label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+        a = columns["a"][rows, k]
+        return np.select([a > 0, a < 0], ["left", "right"], "parallel")
+
+    return label
+
+
+def _crossing_label(k: int) -> Labels:
+    """Return the line of `span_of_row` that edge ``k`` comes to: its crossing, or nothing where it is level."""
+    return lambda columns, rows: np.where(columns["dy"][rows, k] == 0, "level", "crossing")
+
 
 _ADDITIONS = (
     Operation("edge-0", "add", ("value_0",)),
@@ -22,9 +41,7 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
     ),
     "accept": (Operation("accept", "covered", ("covered",)),),
     "span": (
-        Operation("edge-0", "left-value", ("crossing_0",)),
-        Operation("edge-1", "left-value", ("crossing_1",)),
-        Operation("edge-2", "left-value", ("crossing_2",)),
+        *(Operation(f"edge-{k}", _side_label(k), (f"crossing_{k}",)) for k in range(3)),
         Operation("span", "span", ("start", "stop")),
     ),
     "line": (
@@ -36,9 +53,7 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("lane", "place", ("lane",)),
     ),
     "lane-row": (
-        Operation("edge-0", "crossing", ("numerator_0", "quotient_0")),
-        Operation("edge-1", "crossing", ("numerator_1", "quotient_1")),
-        Operation("edge-2", "crossing", ("numerator_2", "quotient_2")),
+        *(Operation(f"edge-{k}", _crossing_label(k), (f"numerator_{k}", f"quotient_{k}")) for k in range(3)),
         Operation("start", "start", ("left", "start")),
         Operation("stop", "stop", ("right", "stop")),
         Operation("place", "place", ("length", "place")),

@@ -1,18 +1,19 @@
 """Trace of resolving: from the samples of a pixel to one colour, and from linear colour to display bytes."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.antialiasing.exact_area import DrawnLayer, piece_painter, piece_sum
 from core.antialiasing.sample_rasters import grown, inner_of
-from core.framebuffer.display import encode_linear, encode_srgb, srgb, srgb_byte
+from core.framebuffer.display import SRGB_LIMIT, encode_linear, encode_srgb, srgb, srgb_byte
 from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_mean
 from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.frame import StageCount
 from core.records.listing import Listing, listing
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
 from core.stages.declared import STAGES
@@ -22,9 +23,16 @@ from core.trace.pixel_cuts import PixelCuts, cuts_of, with_cuts
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
+
+def _curve_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line of `srgb_byte` for the part of the curve that the strongest channel is on."""
+    strongest = np.fmax.reduce(columns["clipped"][rows][:, :3], axis=1)
+    return np.where(strongest <= SRGB_LIMIT, "straight-part", "power-part")
+
+
 ENCODE = (
     Operation("clip", "clip", ("linear", "clipped")),
-    Operation("encode", "power-part", ("encoded",)),
+    Operation("encode", _curve_label, ("encoded",)),
     Operation("round", "round", ("bytes",)),
 )
 OPERATIONS: dict[str, tuple[Operation, ...]] = {

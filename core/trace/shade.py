@@ -12,7 +12,7 @@ from core.fragments.textures import uses_mipmaps
 from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.listing import Listing, listing
-from core.records.operation import Operation
+from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
 from core.stages.vertex_light import material_of, viewpoint
@@ -140,9 +140,16 @@ def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
     return trace_lighting(position, values[:, layout["normal"]], eye, source.scene.lights, material, False)
 
 
+def _of_lights(label: str) -> Labels:
+    """Return a line of the loop over the lights; without lights the line before it."""
+    return lambda columns, rows: np.full(
+        len(columns["n_dot_l"][rows]), label if columns["n_dot_l"].shape[1] else "ambient"
+    )
+
+
 def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
-    plain = (Operation("color", "color", ("albedo", "color")),)
+    plain = (Operation("color", "", ("albedo", "color")),)
     texture = (
         *texture_operations(source.settings.texture_filter),
         Operation("albedo", "color", ("albedo",)),
@@ -151,8 +158,8 @@ def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Opera
     if has_normals:
         light = (
             Operation("normal", "normal", ("normal", "to_eye")),
-            Operation("cosines", "cosines", ("n_dot_l", "n_dot_h")),
-            Operation("sums", "specular", ("power", "diffuse_light", "specular_light")),
+            Operation("cosines", _of_lights("cosines"), ("n_dot_l", "n_dot_h")),
+            Operation("sums", _of_lights("specular"), ("power", "diffuse_light", "specular_light")),
         )
     product = (Operation("product", "color", ("color",)),)
     return {

@@ -130,7 +130,7 @@ class StageTrace:
             known=(*self.constants, *(name for o in operations[: operation + 1] for name in o.sets)),
             changed=done.sets,
             listing=listing,
-            line=listing.lines.get(done.label, 0) if listing else 0,
+            line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,
             earlier=tuple(f"{self.stage}.{kind}.{o.name}" for o in operations[:operation]),
         )
 

@@ -307,8 +307,13 @@ class SteppingPresenter(QObject):
                 listing = trace.listings.get(f"{kind}.{operation.name}", trace.listings.get(kind))
                 if listing is None or listing.function.__name__ != function:
                     continue
-                if listing.lines.get(operation.label) == line:
-                    found.append(steps.starts[:-1][steps.kind == number] + place + 1)
+                rows = np.flatnonzero(steps.kind == number)
+                if isinstance(operation.label, str):
+                    rows = rows[: len(rows) * (listing.lines.get(operation.label) == line)]
+                else:
+                    ran = operation.label(trace.columns, rows)
+                    rows = rows[np.isin(ran, [name for name, at in listing.lines.items() if at == line])]
+                found.append(steps.starts[:-1][rows] + place + 1)
         return np.unique(np.concatenate(found))
 
     def forget_places(self) -> None:

@@ -44,9 +44,9 @@ def cyrus_beck_listing(
                 return [], [*seen, (along, room, t, t_e, t_l)]  #: outside
         else:
             t = room / along  #: t
-            if along < 0 and t > t_e:
+            if along < 0 and t > t_e:  #: entry
                 t_e, entry = t, k  #: enter
-            if along > 0 and t < t_l:
+            if along > 0 and t < t_l:  #: exit
                 t_l, exit = t, k  #: leave
         seen.append((along, room, t, t_e, t_l))
     if t_e > t_l:

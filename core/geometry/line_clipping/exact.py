@@ -52,9 +52,9 @@ def exact_listing(
         else:
             is_outside = False
             t = room / along  #: t
-            if along < 0 and t > t_e:
+            if along < 0 and t > t_e:  #: entry
                 t_e, entry = t, k  #: enter
-            if along > 0 and t < t_l:
+            if along > 0 and t < t_l:  #: exit
                 t_l, exit = t, k  #: leave
         crossing = math.nan if t is None else rounded_quotient(*t.as_integer_ratio())
         seen.append((float(along), float(room), crossing, float(t_e), float(t_l)))

@@ -36,9 +36,9 @@ def liang_barsky_listing(
                 return [], [*seen, (p, q, t, t_enter, t_leave)]  #: outside
         else:
             t = q / p  #: t
-            if p < 0 and t > t_enter:
+            if p < 0 and t > t_enter:  #: entry
                 t_enter, entry = t, k  #: enter
-            if p > 0 and t < t_leave:
+            if p > 0 and t < t_leave:  #: exit
                 t_leave, exit = t, k  #: leave
         seen.append((p, q, t, t_enter, t_leave))
         if t_enter > t_leave:

@@ -15,12 +15,30 @@ from core.methods import method
 from core.records.arrays import Flags, Floats
 
 
+def owns(a: float, b: float) -> bool:
+    """Listing of the shared-edge rule for one edge."""
+    if a != 0:  #: slanted
+        return a > 0  #: right
+    return b > 0  #: up
+
+
+def owns_always(a: float, b: float) -> bool:
+    """Listing of the inclusive rule for one edge."""
+    return True  #: always
+
+
+def owns_never(a: float, b: float) -> bool:
+    """Listing of the exclusive rule for one edge."""
+    return False  #: never
+
+
 @method(
     "fill_rule",
     "shared-edge",
     "Left and bottom edges (top-left rule, y up)",
     source="Zwicker 2016, Shared edges; OpenGL 4.6, 14.6.1",
     exact_for="meshes: every pixel on a shared edge is drawn once",
+    listing=owns,
 )
 def shared_edge(a: Floats, b: Floats) -> Flags:
     """Own the left edges and the level bottom edges. (P, 3) coefficients to (P, 3) bool."""
@@ -34,6 +52,7 @@ def shared_edge(a: Floats, b: Floats) -> Flags:
     source="Jubair, Triangle Rasterization 3/7: weights in [0, 1]",
     exact_for="triangles that share no edge",
     breaks_where="pixel centres on a shared edge: they are drawn twice",
+    listing=owns_always,
 )
 def inclusive(a: Floats, b: Floats) -> Flags:
     """Own every edge."""
@@ -47,14 +66,8 @@ def inclusive(a: Floats, b: Floats) -> Flags:
     source="Jubair, Triangle Rasterization 4/7: weights above 0",
     exact_for="triangles without a pixel centre on an edge",
     breaks_where="pixel centres on a shared edge: they are holes",
+    listing=owns_never,
 )
 def exclusive(a: Floats, b: Floats) -> Flags:
     """Own no edge."""
     return np.zeros(np.shape(a), bool)
-
-
-def owns(a: float, b: float) -> bool:
-    """Listing of the shared-edge rule for one edge."""
-    if a != 0:  #: slanted
-        return a > 0  #: right
-    return b > 0  #: up

@@ -38,14 +38,15 @@ def draw_triangle(
         if corners[0][1] > corners[1][1] > corners[2][1]:
             v1, v2, v3 = corners
             break
+    lines: list[tuple[int, float, float]] = []
     if v2[1] == v3[1]:  #: flat-bottom
-        return draw_bottom(v1, v2, v3, height)
-    if v1[1] == v2[1]:  #: flat-top
-        return draw_top(v1, v2, v3, height)
-    if v3[1] == v1[1]:  #: division-by-zero
-        return []
-    v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
-    return draw_top(v2, v4, v1, height) + draw_bottom(v3, v4, v2, height)  #: draw
+        lines = draw_bottom(v1, v2, v3, height)
+    elif v1[1] == v2[1]:  #: flat-top
+        lines = draw_top(v1, v2, v3, height)
+    elif v3[1] != v1[1]:  #: division-by-zero
+        v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
+        lines = draw_top(v2, v4, v1, height) + draw_bottom(v3, v4, v2, height)
+    return lines  #: draw
 
 
 def draw_bottom(

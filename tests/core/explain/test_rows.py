@@ -11,7 +11,7 @@ from core.explain.records import AnswerKind
 from core.explain.rows import ROWS, explains
 from core.explain.step_values import row_key
 from core.explain.steps import load_subjects, row_of
-from tests.core.explain.explained_steps import traces
+from tests.core.explain.explained_steps import all_steps, traces
 
 
 def declared_keys() -> set[str]:
@@ -74,3 +74,14 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 )
                 assert not asked.is_right(wrong)
     assert asked_about == set(STAGES) - {"cull", "shade"}
+
+
+UNMARKED = {
+    *("edges.homogeneous.keep", "edges.orientation.area", "clip.untouched.keep", "bin.whole-image.keep"),
+    *("depth.test.depth", "depth.store.depth", "shade.plain.color", "blend.opaque.write"),
+}
+"""Operations that no line of a listing does: what they do is to copy, or to take what is known already."""
+
+
+def test_every_operation_marks_a_line_but_those_that_copy() -> None:
+    assert {explanation.key for explanation, _, _ in all_steps() if not explanation.line} == UNMARKED

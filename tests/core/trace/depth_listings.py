@@ -5,7 +5,7 @@ from math import isnan
 import numpy as np
 
 from core.framebuffer.blending import additive_pixel, over_pixel
-from core.framebuffer.depth import depth_test
+from core.framebuffer.depth import depth_in_range, depth_test, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.trace import StageTrace, Trace
 from core.visibility.ray_casting import hit_is_nearer
@@ -49,11 +49,12 @@ def check_depth(traced: Trace) -> None:
         assert passes == c["passes"][row]
         assert after == c["after"][row]
     for row in rows_of_kind(found, "out-of-range"):
+        assert depth_in_range(c["depth"][row], False) == (c["depth"][row], False)
         assert not c["passes"][row]
         assert isnan(c["before"][row])
         assert not 0 <= c["depth"][row] <= 1
     for row in rows_of_kind(found, "store"):
-        assert c["after"][row] == c["stored"][row]
+        assert c["after"][row] == store_depth(c["stored"][row], c["before"][row], c["writes"][row])
         assert c["passes"][row]
 
 

@@ -15,7 +15,7 @@ from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
 from core.stages.vertex_light import viewpoint
 from core.trace import StageTrace, Trace
 from core.trace.texture_columns import slope_kind
-from tests.core.trace.executed_rows import equal, rows_of_kind
+from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
 
 
 def check_interpolate(traced: Trace) -> None:
@@ -69,7 +69,7 @@ def check_shade(traced: Trace) -> None:
             color = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
             assert equal(color, c["color"][row])
     for kind in ("plain", "textured"):
-        rows = rows_of_kind(found, kind)
+        rows = list(rows_of_kind(found, kind))
         assert equal(c["albedo"][rows], c["color"][rows])
     if "normal" in layout:
         check_light(traced, found)
@@ -120,13 +120,15 @@ def check_light(traced: Trace, found: StageTrace) -> None:
         eye = np.broadcast_to(viewpoint(scene.camera, position), (1, 3))[0]
         normal = values[row, layout["normal"]]
         material = scene.meshes[found.extra["mesh"][row]].material
-        lights = blinn_phong(
-            tuple(position[0].tolist()),
-            tuple(normal.tolist()),
-            tuple(eye.tolist()),
-            scene.lights,
-            material,
-            False,
-        )
+        with lines_that_run() as ran:
+            lights = blinn_phong(
+                tuple(position[0].tolist()),
+                tuple(normal.tolist()),
+                tuple(eye.tolist()),
+                scene.lights,
+                material,
+                False,
+            )
+        check_marks(found, row, ran)
         assert equal(lights[0], found.columns["diffuse_light"][row])
         assert equal(lights[1], found.columns["specular_light"][row])

@@ -6,6 +6,7 @@ from core.geometry.culling import cull_verdict
 from core.geometry.matrices import transform_component
 from core.geometry.polygon_clipping.after_divide import divide_corner
 from core.geometry.polygon_clipping.sutherland_hodgman import clip_edge, clip_edge_in_order
+from core.methods import table
 from core.raster.edges.edge_functions import edge_coefficients, edge_value
 from core.raster.edges.one_ended import anchored_coefficients, edge_left_out
 from core.raster.edges.snapping import snap_one
@@ -13,7 +14,7 @@ from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
 from core.trace import Trace
 from core.trace.transform import divide_and_map
-from tests.core.trace.executed_rows import equal, rows_of_kind
+from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
 
 
 def check_transform(traced: Trace) -> None:
@@ -36,11 +37,15 @@ def check_cull(traced: Trace) -> None:
     assembled = traced.source.geometry.assembled
     drops = {"none": lambda f: False, "back": lambda f: f < 0, "front": lambda f: f > 0}
     ends = found.steps.triangle_ends
-    for triangle, row in zip(assembled.triangle.tolist(), (ends - 1).tolist(), strict=True):
+    starts = [0, *ends[:-1].tolist()]
+    for triangle, start, row in zip(assembled.triangle.tolist(), starts, (ends - 1).tolist(), strict=True):
         facing = found.columns["facing"][row]
         clip = assembled.clip[np.flatnonzero(assembled.triangle == triangle)[0]]
-        verdict = cull_verdict(clip, facing, drops[traced.source.settings.cull](facing))
+        with lines_that_run() as ran:
+            verdict = cull_verdict(clip, facing, drops[traced.source.settings.cull](facing))
         assert verdict == found.columns["verdict"][row]
+        for tested in range(start, row + 1):
+            check_marks(found, tested, ran)
 
 
 def check_clip(traced: Trace) -> None:
@@ -85,6 +90,8 @@ def check_edges(traced: Trace) -> None:
             np.array(coefficients, float), np.array((edges.a[p, k], edges.b[p, k], edges.c[p, k]), float)
         )
         assert equal([of[p, k] for of in shown], (c["a"][row], c["b"][row], c["c"][row]))
+        rule = table.get("fill_rule", traced.source.settings.fill_rule).listing
+        assert rule(c["a"][row], c["b"][row]) == c["owns_tie"][row]
     for row in rows_of_kind(found, "rounded"):
         with np.errstate(over="ignore"):
             rounded = rounded_corner(*c["homogeneous"][row], numbers.held_as)

@@ -11,7 +11,7 @@ from core.raster.spans.lanes import tie_owners
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box, outer_box
-from tests.core.trace.executed_rows import ROW_LIMIT, equal, rows_of_kind
+from tests.core.trace.executed_rows import ROW_LIMIT, check_marks, equal, lines_that_run, rows_of_kind
 from tests.core.trace.geometry_listings import coefficients_of
 
 
@@ -121,14 +121,20 @@ def check_spans(traced: Trace) -> None:
             dx, dy = c["dx"][row][k], c["dy"][row][k]
             assert (dx, dy) == tuple(end - start)
             assert c[f"numerator_{k}"][row] == (start[0] - raster.center) * dy + (c["y"][row] - start[1]) * dx
-        span = span_of_row(sides, c["y"][row], first_column, end_column, raster.center)
+        with lines_that_run() as ran:
+            span = span_of_row(sides, c["y"][row], first_column, end_column, raster.center)
+            place = place_by_size(lengths, number)
+        check_marks(found, row, ran)
         assert span == (c["start"][row], c["stop"][row])
-        assert c["place"][row] == (place_by_size(lengths, number) if lengths[number] else -1)
+        assert c["place"][row] == (place if lengths[number] else -1)
 
     spans = rows[c["length"][rows] > 0]
     spans = spans[np.argsort(c["place"][spans])]
-    drawn = order_of_pixels([(int(c["row"][r]), int(c["start"][r]), int(c["stop"][r])) for r in spans])
+    with lines_that_run() as ran:
+        drawn = order_of_pixels([(int(c["row"][r]), int(c["start"][r]), int(c["stop"][r])) for r in spans])
     pixels = np.flatnonzero(found.steps.kind == found.steps.kinds.index("pass"))
+    for row in pixels[:3].tolist():
+        check_marks(found, row, ran)
     pixels = pixels[np.argsort(c["rank"][pixels])]
     assert drawn == [tuple(pixel) for pixel in found.pixel[pixels].tolist()]
 
@@ -138,8 +144,11 @@ def check_printed_lines(found: StageTrace, edges, raster) -> None:
     c = found.columns
     for primitive in np.unique(c["primitive"][lines]).tolist():
         corners = round_half_up(edges.corners.window[primitive] - raster.center)
-        printed = draw_triangle(*(tuple(corner) for corner in corners.tolist()), raster.height)
+        with lines_that_run() as ran:
+            printed = draw_triangle(*(tuple(corner) for corner in corners.tolist()), raster.height)
         _, first_row, _, end_row = raster.bounds
         wanted = [line for line in printed if first_row <= line[0] < end_row]
         own = lines[c["primitive"][lines] == primitive]
+        for row in own[:: max(len(own) // 4, 1)].tolist():
+            check_marks(found, row, ran)
         assert [(c["row"][row], c["crossing_0"][row], c["crossing_1"][row]) for row in own] == wanted

@@ -1,5 +1,6 @@
 """Traces of clipped wireframes: the rows give the picture, the listings give the rows, every edge has its steps."""
 
+from collections import Counter
 from fractions import Fraction
 from itertools import pairwise
 
@@ -15,6 +16,7 @@ from core.records.steps import Level
 from core.trace import StageTrace
 from core.trace.line_clipping import CLIP_OPERATIONS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.test_line_trace import check_fold, check_values
 from tests.core.trace.trace_cases import SCENES, small_region
 
@@ -60,12 +62,31 @@ def check_listings(found: StageTrace, source) -> None:
     assert set(c["segment"][rows].tolist()) == set(range(len(whole)))
     for segment in range(len(whole)):
         own = rows[c["segment"][rows] == segment]
-        left, seen = listed(found.method, source.settings.line_clipping, whole.window[segment], window)
+        with lines_that_run() as ran:
+            left, seen = listed(found.method, source.settings.line_clipping, whole.window[segment], window)
+        check_marks_of_borders(found, own, ran)
         assert bool(left) == bool(lines.is_kept[segment])
         if left:
             assert np.array_equal(np.asarray(left, float), lines.segments[segment])
         check_numbers(found, own, seen)
         check_pixels(found, np.flatnonzero(c["segment"] == segment), lines, segment, source)
+
+
+def check_marks_of_borders(found: StageTrace, own: np.ndarray, ran: Ran) -> None:
+    """Check that each marked line ran as often as rows mark it; one that is marked at every border may stand before."""
+    marked: Counter[int] = Counter()
+    for row in own.tolist():
+        start, end = found.steps.starts[row : row + 2].tolist()
+        made = [found.explain(position) for position in range(start + 1, end + 1)]
+        marked.update(explanation.line for explanation in made)
+        code = made[0].listing.function.__code__
+    ((lines,),) = [calls for function, calls in ran.items() if function is code]
+    listing = made[0].listing
+    for name in ("enter", "leave", "outside", "parallel", "empty", "accept", "reject", "edge", "move", "t"):
+        line = listing.lines.get(name, 0)
+        if marked[line]:
+            assert lines.count(line) >= marked[line], (name, listing.source.splitlines()[line - 1])
+            assert name not in ("enter", "leave") or lines.count(line) == marked[line], name
 
 
 def listed(method: str, clipper: str, segment, window):

@@ -15,6 +15,7 @@ from core.raster.lines.wireframe import interpolate_affine_along, interpolate_al
 from core.records.steps import Level
 from core.trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
+from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.trace_cases import SCENES, settings_of
 from tests.covering import every_pair
 
@@ -70,16 +71,37 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
         ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
         if max(np.abs(ends)) > 2000:
             continue
-        listed = table.get("line", line).listing(*ends, False)
+        with lines_that_run() as ran:
+            listed = table.get("line", line).listing(*ends, False)
         inside = [left <= x < right and bottom <= y < top for x, y, *_ in listed]
         index = np.flatnonzero(inside)
         listed = [listed[k] for k in index]
+        check_marks_of_pixels(found, rows, index, ran)
         assert [(x, y) for x, y, *_ in listed] == list(zip(c["column"][rows], c["row"][rows], strict=True))
         assert np.array_equal([d for _, _, d, *_ in listed], c["decision"][rows], equal_nan=True)
         if has_intensities(line):
             assert np.array_equal([shown for *_, shown in listed], c["intensity"][rows])
         if line not in SEVERAL:
             assert np.array_equal(index, c["index"][rows])
+
+
+def check_marks_of_pixels(found: StageTrace, rows: np.ndarray, index: np.ndarray, ran: Ran) -> None:
+    """Check that the lines marked at a pixel ran between its predecessor and itself, or for its column."""
+    if not len(rows):
+        return
+    of_listing = next(iter(found.explain(int(found.steps.starts[row]) + 1).listing for row in rows[:1]))
+    ((lines,),) = [calls for code, calls in ran.items() if code is of_listing.function.__code__]
+    draws = [place for place, line in enumerate(lines) if line == of_listing.lines["draw"]]
+    is_several = found.method.removeprefix("line=") in SEVERAL
+    for row, number in zip(rows.tolist(), index.tolist(), strict=True):
+        # Pixels of a column share what is computed for it.
+        first = max(number - 3, 0) if is_several else number
+        begin = draws[first - 1] + 1 if first else 0
+        since = set(lines[begin : draws[number] + 1])
+        for position in range(found.steps.starts[row] + 1, found.steps.starts[row + 1] + 1):
+            made = found.explain(int(position))
+            shown = of_listing.source.splitlines()[made.line - 1].strip()
+            assert made.line in since, (made.key, shown)
 
 
 @every_pair(
