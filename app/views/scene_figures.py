@@ -21,8 +21,7 @@ VISIBILITIES: dict[Visibility, str] = {
 }
 COLORS: dict[Coloring, str] = {
     "palette": "one for each triangle",
-    "bytes": "corner colours interpolated as bytes",
-    "some-bytes": "corner colours interpolated as bytes where near enough, else attributes and light per pixel",
+    "corners": "corner colours interpolated as bytes, or as linear light where they differ much",
     "normals": "light once per visible pixel, in single precision",
     "lit-texture": "light and texture once per visible pixel, in single precision",
     "meshes": "light, and texture where there is one, once per visible pixel, mesh by mesh",

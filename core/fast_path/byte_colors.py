@@ -8,7 +8,6 @@ exact colours are those of the unsnapped triangle and may leave the range of its
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -19,11 +18,10 @@ from core.fast_path.byte_errors import (
     drift_error,
     perspective_error,
     product_error,
+    snapping_error,
 )
 from core.fast_path.draw_context import DrawContext, Words
-from core.fast_path.record import Coloring
 from core.framebuffer.display import srgb
-from core.framebuffer.nearest import NearestFragments
 from core.numeric.byte_words import FIELDS, unpack
 from core.numeric.integer_planes import FieldPlane, IntegerPlanes, integer_planes, window_slopes
 from core.raster.spans.bands import Strip
@@ -36,8 +34,6 @@ TOLERANCE = 0.95
 are rounded to the same byte or to neighbours."""
 LARGEST_DRIFT = 0.45
 """Bytes; half a byte would let a channel run over into the next one."""
-STEEPEST = 2.0**40
-"""Bytes a pixel; steeper planes are seen edge-on."""
 
 NEARLY_LINEAR = ("perspective", "affine", "affine-n")
 """Methods of interpolation between whose values and linear ones the bounds of the errors lie."""
@@ -61,13 +57,6 @@ class ByteColors:
     """Offset of a pixel's centre."""
     is_near: Flags
     """(P,) bool, the triangles that may have these colours; those of the others are 0."""
-    name: ClassVar[Coloring] = "bytes"
-    stage = "interpolate"
-
-    @property
-    def for_layer(self) -> "ByteColors":
-        """These, for a picture that is one layer: no pixel that is drawn is 0."""
-        return self
 
     def packed(self) -> IntegerPlanes:
         """Return the words of all triangles."""
@@ -95,14 +84,6 @@ class ByteColors:
             out=context.scratch("color_block", *shape, dtype=np.int64),
         )
         return unpack(word.reshape(-1), context.scratch).reshape(word.shape)
-
-    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
-        """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
-        seen_count = 0
-        for place, primitive in nearest.seen():
-            seen_count += len(place)
-            self.write(context, place, primitive)
-        return seen_count
 
     def write(self, context: DrawContext, place: Integers, primitive: Integers) -> None:
         """Write the pixels at places (F,) of primitives (F,)."""
@@ -183,6 +164,7 @@ def byte_colors(context: DrawContext) -> ByteColors | None:
     low = np.minimum(np.minimum(first, second), third)
     spread = np.maximum(np.maximum(first, second), third)
     spread -= low
+    widest: Floats = spread.max(axis=0)
     error = drift_error(geometry)
     is_near: Flags = np.asarray(geometry.is_projected & (error <= LARGEST_DRIFT))
     if vertices.is_opaque is not None:
@@ -192,16 +174,13 @@ def byte_colors(context: DrawContext) -> ByteColors | None:
     if encoding == "srgb":
         error += chord_error(low, spread)
     if interpolation != "affine":
-        error += perspective_error(geometry, spread.max(axis=0))
+        error += perspective_error(geometry, widest)
     if not float(error.max(initial=0)) + vertices.most_product <= TOLERANCE:
         error += product_error(vertices, values.index, low, encoding)
-    is_near &= error <= TOLERANCE
-
     x, y = geometry.window_x, geometry.window_y
     across, up = window_slopes(x, y, geometry.doubled_area, first, second, third)
-    steepest = max(abs(float(f(of, initial=0))) for f in (np.max, np.min) for of in (across, up))
-    if not steepest < STEEPEST:
-        is_near &= np.maximum(np.abs(across), np.abs(up)).max(axis=0) < STEEPEST
+    error += snapping_error(across, up, widest)
+    is_near &= error <= TOLERANCE
     return _level_where(~is_near, ByteColors(first, across, up, x[0], y[0], context.raster.center, is_near))
 
 

@@ -2,17 +2,24 @@
 
 What the pipeline does and interpolated bytes do not: interpolate linear light (`chord_error`), divide by w
 (`perspective_error`), multiply interpolated albedo with interpolated light (`product_error`), cut off light that is too
-bright only at the end (`cut_off_error`). And steps over the window are rounded (`drift_error`).
+bright only at the end (`cut_off_error`). Corners lie where they are snapped to (`snapping_error`), and steps over the
+window are rounded (`drift_error`).
 """
 
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
+from core.fast_path.depth_free import THIN
 from core.framebuffer.display import SRGB_EXPONENT, SRGB_OFFSET, SRGB_SCALE, SRGB_SLOPE
 from core.numeric.byte_words import DRIFT
+from core.raster.edges.snapping import SUBPIXELS
 from core.records.arrays import Flags, Floats, Integers
 from core.stages.geometry import Geometry
+
+ALIKE = 12.0
+"""Bytes that colours differ by, seen side by side, and look much the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +81,21 @@ def drift_error(geometry: Geometry) -> Floats:
     steps = np.maximum(np.abs(x[1] - x[0]), np.abs(x[2] - x[0]))
     steps += np.maximum(np.abs(y[1] - y[0]), np.abs(y[2] - y[0]))
     return np.asarray((steps + 2) * DRIFT)
+
+
+def snapping_error(across: Floats, up: Floats, spread: Floats) -> Floats:
+    """Return how far (P,) bytes that change by ``across`` and ``up`` (3, P) a pixel are off since corners are snapped.
+
+    Notes
+    -----
+    Of a triangle with corners that are `ALIKE`, differing by ``spread`` (P,), no more is counted than one has that is
+    as narrow as `THIN`: in a narrower one bytes stay between those of the corners.
+    """
+    with np.errstate(invalid="ignore"):
+        slope = np.abs(across)
+        slope += np.abs(up)
+    error: Floats = slope.max(axis=0) * (0.5 / SUBPIXELS)
+    return np.minimum(error, np.where(spread <= ALIKE, ALIKE * sqrt(2) / THIN * (0.5 / SUBPIXELS), np.inf))
 
 
 def cut_off_error(cut_off: Floats, index: Integers, low: Floats, spread: Floats, encoding: str) -> Floats:

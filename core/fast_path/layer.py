@@ -5,9 +5,10 @@ as the triangles have, no pixel was written twice, and the picture is that of ev
 again with depth. The surface of a convex solid without its back faces is a single layer, and so is one triangle.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from core.fast_path.byte_colors import ByteColors
 from core.fast_path.draw_context import DrawContext, Words
 from core.fast_path.palette import PaletteColors
 from core.fast_path.record import Split
@@ -18,10 +19,14 @@ from core.raster.spans.bands import BIG_AREA, TriangleRows, strips
 from core.raster.spans.packed import each_pass, word_spans
 from core.records.arrays import Flags, Integers
 
-LayerColors = PaletteColors | ByteColors | TextureColors
+if TYPE_CHECKING:  # the first picture of one colour a triangle does not wait for these
+    from core.fast_path.byte_colors import ByteColors
+    from core.fast_path.corner_colors import CornerColors
+
+    LayerColors = PaletteColors | CornerColors | TextureColors
 
 
-def draw_layer(context: DrawContext, colors: LayerColors) -> Split | None:
+def draw_layer(context: DrawContext, colors: "LayerColors") -> Split | None:
     """Draw all primitives over the background; return which way they went, ``None`` if they overlap.
 
     All corners are projected, and every fragment would pass the depth test; no pixel that ``colors`` give is 0.
@@ -30,23 +35,31 @@ def draw_layer(context: DrawContext, colors: LayerColors) -> Split | None:
     is_checked = len(geometry.primitives) > 1
     with context.timed("resolve"):
         pixels.fill(0 if is_checked else context.background)
+    chosen = np.ones(len(geometry.primitives), bool)
+    is_big: Flags = np.abs(geometry.doubled_area) > 2 * BIG_AREA
+    fragments = 0
     if isinstance(colors, TextureColors):
-        is_big: Flags = np.ones(len(geometry.primitives), bool)
-        fragments = 0
-    else:
-        is_big = np.abs(geometry.doubled_area) > 2 * BIG_AREA
+        is_big = chosen
+    elif isinstance(colors, PaletteColors):
         fragments = _write_small(context, colors, ~is_big)
-    big = np.flatnonzero(is_big)
-    fragments += _write_big(context, colors, big)
+    else:
+        chosen = ~colors.is_light
+        fragments = colors.write_light() + _write_small(context, colors.bytes, chosen & ~is_big)
+    big = np.flatnonzero(chosen & is_big)
+    fragments += _write_big(
+        context, colors if isinstance(colors, PaletteColors | TextureColors) else colors.bytes, big
+    )
     if is_checked:
         with context.timed("resolve"):
             if int(np.count_nonzero(pixels)) != fragments:
                 return None
             np.copyto(pixels, context.background, where=pixels == 0)
+    if not isinstance(colors, PaletteColors | TextureColors):
+        colors.write_plain(context)
     return Split(len(is_big) - len(big), len(big), 0, fragments)
 
 
-def _write_small(context: DrawContext, colors: PaletteColors | ByteColors, chosen: Flags) -> int:
+def _write_small(context: DrawContext, colors: "PaletteColors | ByteColors", chosen: Flags) -> int:
     """Write the ``chosen`` (P,) triangles along their spans; return how many pixels they have."""
     if not chosen.any():
         return 0
@@ -65,7 +78,9 @@ def _write_small(context: DrawContext, colors: PaletteColors | ByteColors, chose
     return fragments
 
 
-def _write_big(context: DrawContext, colors: LayerColors, chosen: Integers) -> int:
+def _write_big(
+    context: DrawContext, colors: "PaletteColors | ByteColors | TextureColors", chosen: Integers
+) -> int:
     """Write the pixels of the ``chosen`` (C,) triangles; return how many they have."""
     image = context.pixels.reshape(context.raster.shape)
     fragments = 0

@@ -9,9 +9,7 @@ from numpy.typing import NDArray
 from core.records.frame import StageCount
 
 Visibility = Literal["layer", "packed-depth", "stacks", "frame", "supersampled", "multisampled"]
-Coloring = Literal[
-    "palette", "bytes", "some-bytes", "normals", "lit-texture", "meshes", "texture", "deferred"
-]
+Coloring = Literal["palette", "corners", "normals", "lit-texture", "meshes", "texture", "deferred"]
 
 
 @dataclass(frozen=True)
@@ -38,8 +36,8 @@ class Route:
     picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
     and what they show averaged where they differ."""
     color: Coloring
-    """``palette``: one colour a triangle; ``bytes``: corner colours interpolated as bytes; ``some-bytes``: so where
-    that is near enough, else like ``deferred``; ``normals``: normals lit once per visible pixel; ``lit-texture``: the
+    """``palette``: one colour a triangle; ``corners``: corner colours interpolated, as bytes where that is near enough,
+    else as linear light, else like ``deferred``; ``normals``: normals lit once per visible pixel; ``lit-texture``: the
     same times a texture, read in single precision; ``meshes``: each mesh in one of these two ways; ``texture``: packed
     texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
     split: Split | None = None

@@ -61,7 +61,7 @@ def draw_supersampled(
     weights = filter_weights(sampling.position, settings.resolve_filter)
     is_unusual = _has_unusual_light(scene, settings)
     counts = {stage: StageCount() for stage in STAGES}
-    route = Route("supersampled", "bytes")
+    route = Route("supersampled", "corners")
     for band in _pixel_bands(raster, side):
         wide_pixels = grown(band, reach_of(weights))
         drawn = draw_picture(finer, plain, region=_region(finer_raster(wide_pixels, side)), scratch=scratch)

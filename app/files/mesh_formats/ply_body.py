@@ -76,7 +76,7 @@ class Layout:
         """Return the values in ``block`` (rows, cells)."""
         if self.order == "ascii":
             return block
-        return np.ascontiguousarray(block).view(np.dtype(self.order + kind))
+        return block.view(np.dtype(self.order + kind))
 
     def counter(self, kind: str) -> Callable[[int], int]:
         """Return a function that reads the count of a list at a cell."""

@@ -18,8 +18,7 @@ FRAGMENT: dict[Visibility, float] = {
 """Seconds for a covered pixel of a triangle, by ``Route.visibility``."""
 COLOR: dict[Coloring, float] = {
     "palette": 1e-9,
-    "bytes": 5e-9,
-    "some-bytes": 30e-9,
+    "corners": 8e-9,
     "texture": 25e-9,
     "normals": 40e-9,
     "lit-texture": 85e-9,
@@ -48,7 +47,7 @@ class Load:
     """Pixels that something is seen at."""
     visibility: Visibility = "packed-depth"
     """As in ``Route``, which see; also ``color``."""
-    color: Coloring = "bytes"
+    color: Coloring = "corners"
 
     @property
     def seconds(self) -> float:

@@ -71,15 +71,10 @@ def have_colors_of_whole(routes: Sequence[Route], plain_colors: bool) -> bool:
     """
     if not all(route.allowed for route in routes):
         # Parts of a supersampled picture choose for themselves.
-        shown = {_of_all_triangles(route.color) for route in routes if route.visible}
+        shown = {route.color for route in routes if route.visible}
         return not plain_colors and len(shown - {"palette"}) <= 1
-    allowed = {_of_all_triangles(route.allowed) for route in routes} - {"palette"}
+    allowed = {route.allowed for route in routes} - {"palette"}
     return "deferred" in allowed if plain_colors else len(allowed) <= 1
-
-
-def _of_all_triangles(color: str) -> str:
-    """Return a way of colouring, ``bytes`` also where only some of the triangles have them."""
-    return "bytes" if color == "some-bytes" else color
 
 
 def joined_route(routes: Sequence[Route]) -> Route:
@@ -89,7 +84,6 @@ def joined_route(routes: Sequence[Route]) -> Route:
     # A band in which nothing is hidden needs no depth; the picture does where one of its bands does.
     needed = next((route for route in shown if route.visibility != "layer"), shown[0])
     color = next((route.color for route in shown if route.color != "palette"), needed.color)
-    color = next((route.color for route in shown if route.color == "some-bytes"), color)
     visible = sum(route.visible for route in routes)
     splits = [route.split for route in routes if route.split is not None]
     total = Split(*(sum(ways) for ways in zip(*map(astuple, splits), strict=True))) if splits else None

@@ -16,10 +16,11 @@ import numpy as np
 
 from core.numeric.buffers import ScratchBuffers
 from core.numeric.integer_planes import IntegerPlanes
+from core.numeric.quadratic_planes import QuadraticPlanes
 from core.raster.pixel_runs import Raster
 from core.raster.spans.bands import Band
 from core.raster.spans.lanes import TieOwners, TriangleSetup
-from core.raster.spans.rows import Carried, bounds_of_rows, longest_first
+from core.raster.spans.rows import Carried, bounds_of_rows, longest_first, walk_rows
 from core.records.arrays import Integers
 
 FEW = 96
@@ -38,6 +39,9 @@ class WordSpans:
     """(S,) int64, change of the word from pixel to pixel."""
     longer: list[int]
     """Element k: how many spans have more than k pixels; longest first."""
+
+    bend: Integers | None = None
+    """(S,) int64, change of the step from pixel to pixel; ``None``: there is none."""
 
     @property
     def pixel_count(self) -> int:
@@ -75,6 +79,22 @@ def word_spans(
     return WordSpans(pixel, word, step, longer)
 
 
+def bent_spans(
+    planes: QuadraticPlanes,
+    lanes: TriangleSetup,
+    raster: Raster,
+    owners: TieOwners,
+    scratch: ScratchBuffers,
+) -> WordSpans:
+    """Walk the rows of all lanes and return their spans with words and steps to start from."""
+    first_row = lanes.first_row.astype(np.int64)
+    rows = walk_rows(lanes, raster, owners, (Carried(first_row, 1),), scratch)
+    triangle, row = lanes.triangle.take(rows.lane), rows.carried[0]
+    word, step = planes.at(triangle, rows.start, row)
+    pixel = row * raster.shape[1] + (rows.start + raster.place_of_origin)
+    return WordSpans(pixel, word, step, rows.longer, planes.bend.take(triangle))
+
+
 def each_pass(spans: WordSpans) -> Iterator[tuple[int, Integers, Integers]]:
     """Yield k, and place and word of pixels, (F,) int64 each, until all pixels of ``spans`` have come.
 
@@ -85,14 +105,19 @@ def each_pass(spans: WordSpans) -> Iterator[tuple[int, Integers, Integers]]:
     place has to be moved on. What is left of the few longest spans comes at once. The arrays are good until the next
     pass; the words are used up.
     """
-    pixel, word, step = spans.pixel, spans.word, spans.step
+    pixel, word, step, bend = spans.pixel, spans.word, spans.step, spans.bend
     for k, (count, further) in enumerate(pairwise((*spans.longer, 0))):
         if count < FEW:
             span, place = write_out(spans.longer[k:])
-            yield k, pixel[span] + place, word[span] + place * step[span]
+            rest = word[span] + place * step[span]
+            if bend is not None:
+                rest += (place * (place - 1) >> 1) * bend[span]
+            yield k, pixel[span] + place, rest
             return
         yield k, pixel[:count], word[:count]
         word[:further] += step[:further]
+        if bend is not None:
+            step[:further] += bend[:further]
 
 
 def draw_words(words: Integers, spans: WordSpans) -> None:

@@ -94,7 +94,7 @@ def test_thin_triangles_have_colours_between_those_of_their_corners(
     levels = generator.uniform(0, 255 - spread, (count, 1, 3)) + spread * generator.random((count, 3, 3))
     scene = ClipScene(clip, linear_of_bytes(levels, encoding), size)
     picture = assert_within_a_byte(scene, Settings(), encoding)
-    if picture.route.color == "bytes":
+    if picture.route.color == "corners":
         primitive = render(scene).primitive
         shown, seen = picture.pixels[primitive >= 0, :3], primitive[primitive >= 0]
         assert (shown >= np.floor(levels.min(axis=1)[seen])).all()
@@ -189,7 +189,7 @@ def test_the_bound_of_all_triangles_decides_as_those_that_are_drawn_do() -> None
         again = draw_picture(turned, chosen)  # from the second time on with the bound
         byte_colors._last.clear()
         alone = draw_picture(turned, chosen)
-        assert again.route.color == alone.route.color == "bytes"
+        assert again.route.color == alone.route.color == "corners"
         assert np.array_equal(again.pixels, alone.pixels)
         draw_picture(turned, chosen)
         assert 0 < byte_colors._last[0][2].most_product < 1
@@ -208,7 +208,7 @@ def test_a_large_triangle_has_the_same_bytes_where_nothing_overlaps_as_where_som
     whole = draw_picture(scene, SPANS, encoding=encoding)
     part = draw_picture(scene, SPANS, encoding=encoding, region=(0, 0, 400, 150))
     assert [(picture.route.visibility, picture.route.color) for picture in (whole, part)] == [
-        ("packed-depth", "bytes"),
-        ("layer", "bytes"),
+        ("packed-depth", "corners"),
+        ("layer", "corners"),
     ]
     assert np.array_equal(part.pixels, whole.pixels[:150])

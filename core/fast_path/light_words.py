@@ -1,0 +1,221 @@
+"""Linear light lit at the corners, as one word with second differences: for corners whose colours are far apart.
+
+Between the corners of a triangle, albedo times light is quadratic, and dividing by w is nearly so: with
+1/w_i = v (1 + e_i), the weight of a corner is that in the window times 1 + e_i - e, e being the mean of the e_i there,
+but for what grows with the square of e. So with the weights m in the window, colours c, albedo a and light l,
+
+    sum of m_i c_i + sum over edges of m_i m_j ((c_i - c_j) (e_i - e_j) - (a_i - a_j) (l_i - l_j))
+
+is the colour, and a word of three such quadratics is walked with two additions a pixel. A table makes bytes of linear
+light, so sRGB costs no error. What is left is bounded for each triangle (`is_certain`).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from core.fast_path.draw_context import DrawContext, Words
+from core.fast_path.lit.corner_places import CornerPlaces, corner_places
+from core.fast_path.lit.light_errors import STEEPEST
+from core.fast_path.lit.planes import rounding
+from core.framebuffer.display import SRGB_EXPONENT, SRGB_SCALE, encode_linear, encode_srgb
+from core.numeric.buffers import ScratchBuffers
+from core.numeric.byte_words import OPAQUE
+from core.numeric.quadratic_planes import Quadratic, QuadraticPlanes, quadratic_planes
+from core.records.arrays import Flags, Floats, Integers, read_only
+from core.records.primitives import CornerValues
+
+TOLERANCE = 0.95
+"""Bytes that a colour may be away from the exact one before both are rounded."""
+SHIFTS = (0, 21, 42)
+"""Lowest bits of red, green and blue."""
+UNIT = 2.0**20
+"""What stands for light 1."""
+DARKEST = -0.25
+"""What stands as 0: light may leave the range from 0 to 1, as far as 1.75."""
+EDGES = ((0, 1), (0, 2), (1, 2))
+"""Corners of the three edges."""
+TABLE_BITS, TABLE_SHIFT = 14, 7
+"""Bits of a field that a byte is looked up by, and those below, which it does without."""
+STEEPEST_SLOPE = 2.0**10
+"""Light a pixel; steeper triangles are seen edge-on."""
+
+
+@dataclass(frozen=True, eq=False)
+class LightWords:
+    """Colours of P triangles."""
+
+    planes: QuadraticPlanes
+    is_certain: Flags
+    """(P,) bool, where every pixel is within the tolerance; the others are level."""
+
+    def write(self, context: DrawContext, place: Integers, primitive: Integers) -> None:
+        """Write the pixels at places (F,) of primitives (F,)."""
+        word, _ = self.planes.at(primitive, *context.raster.position(place))
+        context.pixels[place] = light_pixels(word, context.encoding, context.scratch)
+
+
+@dataclass(frozen=True, eq=False)
+class CornerLight:
+    """What is interpolated between the corners of P triangles: (3, 3, P) float64 each, by corner and channel."""
+
+    color: Floats
+    """albedo * light + mirrored"""
+    albedo: Floats
+    light: Floats
+    """One channel where all are equal."""
+    is_opaque: Flags
+    """(P,) bool."""
+
+
+def light_words(context: DrawContext) -> LightWords:
+    """Return the colours of all primitives, which are lit at their corners or not at all."""
+    places, corners = (
+        corner_places(context.geometry),
+        corner_light(context.geometry.primitives.values.trimmed()),
+    )
+    if context.settings.interpolation == "affine":
+        places.w.fill(1.0)
+    inverse = 1 / places.w
+    lean = inverse / (0.5 * (inverse.max(axis=0) + inverse.min(axis=0))) - 1
+    edges = edge_terms(corners, lean)
+    is_known = context.settings.interpolation in ("perspective", "affine")
+    is_certain = certain(context, places, corners, edges, lean) if is_known else np.zeros(len(lean[0]), bool)
+    level = np.flatnonzero(~is_certain)
+    places.doubled_area[level] = 1.0
+    for values in (places.x, places.y, corners.color, edges):
+        values[..., level] = 0.0
+    return LightWords(planes_of(places, context.raster.center, corners.color, edges), is_certain)
+
+
+def corner_light(values: CornerValues) -> CornerLight:
+    """Return what is interpolated, from the values at corners."""
+    rows = values.rows.T
+    albedo, light, mirrored = (
+        np.ascontiguousarray(rows[values.layout.get(name, slice(0))][:3])
+        for name in ("color", "diffuse_light", "specular_light")
+    )
+    if not len(light):
+        light, mirrored = np.ones((1, rows.shape[1])), np.zeros((1, rows.shape[1]))
+    elif (light[1:] == light[:1]).all():
+        light = light[:1]
+    color, albedo, light = (
+        np.stack([of.take(at, axis=1) for at in values.index])
+        for of in (albedo * light + mirrored, albedo, light)
+    )
+    alpha = rows[values.layout["color"]][3:]
+    is_opaque = (
+        (alpha.take(values.index) == 1).all(axis=0) if len(alpha) else np.zeros(len(values.index[0]), bool)
+    )
+    return CornerLight(color, albedo, light, is_opaque)
+
+
+def edge_terms(corners: CornerLight, lean: Floats) -> Floats:
+    """Return what m_i m_j is multiplied with, (3, 3, P) float64 by edge and channel; ``lean`` (3, P) are the e_i."""
+    terms = np.empty_like(corners.color)
+    for term, (i, j) in zip(terms, EDGES, strict=True):
+        np.multiply(corners.color[i] - corners.color[j], lean[i] - lean[j], out=term)
+        term -= (corners.albedo[i] - corners.albedo[j]) * (corners.light[i] - corners.light[j])
+    return terms
+
+
+def certain(
+    context: DrawContext, places: CornerPlaces, corners: CornerLight, edges: Floats, lean: Floats
+) -> Flags:
+    """Return for which triangles (P,) the bytes of every pixel are within the tolerance.
+
+    Notes
+    -----
+    With e the greatest e_i, weights are off by 2 e^2 / (1 - e) of themselves, so a colour by e^2 / (1 - e) of what the
+    corners differ by; the products of two weights by (1 + 2 e / (1 - e))^2 - 1 of themselves, each of which is 1/4 at
+    most. In n steps of a pixel the rounding of coefficients adds up to n^2 / 4 of the last bit.
+    """
+    least, most = corners.color.min(axis=(0, 1)), corners.color.max(axis=(0, 1))
+    size = np.abs(edges).max(axis=1)
+    uneven = np.abs(lean).max(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        error = (most - least) * uneven * uneven / (1 - uneven)
+        product = sum(
+            np.abs((corners.albedo[i] - corners.albedo[j]) * (corners.light[i] - corners.light[j])).max(
+                axis=0
+            )
+            for i, j in EDGES
+        )
+        error += 0.25 * product * ((1 + 2 * uneven / (1 - uneven)) ** 2 - 1)
+        error += rounding(places, 8 * np.maximum(most, -least))
+        steps = sum(np.abs(of[1:] - of[0]).max(axis=0) for of in (places.x, places.y))
+        error += (0.25 * (steps + 4) ** 2 + (1 << TABLE_SHIFT - 1)) / UNIT
+        margin = error + 0.25 * size.sum(axis=0)
+        slope = steepest_slope(least - margin) if context.encoding == "srgb" else 255.0
+        sides = np.abs(places.x[1:] - places.x[0]).max(axis=0) + np.abs(places.y[1:] - places.y[0]).max(
+            axis=0
+        )
+        is_flat = (most - least + size.sum(axis=0)) * sides < STEEPEST_SLOPE * np.abs(places.doubled_area)
+        is_inside = (least - margin > DARKEST) & (most + margin < DARKEST + 2)
+        return np.asarray(
+            corners.is_opaque & ~places.is_doubtful & is_flat & is_inside & (error * slope <= TOLERANCE)
+        )
+
+
+def steepest_slope(light: Floats) -> Floats:
+    """Return the bytes (P,) that sRGB rises by per unit of linear light above ``light`` (P,), at most."""
+    power = 255 * SRGB_SCALE / SRGB_EXPONENT * np.maximum(light, 1e-6) ** (1 / SRGB_EXPONENT - 1)
+    return np.asarray(np.minimum(power, STEEPEST))
+
+
+def planes_of(places: CornerPlaces, center: float, color: Floats, edges: Floats) -> QuadraticPlanes:
+    """Return the quadratics through colours (3, 3, P) by corner and channel, with ``edges`` of `edge_terms`, as words.
+
+    Notes
+    -----
+    The weights of corners 1 and 2 are linear: a i + b j + p at column i and row j from the pixel of corner 0.
+    """
+    x, y = places.x, places.y
+    column, row = np.floor(x[0]), np.floor(y[0])
+    right, above = column + center - x[0], row + center - y[0]
+    share = 1 / places.doubled_area
+    a1, b1, a2, b2 = (
+        (y[2] - y[0]) * share,
+        (x[0] - x[2]) * share,
+        (y[0] - y[1]) * share,
+        (x[1] - x[0]) * share,
+    )
+    p1, p2 = right * a1 + above * b1, right * a2 + above * b2
+    fields = []
+    for channel, shift in enumerate(SHIFTS):
+        c0, c1, c2 = UNIT * color[:, channel]
+        k01, k02, k12 = UNIT * edges[:, channel]
+        mixed, first, second = k12 - k01 - k02, c1 - c0 + k01, c2 - c0 + k02
+        slope1 = first + p2 * mixed - 2 * p1 * k01
+        slope2 = second + p1 * mixed - 2 * p2 * k02
+        bend = 2 * (a1 * a2 * mixed - a1 * a1 * k01 - a2 * a2 * k02)
+        arch = 2 * (b1 * b2 * mixed - b1 * b1 * k01 - b2 * b2 * k02)
+        twist = (a1 * b2 + a2 * b1) * mixed - 2 * (a1 * b1 * k01 + a2 * b2 * k02)
+        value = c0 + p1 * (first + p2 * mixed - p1 * k01) + p2 * (second - p2 * k02)
+        value += (1 << TABLE_SHIFT - 1) - DARKEST * UNIT
+        across, up = a1 * slope1 + a2 * slope2 + bend / 2, b1 * slope1 + b2 * slope2 + arch / 2
+        fields.append((Quadratic(value, across, up, bend, twist, arch), shift))
+    return quadratic_planes(column.astype(np.int64), row.astype(np.int64), fields)
+
+
+def light_pixels(word: Integers, encoding: str, scratch: ScratchBuffers) -> Words:
+    """Return words (F,) as opaque pixels (F,) uint32, in the scratch."""
+    pixels, byte = (scratch(f"light_{name}", len(word), dtype=np.uint32) for name in ("pixels", "byte"))
+    index = scratch("light_index", len(word), dtype=np.int64)
+    for channel, (shift, table) in enumerate(zip(SHIFTS, light_bytes(encoding), strict=True)):
+        np.right_shift(word, shift + TABLE_SHIFT, out=index)
+        index &= (1 << TABLE_BITS) - 1
+        table.take(index, out=byte if channel else pixels, mode="clip")
+        if channel:
+            pixels |= byte
+    return pixels
+
+
+@lru_cache(maxsize=2)
+def light_bytes(encoding: str) -> tuple[Words, ...]:
+    """Return for every value of `TABLE_BITS` its red, green and blue pixel, uint32 each; red has the alpha."""
+    light = DARKEST + np.arange(1 << TABLE_BITS) * ((1 << TABLE_SHIFT) / UNIT)
+    single = np.clip(light, 0, 1).astype(np.float32)
+    byte = (encode_linear(single) if encoding == "linear" else encode_srgb(single)).astype(np.uint32)
+    return tuple(read_only(of) for of in (byte | OPAQUE, byte << np.uint32(8), byte << np.uint32(16)))
