@@ -37,6 +37,7 @@ if sys.version_info < (3, 11):
     )
     sys.exit(Exit.OLD_PYTHON)
 
+import argparse
 import hashlib
 import importlib
 import os
@@ -382,8 +383,22 @@ def run(root: Path, arguments: Sequence[str]) -> int:
     return start_program(root, arguments)
 
 
+def make_output_folder(arguments: Sequence[str]) -> None:
+    """Make the folder that ``bench -o`` names, or refuse, before anything is installed for it."""
+    parser = argparse.ArgumentParser(prog="bootstrap.py bench", add_help=False, allow_abbrev=False)
+    parser.add_argument("-o", "--output")
+    folder = parser.parse_known_args(arguments)[0].output
+    if folder is None or set(arguments) & set(ANSWERING_OPTIONS):
+        return
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise SetupError(Exit.USAGE, "The folder %s cannot be made: %s" % (folder, error.strerror)) from error
+
+
 def bench(root: Path, arguments: Sequence[str]) -> int:
     """Run the program's command bench with the libraries that it compares with."""
+    make_output_folder(arguments)
     prepare(root, BENCH_PINS, needs_qt=True)
     return start_program(root, ["bench", *arguments])
 

@@ -154,8 +154,7 @@ def draw_group(result: Result, left: float, top: float, scale: Scale) -> list[st
     """Return one workload: its title, its axis, and a bar for each library, the slowest last."""
     ours = result.ours
     assert ours is not None
-    width, height = result.size
-    facts = f"{ours.times.median:.3g} ms, {width} x {height}, {result.counts.fragments:,} fragments"
+    facts = f"{ours.times.median:.3g} ms, {result.facts}"
     parts = [
         text(left, top + 13, result.workload.name, size=12, weight=600),
         text(left + 28, top + 13, result.workload.title, size=12, weight=600),

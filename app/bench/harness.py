@@ -7,7 +7,7 @@ from types import ModuleType
 
 from app.bench.contender import Contender, Prepared
 from app.bench.libraries import contender_of, version_of
-from app.bench.records import Work
+from app.bench.records import MeshFile, Work
 from app.bench.reference import Difference, Reference, compare, make_reference
 from app.bench.scenes import Workload
 from app.bench.timing import Times, time_in_turn
@@ -48,10 +48,19 @@ class Result:
     """One workload, drawn by all."""
 
     workload: Workload
-    size: tuple[int, int]
+    size: tuple[int, int] | None
+    """(width, height) of the picture; ``None``: a file is read."""
     counts: Counts
     entries: tuple[Entry, ...]
     missing: tuple[Missing, ...]
+
+    @property
+    def facts(self) -> str:
+        """What is drawn or read, in a few words."""
+        if self.size is None:
+            return f"{self.counts.primitives:,} triangles"
+        width, height = self.size
+        return f"{width} x {height}, {self.counts.fragments:,} fragments"
 
     @property
     def ours(self) -> Entry | None:
@@ -109,7 +118,8 @@ def run_workload(workload: Workload, libraries: Sequence[ModuleType], rounds: in
                 missing.append(Missing(each.contender.library, "while it was timed it drew another picture"))
     height, width = reference.covered.shape
     counts = Counts(reference.primitive_count, reference.fragment_count, reference.pixel_count)
-    return Result(workload, (width, height), counts, tuple(entries), tuple(missing))
+    size = None if isinstance(work, MeshFile) else (width, height)
+    return Result(workload, size, counts, tuple(entries), tuple(missing))
 
 
 def _make_ready(
@@ -121,7 +131,7 @@ def _make_ready(
         return None
     try:
         prepared = contender.prepare(stack)
-        difference = compare(prepared.run(), contender.is_top_down, reference)
+        difference = compare(prepared.picture(prepared.run()), contender.is_top_down, reference)
     except ImportError as error:
         return Missing(contender.library, f"not installed ({error})")
     except Exception as error:  # A failing library is reported; the others go on.
@@ -132,8 +142,9 @@ def _make_ready(
 
 def _still_draws(ready: _Ready, reference: Reference) -> bool:
     """Return whether the picture is still the one that was checked, and not what an earlier call left in memory."""
-    run, contender = ready.prepared.run, ready.contender
-    before = run()
+    prepared, contender = ready.prepared, ready.contender
+    before = prepared.picture(prepared.run())
     if before.flags.writeable:
         before.fill(0)
-    return compare(run(), contender.is_top_down, reference) == ready.difference
+    pixels = prepared.picture(prepared.run())
+    return compare(pixels, contender.is_top_down, reference) == ready.difference

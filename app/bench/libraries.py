@@ -10,17 +10,19 @@ from app.bench import (
     opencv_peer,
     opengl_peer,
     ours,
+    ours_child,
     ours_shared,
     pillow_peer,
     skimage_peer,
+    trimesh_peer,
     vtk_peer,
 )
 from app.bench.contender import Contender
 from app.bench.records import ColdStart, Work
 
 LIBRARIES: tuple[ModuleType, ...] = (
-    *(ours, ours_shared, vtk_peer, opengl_peer, numba_peer, opencv_peer),
-    *(pillow_peer, skimage_peer, matplotlib_peer),
+    *(ours, ours_shared, ours_child, vtk_peer, opengl_peer, numba_peer, opencv_peer),
+    *(pillow_peer, skimage_peer, matplotlib_peer, trimesh_peer),
 )
 """All of them, ours first. VTK ends every EGL context that was opened before its own: it must begin before OpenGL."""
 

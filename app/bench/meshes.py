@@ -1,11 +1,12 @@
 """The workloads that are a mesh before a camera: a sphere, a floor that runs behind the eye, a knot."""
 
+from dataclasses import replace
 from math import radians
 
 import numpy as np
 
 from app.bench.random_triangles import DARKEST
-from app.bench.records import Bytes, Lighting, ViewedMesh
+from app.bench.records import Bytes, Lighting, MeshFile, ViewedMesh
 from app.opengl_check.shapes import icosphere
 from core.geometry.matrices import projection, world_to_camera
 from core.records.arrays import Floats, Integers
@@ -29,6 +30,19 @@ def lit_sphere() -> ViewedMesh:
         colors=colors,
         lighting=Lighting(-TO_LIGHT, 0.15, 0.85, 0.0, 1.0, is_per_pixel=False),
     )
+
+
+def unlike_sphere() -> ViewedMesh:
+    """Return the sphere of `lit_sphere` with a random colour at every vertex, as scans have them."""
+    sphere = lit_sphere()
+    colors = np.random.default_rng(47).uniform(0.1, 1.0, sphere.positions.shape)
+    return replace(sphere, colors=colors)
+
+
+def sphere_file(extension: str) -> MeshFile:
+    """Return an icosphere of 327,680 triangles as a file."""
+    positions, _, triangles = icosphere(7)
+    return MeshFile(positions, triangles, extension)
 
 
 def textured_floor() -> ViewedMesh:

@@ -5,8 +5,10 @@ from collections.abc import Callable
 import numpy as np
 
 from app.bench.contender import Contender, Prepared
-from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+from app.bench.mesh_files import prepare_reading
+from app.bench.records import Bytes, Floats, Integers, Lines, MeshFile, ViewedMesh, WindowTriangles, Work
 from app.bench.scenes import clip_scene, lights_of, mesh_of, method_names, view_of
+from app.files.mesh_files import LoadedMeshes, load_meshes
 from core import Picture, Settings, draw_picture
 
 LIBRARY = "Rasterscope"
@@ -24,7 +26,15 @@ def contender(work: Work) -> Contender | None:
         return Contender(LIBRARY, "ours", lambda _: prepare_triangles(work))
     if isinstance(work, ViewedMesh):
         return Contender(LIBRARY, "ours", lambda _: prepare_mesh(work))
+    if isinstance(work, MeshFile):
+        return Contender(LIBRARY, "ours", lambda stack: prepare_reading(work, stack, load_meshes, arrays_of))
     return None
+
+
+def arrays_of(loaded: LoadedMeshes) -> tuple[Floats, Integers]:
+    """Return positions and triangles of a file of one mesh."""
+    (mesh,) = loaded.meshes
+    return mesh.positions, mesh.triangles
 
 
 def settings_of(work: WindowTriangles | ViewedMesh) -> Settings:

@@ -105,4 +105,16 @@ class ColdStart:
     triangles: WindowTriangles
 
 
-Work = WindowTriangles | ViewedMesh | Lines | ColdStart
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """A mesh that is to be read from a file."""
+
+    positions: Floats
+    """(N, 3) float64 in -1 to 1."""
+    triangles: Integers
+    """(T, 3) int64."""
+    extension: str
+    """``.obj`` of plain text, ``.ply`` or ``.stl`` of little-endian binary numbers."""
+
+
+Work = WindowTriangles | ViewedMesh | Lines | ColdStart | MeshFile

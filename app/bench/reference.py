@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.bench.mesh_files import corner_picture
 from app.bench.projection import project
 from app.bench.records import (
     SUBPIXELS,
@@ -18,6 +19,7 @@ from app.bench.records import (
     Floats,
     Integers,
     Lines,
+    MeshFile,
     ViewedMesh,
     WindowTriangles,
     Work,
@@ -67,6 +69,9 @@ def make_reference(work: Work) -> Reference:
         return make_reference(work.triangles)
     if isinstance(work, Lines):
         return _line_reference(work)
+    if isinstance(work, MeshFile):
+        corners = corner_picture(work.positions, work.triangles)
+        return Reference(np.asarray(corners.any(axis=2)), corners, len(corners), corners.size // 3)
     if isinstance(work, ViewedMesh):
         return _mesh_reference(work)
     return _blended_reference(work) if work.is_blended else _nearest_reference(work)

@@ -25,11 +25,9 @@ def head_text(machine: Machine) -> str:
 
 def result_text(result: Result) -> str:
     """Return the table of one workload."""
-    (width, height), counts = result.size, result.counts
-    title = (
-        f"{result.workload.name}  {result.workload.title}: {width}x{height}, {counts.primitives:,} primitives, "
-        f"{counts.fragments:,} fragments, {counts.pixels:,} pixels"
-    )
+    title = f"{result.workload.name}  {result.workload.title}: {result.facts}"
+    if result.size is not None:
+        title += f", {result.counts.primitives:,} primitives, {result.counts.pixels:,} pixels"
     ours = result.ours
     rows = [HEADINGS, *(entry_row(result.workload.name, entry, ours) for entry in result.entries)]
     told = [

@@ -34,12 +34,11 @@ def results_text(results: list[Result], machine: Machine, rounds: int) -> str:
 
 def result_rows(result: Result) -> list[dict[str, object]]:
     """Return the rows of one workload."""
-    common: dict[str, object] = {
-        "workload": result.workload.name,
-        "title": result.workload.title,
-        "width": result.size[0],
-        "height": result.size[1],
-    } | asdict(result.counts)
+    common: dict[str, object] = {"workload": result.workload.name, "title": result.workload.title}
+    if result.size is None:
+        common["primitives"] = result.counts.primitives
+    else:
+        common |= dict(zip(("width", "height"), result.size, strict=True)) | asdict(result.counts)
     rows = []
     for entry in result.entries:
         times, ratio = entry.times, ratio_to(entry, result.ours)

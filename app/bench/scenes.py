@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.bench.meshes import lit_sphere, textured_floor, textured_knot
+from app.bench.meshes import lit_sphere, sphere_file, textured_floor, textured_knot, unlike_sphere
 from app.bench.random_triangles import DARKEST, large_triangle, random_triangles
 from app.bench.records import ColdStart, Lines, ViewedMesh, WindowTriangles, Work
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
@@ -102,5 +102,9 @@ WORKLOADS = (
     Workload("G", "200,000-triangle knot, texture and Phong", textured_knot),
     Workload("H", "10,000 blended triangles", lambda: random_triangles(44, 10000, (512, 512), 100.0, True)),
     Workload("I", "first picture from a cold start", lambda: ColdStart(small_triangles())),
+    Workload("J", "81,920-triangle sphere, unlike vertex colours", unlike_sphere),
+    Workload("K1", "opening an OBJ file", lambda: sphere_file(".obj")),
+    Workload("K2", "opening a binary PLY file", lambda: sphere_file(".ply")),
+    Workload("K3", "opening a binary STL file", lambda: sphere_file(".stl")),
 )
 """All workloads, in the order in which they are run."""

@@ -4,9 +4,10 @@ NumPy is imported only after the numbers of threads are set: it asks for them on
 """
 
 import argparse
+from pathlib import Path
 
 from app.bench.threads import set_threads
-from app.cli.commands import UsageError, output_folder
+from app.cli.commands import UsageError
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
 pictures, time them in turn, and write a table. The libraries are in the extra bench."""
@@ -23,13 +24,28 @@ ROUNDS, QUICK_ROUNDS = 9, 2
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     parser.add_argument(
-        "--workload", metavar="NAME", nargs="+", default=[], help="only these: A1 A2 B C D E F G H I"
+        "--workload",
+        metavar="NAME",
+        nargs="+",
+        default=[],
+        help="only these: A1 A2 B C D E F G H I J K1 K2 K3",
     )
     parser.add_argument(
         "--rounds", metavar="N", type=rounds_from_text, help=f"rounds of measurement ({ROUNDS})"
     )
     parser.add_argument("--quick", action="store_true", help=f"{QUICK_ROUNDS} rounds: a short trial run")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder for table and chart; default: none")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="folder for table and chart, made if missing; default: none"
+    )
+
+
+def made_folder(folder: Path) -> Path:
+    """Return the folder, made if there is none, or raise UsageError where it cannot be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise UsageError(f"argument -o: the folder {folder} cannot be made: {problem.strerror}") from problem
+    return folder
 
 
 def rounds_from_text(text: str) -> int:
@@ -43,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     """Measure; 0 if the core drew what it should."""
     if options.quick and options.rounds is not None:
         raise UsageError("argument --quick: not allowed with --rounds")
-    folder = output_folder(options)
+    folder = None if options.output is None else made_folder(Path(options.output))
     set_threads()
     from app.bench.run import chosen_workloads, run_benchmark
 

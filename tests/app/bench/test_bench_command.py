@@ -23,7 +23,7 @@ def run_program(*arguments: str) -> "subprocess.CompletedProcess[str]":
         (["--workload", "Z"], "workload must be one of A1, A2, B"),
         (["--rounds", "0"], "from 1 to 1000"),
         (["--quick", "--rounds", "3"], "not allowed with --rounds"),
-        (["-o", "no such folder"], "there is no folder no such folder"),
+        (["-o", f"{__file__}/results"], "cannot be made: Not a directory"),
     ],
 )
 def test_wrong_usage_is_one_line(arguments: list[str], words: str) -> None:
@@ -66,6 +66,25 @@ def test_bootstrap_installs_the_libraries_and_starts_the_command(
     assert bootstrap.main(["bench", "--quick"], tmp_path) == 0
     assert prepared == [(bootstrap.BENCH_PINS, True)]
     assert started == [["bench", "--quick"]]
+
+
+def test_the_folder_for_results_is_made_or_refused_before_anything_is_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepared: list[bool] = []
+
+    def prepare(root: Path, pins: tuple[str, ...], needs_qt: bool) -> None:
+        prepared.append((tmp_path / "new" / "results").is_dir())
+
+    monkeypatch.setattr(bootstrap, "prepare", prepare)
+    monkeypatch.setattr(bootstrap, "start_program", lambda root, arguments: 0)
+    (tmp_path / "file").write_text("not a folder")
+    for option in (["-o", str(tmp_path / "file" / "results")], [f"--output={tmp_path / 'file'}"]):
+        assert bootstrap.main(["bench", *option], tmp_path) == bootstrap.Exit.USAGE
+    assert prepared == []
+    assert capsys.readouterr().err.count("cannot be made: ") == 2
+    assert bootstrap.main(["bench", "-o", str(tmp_path / "new" / "results")], tmp_path) == 0
+    assert prepared == [True]
 
 
 def test_the_check_does_not_need_the_libraries() -> None:

@@ -91,7 +91,7 @@ def test_who_is_missing_is_told_with_the_reason(result: Result) -> None:
 
 def test_table_has_every_contender_and_what_it_does_less(result: Result) -> None:
     text = result_text(result)
-    assert text.startswith("B  a few triangles: 40x30, 40 primitives, ")
+    assert text.startswith("B  a few triangles: 40 x 30, 1,395 fragments, 40 primitives, ")
     for words in ("Rasterscope", "no depth, sorting not timed", "everything", "1.3", "did not take part"):
         assert words in text
     assert "black: toy-that-is-not-installed (not installed), draws nothing" in foot_text([result])

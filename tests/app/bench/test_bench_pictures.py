@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.bench import cold_start, ours, ours_shared, pillow_peer
+from app.bench import cold_start, ours, ours_child, ours_shared, pillow_peer, trimesh_peer
 from app.bench.meshes import TO_LIGHT, textured_floor, viewed
 from app.bench.random_triangles import large_triangle, random_triangles
-from app.bench.records import ColdStart, Lighting, Lines, ViewedMesh, Work
+from app.bench.records import ColdStart, Lighting, Lines, MeshFile, ViewedMesh, Work
 from app.bench.reference import Difference, compare, make_reference
+from app.opengl_check.shapes import icosphere
 from core.fast_path.workers import Sharing
 from core.geometry.matrices import projection, world_to_camera
 from core.scene import Camera
@@ -104,6 +105,21 @@ def test_pillow_draws_much_the_same(work: Work) -> None:
 def test_a_library_says_what_it_cannot_draw() -> None:
     assert pillow_peer.contender(small_sphere(is_per_pixel=True)) is None
     assert pillow_peer.contender(large_triangle(((9, 9, 9), (9, 9, 9), (10, 9, 9)))) is None
+
+
+@pytest.mark.parametrize("extension", [".obj", ".ply", ".stl"])
+def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
+    positions, _, triangles = icosphere(2)
+    work = MeshFile(positions, triangles, extension)
+    reference = make_reference(work)
+    assert reference.primitive_count == len(triangles) == 320
+    for module in (ours, trimesh_peer) if extension != ".obj" else (ours, ours_child, trimesh_peer):
+        contender = module.contender(work)
+        assert contender is not None
+        with ExitStack() as stack:
+            prepared = contender.prepare(stack)
+            assert compare(prepared.picture(prepared.run()), False, reference).is_none
+    assert ours_shared.contender(work) is pillow_peer.contender(work) is None
 
 
 def test_a_fresh_process_draws_the_same_picture() -> None:
