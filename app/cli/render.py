@@ -16,6 +16,7 @@ from app.cli.arguments import (
 )
 from app.cli.commands import UsageError
 from app.files.file_writing import check_writable, whole_file
+from app.files.memory import check_free
 from core import Frame, Settings, render
 from core.framebuffer.display import Bytes, to_display
 from core.records.arrays import Singles
@@ -134,15 +135,8 @@ def bytes_per_pixel(settings: Settings) -> int:
 
 
 def check_memory(size: tuple[int, int], settings: Settings) -> None:
-    """Raise ValueError for a picture of ``size`` pixels that may not fit into the memory of this machine."""
-    if not hasattr(os, "sysconf"):
-        return
+    """Raise ValueError for a picture of ``size`` pixels that may not fit into the memory that is free."""
+    count = resolve(settings).sampling.count
+    samples = f" with {count} samples each" if count > 1 else ""
     needed = size[0] * size[1] * bytes_per_pixel(settings)
-    present = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    if needed > present:
-        count = resolve(settings).sampling.count
-        samples = f" with {count} samples each" if count > 1 else ""
-        raise ValueError(
-            f"a picture of {size[0]}x{size[1]} pixels{samples} may take {needed / 2**30:.0f} GiB of memory, "
-            f"this machine has {present / 2**30:.0f}"
-        )
+    check_free(needed, f"a picture of {size[0]}x{size[1]} pixels{samples}")

@@ -24,6 +24,7 @@ from app.session.document import Document, focus_on
 from core import STAGES, Trace, trace
 from core.raster.binning import bound
 from core.raster.fills.traits import fill_traits
+from core.scene import Scene
 
 DESCRIPTION = """Write the trace of one stage: a row for each step, with every number involved."""
 EXAMPLES = """text  for reading: rows with the sentence and the formula of every operation, in symbols and in numbers
@@ -41,6 +42,8 @@ examples:
   rasterscope trace cube --triangle 3 --stage raster --size 24x16 --set fill=blocks --format npz -o fill.npz
 """
 
+MOST_TRIANGLES = 100_000
+"""Triangles, or vertices, that a trace may have: each takes up to 5 KB."""
 LONGEST_TRACE = 5_000_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
 
@@ -98,6 +101,7 @@ def run(options: argparse.Namespace) -> int:
     opened = open_file(options)
     with overflow_reported():
         traced = make_trace(opened, options)
+        check_count(traced)
         if STAGES.index(options.stage) >= STAGES.index("raster"):
             check_length(traced, options)
         stage = traced.stage(options.stage)
@@ -144,6 +148,21 @@ def check_region(region: tuple[int, int, int, int] | None, size: tuple[int, int]
             raise UsageError(
                 f"argument --region: must contain pixels of the {size[0]}x{size[1]} picture, got {region}"
             )
+
+
+def check_count(traced: Trace) -> None:
+    """Raise ValueError for a trace of more vertices or triangles than can be kept."""
+    source = traced.source
+    if source.triangle is not None or not isinstance(source.scene, Scene):
+        return
+    count = max(
+        sum(len(m.positions) for m in source.scene.meshes), sum(len(m.triangles) for m in source.scene.meshes)
+    )
+    if count > MOST_TRIANGLES:
+        raise ValueError(
+            f"the trace would have {count:,} triangles or vertices, and at most {MOST_TRIANGLES:,} fit: "
+            "choose one --triangle"
+        )
 
 
 def check_length(traced: Trace, options: argparse.Namespace) -> None:

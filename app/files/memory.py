@@ -4,8 +4,8 @@ import math
 import os
 from pathlib import Path
 
-ALLOWANCE = 2**27
-"""Bytes that a file may always take, however little it holds."""
+ALLOWANCE = 3 * 2**26
+"""Bytes that a file may always take, however little it holds: with the program itself these are 256 MB."""
 FACTOR = 10
 """Bytes that it may take beyond that for each byte of the arrays it holds."""
 MEBI, GIBI = 2**20, 2**30
@@ -39,7 +39,7 @@ def check_free(wanted: int, what: str) -> None:
     free = free_memory()
     if wanted > free:
         text, there = amounts(wanted, int(free))
-        raise MemoryBoundError(f"{what} would take {text} of memory, {there} are free")
+        raise MemoryBoundError(f"{what} may take {text} of memory, {there} are free")
 
 
 def amounts(wanted: int, bound: int) -> tuple[str, str]:

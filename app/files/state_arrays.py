@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.files.file_writing import make_folder, write_file
+from app.files.input_files import read_input
+from app.files.memory import check_free
 from app.files.mesh_sources import fingerprint
 from app.files.state_models import ArrayRecord
 
@@ -23,6 +25,8 @@ READABLE_COUNT = 1200
 """Arrays of no more numbers are written so that they can be read."""
 ARRAY_LIMIT = 4 << 30
 """Largest array in bytes."""
+DEFLATE = 1032
+"""Most bytes that zlib makes of one."""
 ENDING = ".array"
 """Of the files with the bytes of one array."""
 
@@ -54,6 +58,11 @@ def array_from(record: ArrayRecord) -> NDArray[Any]:
         raise ValueError("only arrays of meshes have a file of their own")
     try:
         packed = b64decode(record.zlib.encode(), validate=True)
+        if size > DEFLATE * len(packed):
+            raise ValueError(
+                f"shape {record.shape} wants {size} bytes, more than {len(packed)} compressed ones hold"
+            )
+        check_free(2 * size, f"an array of shape {record.shape}")
         content = zlib.decompressobj().decompress(packed, size + 1)
     except (binascii.Error, zlib.error) as problem:
         raise ValueError("the compressed bytes are damaged") from problem
@@ -109,7 +118,8 @@ def array_of_record(record: ArrayRecord, folder: Path) -> NDArray[Any]:
     try:
         if path.stat().st_size != size:
             raise ValueError(f"{path.name} must have {size} bytes, got {path.stat().st_size}")
-        found = _array_of(path.read_bytes(), record)
+        check_free(2 * size, path.name)
+        found = _array_of(read_input(path, size), record)
     except OSError as problem:
         raise ValueError(
             f"{path.name} cannot be read: {(problem.strerror or str(problem)).lower()}"

@@ -22,8 +22,8 @@ Report = Callable[[float | None, str], None]
 """Told how far the work is, from 0 to 1 (``None``: cannot be said), and what is being done."""
 
 
-DRAWING = 100
-"""Bytes of memory that a vertex, and a corner of a triangle, takes at least while it is drawn (measured)."""
+DRAWING = 250
+"""Bytes of memory that a vertex, and a corner of a triangle, takes once it is drawn (measured)."""
 
 
 class MeshFileError(ValueError):
