@@ -6,20 +6,19 @@ from math import acos, pi
 import numpy as np
 
 from core.fragments.interpolation import value_plane
-from core.framebuffer.depth import DepthFormat
 from core.geometry.outcodes import PLANE_BITS, has_bits, joined_bits, outcodes
 from core.geometry.vertex_stage import unit
-from core.methods import table
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
+from core.records.arrays import Integers
 from core.records.frame import StageCount
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
 from core.stages.declared import STAGES
-from core.stages.fragment_depth import farthest_stored
 from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
+from core.study.planner.lost_fragments import far_triangles
 from core.study.planner.phrases import figure
 from core.study.planner.records import Fact
 from core.study.planner.tessellation import angle
@@ -47,8 +46,8 @@ class Seen:
     """Most fragments in a pixel, where it was looked at."""
     depth: tuple[float, float] | None
     """Least and greatest window depth; ``None``: nothing is in view."""
-    lossy_depths: frozenset[str]
-    """Depth methods with which a fragment may be lost: stored as the cleared value, it is not nearer."""
+    far: dict[str, Integers]
+    """By depth method, the triangles of which a fragment may be lost, see `far_triangles`."""
     texels: float | None
     """Longest step from pixel to pixel in a texture, at the corners of triangles; ``None``: there is none."""
     lean: float | None
@@ -79,7 +78,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         w_ratio=float((w.max(axis=1) / w.min(axis=1)).max(initial=1.0)),
         layers=max(int(frame.cover_count.max(initial=0)) for frame in frames),
         depth=(float(depth.min()), float(depth.max())) if depth.size else None,
-        lossy_depths=frozenset(name for name in table.names("depth") if may_lose_fragments(geometry, name)),
+        far=far_triangles(geometry),
         texels=_longest_step(geometry, scene),
         lean=_lean(geometry),
         highlight=_highlight(scene) if "normal" in primitives.layout else None,
@@ -111,14 +110,6 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
             Fact("normals", "Largest angle of a normal from its triangle's mean", f"{seen.lean:.3g} degrees")
         )
     return tuple(facts)
-
-
-def may_lose_fragments(geometry: Geometry, depth: str) -> bool:
-    """Return whether a method of the family ``depth`` may store a fragment as the cleared value."""
-    depth_format: DepthFormat = table.get("depth", depth).function()
-    farthest = farthest_stored(geometry, depth_format)
-    cleared = np.full_like(farthest, depth_format.cleared)
-    return not depth_format.is_nearer(farthest, cleared).all()
 
 
 def _depth_range(seen: Seen) -> str:

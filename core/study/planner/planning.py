@@ -12,6 +12,7 @@ from core.scene import AnyScene
 from core.settings import Settings, with_method
 from core.study.planner.costs import Costs, TriedCosts
 from core.study.planner.findings import Seen, facts_of, look
+from core.study.planner.lost_fragments import loses_fragments
 from core.study.planner.phrases import phrase
 from core.study.planner.reasons import ALL_SLOWER, reason
 from core.study.planner.records import Decision, Fact, Findings, Plan, Tolerance, Watch, unwatched
@@ -103,7 +104,7 @@ def plan(
             step = (done, f"Trying {phrase(family, name)}")
             pause()
 
-        choices[family] = _choose(family, settings, everything, trials, costs, seen, tried)
+        choices[family] = _choose(family, scene, settings, everything, trials, costs, seen, tried)
         settings = with_method(settings, family, choices[family].chosen)
     step = ((1 + len(CHEAPER)) / (2 + len(CHEAPER)), "Predicting the time")
     pause()
@@ -133,6 +134,7 @@ def _look(scene: AnyScene, everything: Settings, trials: Trials) -> tuple[Seen, 
 
 def _choose(
     family: str,
+    scene: AnyScene,
     before: Settings,
     everything: Settings,
     trials: Trials,
@@ -148,15 +150,15 @@ def _choose(
         return Choice(family, CHEAPER[family][0], dearest)
     rejected: list[tuple[str, Trial]] = []
     slower: list[str] = []
-    lossy = seen.lossy_depths if family == "depth" and not trials.is_whole else frozenset()
-    untried = tuple(name for name in CHEAPER[family] if name in lossy and name != dearest)
+    lossy: list[str] = []
     for name in CHEAPER[family]:
         if name == dearest:
             break
-        if name in untried:
-            continue
         tried(name)
         settings = with_method(before, family, name)
+        if family == "depth" and not trials.is_whole and loses_fragments(scene, settings, seen.far[name]):
+            lossy.append(name)
+            continue
         trial = trials.compare(settings, everything)
         if not trial.is_within:
             rejected.append((name, trial))
@@ -164,8 +166,8 @@ def _choose(
             slower.append(name)
         else:
             step = trials.compare(settings, before)
-            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower), untried)
-    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower), untried)
+            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower), tuple(lossy))
+    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower), tuple(lossy))
 
 
 def has_no_effect(family: str, settings: Settings, seen: Seen) -> bool:

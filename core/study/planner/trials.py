@@ -66,7 +66,7 @@ class Choice:
     slower: tuple[str, ...] = ()
     """Cheaper methods that would do but take longer."""
     lossy: tuple[str, ...] = ()
-    """Depth methods that may lose fragments where nothing is tried."""
+    """Depth methods that lose fragments, or may, where nothing is tried."""
 
 
 class Trials:
