@@ -169,7 +169,7 @@ def coefficient(step: StepValues) -> Said:
 
 @explains("edges.anchored-edge.a|b|c", asks=coefficients)
 def anchored_coefficient(step: StepValues) -> Said:
-    """One coefficient of an edge with one snapped end: its direction in whole numbers u, exactly through that end."""
+    """One coefficient of an edge with one snapped end: its direction in whole numbers, exactly through that end."""
     name, k, is_forward = step.operation, step.whole("edge"), step.whole("anchor") > 0
     i, j = (k + 1) % 3, (k + 2) % 3
     value, text = (f"{name}_{k}", step.number(name)), _coefficient_text(step)
@@ -190,9 +190,9 @@ def anchored_coefficient(step: StepValues) -> Said:
         rf"\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
         rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}}"
     )
-    above, below = fraction((symbols, step.vector("direction")["ab".index(name)]), ("u", "u"))
-    rounded = (rf"\mathrm{{round}} {above}", rf"\mathrm{{round}} {below}")
-    return text, equation(value, "=", ("s", _sign(step.number("doubled_area"))), r"\cdot", rounded)
+    given = number_latex(step.vector("direction")["ab".index(name)])
+    whole = (rf"\mathrm{{whole}}({symbols})", rf"\mathrm{{whole}}({given})")
+    return text, equation(value, "=", ("s", _sign(step.number("doubled_area"))), r"\cdot", whole)
 
 
 @explains("edges.left-out-edge.leave-out")
@@ -269,7 +269,7 @@ shows(
             lambda step: "2A" if _has_area(step) else "D",
             "Twice the signed area 2A, or the determinant D.",
         ),
-        "direction": VariableText("direction", "a and b before snapping, not rounded.", "a"),
+        "direction": VariableText("direction", "a and b before snapping, not in whole numbers.", "a"),
         "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),
         "finish": VariableText("edge end", "End of the edge as (x, y, w).", "a"),
         "a": VariableText("a", "Change of the edge function per pixel to the right."),

@@ -10,13 +10,13 @@ Exactness
 *Both ends projected*: snapped corners are multiples of 2^-8 up to 2^16 and pixel centres multiples of 2^-1 up
 to 2^14, so a x, b y and c are multiples of 2^-16 below 2^34: every product and sum fits the 53 bits of float64
 without rounding. *One end projected*: the edge runs through its snapped corner in the direction that it has before
-snapping, rounded to whole numbers of 26 bits; then it passes through the corner exactly, as do all edges that meet
-there, and again nothing is rounded in its values. It lies at most sqrt(2)/512 pixel beside the edge before snapping, up
-to the rounding of its direction (`one_ended` has the proof). *Neither*: IEEE multiplication commutes and subtraction is
+snapping, in whole numbers that decide every centre as this direction does; again nothing is rounded in its values, and
+all edges that meet in a corner pass through it exactly. It lies at most sqrt(2)/512 pixel beside the edge before
+snapping (`one_ended` has the proof). *Neither*: IEEE multiplication commutes and subtraction is
 antisymmetric, so ``v2 x v1`` is exactly ``-(v1 x v2)``; each coefficient is rounded. In all three cases the two
 triangles of an edge see values of equal size and opposite sign: the decision belongs to the edge, not to the triangle,
 and a shared edge has neither hole nor double hit. Only a triangle that snapping turns over draws pixels twice, and one
-with a corner that is not projected may leave some out (`one_ended`, "Turned over").
+with a corner that is not projected may leave some out (`one_ended`, "The third edge").
 
 *Monotone*: rounding never reverses an order, so the computed value is monotone in the column and in the row. A
 block's least and greatest value stand at its corner pixels, and a row's inside pixels are one span: blocks and

@@ -9,30 +9,39 @@ Bound
 The edge as it is given runs through the end p, the decided edge through the snapped p', in the same direction. Their
 distance is at most |p' - p|, and that is at most sqrt(2)/512 pixel: half a step along each axis. So no pixel centre
 farther than sqrt(2)/512 pixel from the given edge is decided against it, wherever it lies. The direction is computed
-from the clip positions with a relative error below 2^-50 (`difference_of_products`), whatever cancels, and rounded to
-whole numbers of 26 bits, which turns it by less than 2^-25: at D pixels from the corner the bound grows by D/2^25
-pixel, a hundredth of it at 1,024 pixels.
+from the clip positions with a relative error below 2^-50, whatever cancels (`difference_of_products`), and replaced by
+whole numbers up to 2^26 for which every centre is on the same side (`whole_direction`). What is rounded on the way,
+window positions before snapping among it, adds less than 2^-32 pixel.
+
+Whole numbers
+-------------
+A pixel centre lies a whole number of 1/256 pixel from the snapped corner along each axis, less than 2^25 of them. On
+which side of the edge it lies depends on how the edge's slope compares with such a fraction. Between the slope and the
+whole numbers chosen for it, of the next Farey sequence, there is no such fraction: both compare alike with all of them.
+With whole numbers below 2^27, corners up to 2^16 and centres up to 2^14 pixels in steps of 1/256, every product and sum
+of an edge function fits the 53 bits of float64: nothing more is rounded.
 
 Sharing
 -------
 The coefficients follow from the two ends and their order alone. With the ends exchanged all three change their sign
-and nothing else: products commute, differences are antisymmetric, and rounding is symmetric around 0. a, b, the
-snapped corner and pixel centres are whole numbers of 2^-8 small enough that nothing else is rounded (see
-``edge_functions``): the two triangles of an edge see values of equal size and opposite sign, and all edges that meet in
-a corner pass through it exactly. The third corners decide only on which side of an edge a triangle lies, by the sign of
-its exact determinant.
+and nothing else: products commute, differences are antisymmetric, and whole numbers are chosen by size. So the two
+triangles of an edge see values of equal size and opposite sign, and all edges that meet in a corner pass through it
+exactly. The third corners decide only on which side of an edge a triangle lies, by the sign of the exact determinant.
 
-Turned over
------------
-Where a triangle's two snapped corners lie on the wrong side of the opposite edges, snapping has turned it over there:
-it is thinner than sqrt(2)/256 pixel at that place, though it may open to any width behind it. The edge between the
-snapped corners then says nothing about the rest of the triangle, and is left out (`leave_out_turned`). What differs
-from the given triangle lies within the bound of one of its three edges: two are only moved, and a place beside the
-third is inside a triangle whose least height is below sqrt(2)/256, so its inscribed circle is below the bound. In such
-a place alone, as in a snapped triangle that turns over, a pixel may be drawn twice or not at all.
+The third edge
+--------------
+Let two corners be snapped and the third behind the eye. The triangle is the part beyond the edge between the snapped
+corners of the wedge between its two other edges, which are only moved. Where both snapped corners lie inside the
+opposite edges, the third edge bounds it only between them, and there it lies within the bound. Otherwise snapping has
+turned the triangle over at that edge, where it is thinner than sqrt(2)/256 pixel, though it may open to any width
+beyond. The edge then says nothing about what lies beyond and is left out (`leave_out_turned`): the whole wedge is
+drawn. What that adds lies in a triangle whose least height is below sqrt(2)/256 pixel: its inscribed circle is smaller
+than the bound, and so is the distance from an edge. In such a place alone, as where a snapped triangle turns over, a
+pixel may be drawn twice or not at all.
 
 References
 ----------
+G. H. Hardy, E. M. Wright, *An introduction to the theory of numbers*, 1938, chapter III (Farey sequences).
 M. Cornea, J. Harrison, P. T. P. Tang, *Scientific computing on Itanium-based systems*, 2002 (``a b - c d``).
 C.-P. Jeannerod, *A radix-independent error analysis of the Cornea-Harrison-Tang method*, 2016 (its error bound).
 T. J. Dekker, *A floating-point technique for extending the available precision*, 1971 (the exact product).
@@ -45,8 +54,10 @@ import numpy as np
 from core.raster.number_formats.number_format import LAST, NEXT, CornerPositions
 from core.records.arrays import Floats, Integers
 
-DIRECTION_BITS = 26
-"""Bits of the direction of an edge that is anchored in one snapped corner."""
+FARTHEST = 2**25
+"""Steps of 1/256 pixel: a pixel centre is less far than this from a snapped corner, along each axis."""
+SLOPE_BITS = 62
+"""Bits of the directions that whole numbers are chosen for."""
 SPLITTER = 2.0**27 + 1
 """Splits a float64 into two halves of 26 bits."""
 
@@ -55,10 +66,7 @@ Number = TypeVar("Number", float, Floats)
 
 def anchored_edges(corners: CornerPositions) -> tuple[Floats, Floats, Floats]:
     """Return a, b, c (3, P) of the edges of P triangles through their snapped end; NaN where no end is snapped."""
-    a, b = given_directions(corners)
-    _, exponent = np.frexp(np.maximum(np.abs(a), np.abs(b)))
-    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)
-    a, b = np.rint(a / unit), np.rint(b / unit)
+    a, b = whole_direction(*given_directions(corners))
     place = corners.decided.transpose(2, 1, 0)
     x, y = np.where(corners.is_projected.T[NEXT], place[:, NEXT], place[:, LAST])
     return a, b, -(a * x + b * y)
@@ -71,6 +79,42 @@ def given_directions(corners: CornerPositions) -> tuple[Floats, Floats]:
     a = height / 2 * difference_of_products(y[NEXT], w[LAST], w[NEXT], y[LAST])
     b = width / 2 * difference_of_products(w[NEXT], x[LAST], x[NEXT], w[LAST])
     return a, b
+
+
+def whole_direction(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return whole numbers below 2^27 that decide all vectors of whole numbers up to ``FARTHEST`` as a and b do.
+
+    Parameters
+    ----------
+    a, b : float64, any shape
+        ``a x + b y`` is above, below or equal to 0.
+
+    Returns
+    -------
+    a, b : float64, any shape
+        The same for all whole x and y up to ``FARTHEST`` in size.
+
+    Notes
+    -----
+    The convergents of the continued fraction of the smaller over the larger number, up to the first denominator above
+    ``FARTHEST``: of the last step only as much as that needs.
+    """
+    sizes = np.abs(np.stack([a, b]))
+    _, exponent = np.frexp(sizes.max(axis=0))
+    whole = np.rint(np.ldexp(sizes, SLOPE_BITS - exponent)).astype(np.int64)
+    larger, smaller = whole.max(axis=0), whole.min(axis=0)
+    zero, one = np.zeros_like(larger), np.ones_like(larger)
+    before, found = np.stack([one, zero]), np.stack([zero, one])
+    is_open = smaller > 0
+    while is_open.any():
+        quotient = larger // np.maximum(smaller, 1)
+        steps = np.minimum(quotient, (FARTHEST - before[1]) // found[1] + 1)
+        following = steps * found + before
+        before, found = np.where(is_open, found, before), np.where(is_open, following, found)
+        larger, smaller = smaller, larger - quotient * smaller
+        is_open &= (smaller > 0) & (found[1] <= FARTHEST)
+    is_steep = whole[0] < whole[1]
+    return np.sign(a) * np.where(is_steep, *found), np.sign(b) * np.where(is_steep, *found[::-1])
 
 
 def difference_of_products(a: Number, b: Number, c: Number, d: Number) -> Number:
@@ -132,10 +176,9 @@ def anchored_coefficients(
     width, height = size
     a = height / 2 * difference_of_products(y1, w2, w1, y2)  #: direction
     b = width / 2 * difference_of_products(w1, x2, x1, w2)
-    _, exponent = np.frexp(max(abs(a), abs(b)))
-    unit = np.ldexp(1.0, exponent - DIRECTION_BITS)  #: unit
-    a = sign * np.rint(a / unit)  #: a
-    b = sign * np.rint(b / unit)  #: b
+    a, b = (float(whole) for whole in whole_direction(np.array(a), np.array(b)))  #: whole
+    a = sign * a  #: a
+    b = sign * b  #: b
     c = -(a * x + b * y)  #: c
     return a, b, c
 

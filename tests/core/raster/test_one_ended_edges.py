@@ -10,6 +10,7 @@ from core import ClipScene, Settings, draw_picture, render, trace
 from core.framebuffer.display import to_display
 from core.pixel_history import why
 from core.raster.edges.edge_functions import set_up_per_edge
+from core.raster.edges.one_ended import FARTHEST, whole_direction
 from core.raster.edges.snapping import place_corners
 from core.study.exact.coverage import exact_spans
 from core.trace.source import TraceSource
@@ -70,6 +71,32 @@ def test_every_edge_is_decided_as_rational_arithmetic_decides_it() -> None:
     expected = np.zeros((len(clip), size[1], size[0]), int)
     expected[triangle, row, column] = 1
     assert np.array_equal(cover_each(clip, size), expected)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-40, 1e90])
+def test_whole_numbers_decide_all_vectors_of_the_grid_alike(scale: float) -> None:
+    generator = np.random.default_rng(2)
+    a, b = generator.normal(size=(2, 300)) * scale
+    a[:100] *= np.exp(generator.uniform(-25, 25, 100))
+    a[100:150], b[100:150] = generator.integers(-9, 10, (2, 50))  # Many grid points on the edge.
+    whole_a, whole_b = whole_direction(a, b)
+    assert np.array_equal(np.sign([whole_a, whole_b]), np.sign([a, b]))
+    assert np.abs([whole_a, whole_b]).max() <= 2 * FARTHEST
+    for given, found in zip(
+        np.stack([a, b], 1).tolist(), np.stack([whole_a, whole_b], 1).tolist(), strict=True
+    ):
+        smaller, larger = sorted(abs(Fraction(value)) for value in given)
+        # The slope of the grid point closest to the edge, and one beside it.
+        slope = (smaller / larger).limit_denominator(FARTHEST)
+        for p in (slope.numerator, slope.numerator + 1):
+            for x, y in ((p, slope.denominator), (slope.denominator, p), (-p, slope.denominator)):
+                value = Fraction(given[0]) * x + Fraction(given[1]) * y
+                if value == 0 or abs(value) > Fraction(2.0**-60) * larger * max(abs(x), abs(y)):
+                    assert sign_of(int(found[0]) * x + int(found[1]) * y) == sign_of(value)
+
+
+def sign_of(value: Fraction | int) -> int:
+    return (value > 0) - (value < 0)
 
 
 def test_the_ends_of_an_edge_may_change_places() -> None:
