@@ -3,11 +3,12 @@
 import json
 import struct
 
+import numpy as np
 import pytest
 
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.study_files import StudyFileError, load_study
-from tests.app.files.mesh_writing import SQUARE, ply_text, write
+from tests.app.files.mesh_writing import SQUARE, GltfWriter, ply_text, write
 from tests.app.files.test_earlier_files import EARLIER
 
 LINES = ["0 0 0", "1 0 0", "0 1 0"]
@@ -62,3 +63,11 @@ def test_a_binary_stl_that_counts_more_than_it_has_is_refused(tmp_path):
     content = b" " * 80 + struct.pack("<I", 2**32 - 1) + bytes(50)
     with pytest.raises(MeshFileError, match=r"a\.stl"):
         load_meshes(write(tmp_path / "a.stl", content))
+
+
+def test_a_signalling_nan_in_a_gltf_is_refused_without_a_warning(tmp_path):
+    writer = GltfWriter()
+    corners = np.frombuffer(b"\x01\x00\xa0\x7f" * 9, np.float32).reshape(3, 3)
+    writer.primitive([[0, 1, 2]], POSITION=corners)
+    with pytest.raises(MeshFileError, match=r"a\.glb"):
+        load_meshes(write(tmp_path / "a.glb", writer.glb()))
