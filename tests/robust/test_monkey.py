@@ -1,0 +1,81 @@
+"""A window under random keys, clicks, drags, pages and files: no exception, no stall, no memory that stays."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.window.main_window import MainWindow
+from tests.app.files.mesh_writing import SQUARE, ply_binary
+from tests.core.meshes import torus
+from tests.robust.monkey import Monkey
+
+SEED = 20
+MOST_BYTES = 200 << 20
+"""By which the memory after thirty meshes may be larger than after three."""
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> list[Path]:
+    """Return meshes that open, and one that does not."""
+    small, broken = tmp_path / "square.obj", tmp_path / "broken.obj"
+    small.write_text(SQUARE + "f 1 2 3 4\n")
+    broken.write_text("v 0 0 nan\nf 1 1 9\n")
+    ring = tmp_path / "ring.ply"
+    positions, triangles = torus(96, 48)
+    ring.write_bytes(ply_binary(positions, triangles.tolist()))
+    return [small, broken, ring]
+
+
+def is_busy(window: MainWindow) -> bool:
+    return window.files.progress.is_busy or window.page.views.is_drawing
+
+
+def test_a_short_monkey(
+    window: MainWindow, qtbot: QtBot, files: list[Path], capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkey = Monkey(window, SEED, files)
+    for _ in range(100):
+        monkey.step()
+        qtbot.waitUntil(lambda: not is_busy(window), timeout=60000)
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.slow
+def test_a_long_monkey(window: MainWindow, files: list[Path], capfd: pytest.CaptureFixture[str]) -> None:
+    window.memory.autosave.begin(None)
+    monkey = Monkey(window, SEED, files)
+    for _ in range(5000):
+        monkey.step()
+        problems = capfd.readouterr().err
+        assert problems == "", f"seed {SEED}, step {monkey.number}, after {monkey.steps[-5:]}"
+    assert list(monkey.told()) == []
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="the memory of a process is asked elsewhere otherwise"
+)
+def test_thirty_meshes_leave_no_more_than_three(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    window.memory.autosave.begin(None)
+    window.page.show_view("scene")
+    used = []
+    for number in range(30):
+        path = tmp_path / f"ring {number}.ply"
+        positions, triangles = torus(400, 200)
+        path.write_bytes(ply_binary(positions * (1 + number / 100), triangles.tolist()))
+        window.open_path(str(path))
+        qtbot.waitUntil(lambda path=path: window.session.document.path == str(path), timeout=60000)
+        window.session.set_setting("fill", ("blocks", "scanline")[number % 2])
+        qtbot.waitUntil(lambda: not is_busy(window), timeout=60000)
+        QApplication.processEvents()
+        used.append(resident_bytes())
+    assert used[-1] - used[2] < MOST_BYTES, [found >> 20 for found in used]
+
+
+def resident_bytes() -> int:
+    """Return the memory of this process."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
