@@ -204,6 +204,8 @@ class Scene3dPresenter(QObject):
 
     @Slot(object)
     def _take_drawn(self, drawn: DrawnScene) -> None:
+        if self._document is not self._session.document:
+            return  # of what was open before; the view is hidden, and is brought up to date when it is shown
         self._drawn = drawn
         self._show(drawn)
 

@@ -2,13 +2,16 @@
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.session.document import open_document
 from app.window.main_window import MainWindow
+from lessons.scenes import built_in_scene
 from tests.app.files.mesh_writing import SQUARE, ply_binary
 from tests.core.meshes import torus
 from tests.robust.monkey import Monkey
@@ -42,6 +45,18 @@ def test_a_short_monkey(
         monkey.step()
         qtbot.waitUntil(lambda: not is_busy(window), timeout=60000)
     assert capfd.readouterr().err == ""
+
+
+def test_a_picture_that_comes_after_another_scene_was_opened_is_dropped(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    window.page.show_view("scene")
+    assert window.page.views.is_drawing
+    window.page.show_view("pixels")
+    sphere = built_in_scene("sphere")
+    window.session.open(replace(open_document(sphere.make(), sphere.title), triangle=1399))
+    qtbot.waitUntil(lambda: not window.page.views.is_drawing, timeout=60000)
+    assert window.page.views.scene_presenter.drawn is None
 
 
 @pytest.mark.slow
