@@ -27,7 +27,7 @@ OPAQUE = 1 - 1e-9
 """Alphas from here on are 1, but for rounding."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Seen:
     """What was counted and measured in a scene before anything was tried."""
 
