@@ -76,13 +76,15 @@ def window_mesh(size: tuple[int, int], cells: int, seed: int, steps: int = GRID_
     """Return window corners (T, 3, 2) of a mesh of ``cells`` x ``cells`` uneven cells that reaches beyond the window.
 
     Every pixel belongs to exactly one triangle. Corners are multiples of 1/steps pixel: with 2 steps many lie on pixel
-    centres.
+    centres. They are moved by less than a quarter of a cell, the rounding included: by more, a triangle may turn over.
     """
     source = random_source(seed)
     grid = np.stack(
         np.meshgrid(np.linspace(-0.1, 1.1, cells + 1), np.linspace(-0.1, 1.1, cells + 1)), axis=-1
     )
-    jitter = source.uniform(-0.3, 0.3, grid.shape) * (1.2 / cells)
+    cell = 1.2 / cells
+    reach = max(0.24 - 0.5 / (steps * cell * min(size)), 0.0)
+    jitter = source.uniform(-reach, reach, grid.shape) * cell
     points = on_grid((grid + jitter) * np.array(size), steps)
     first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
     fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
