@@ -113,7 +113,7 @@ def overflow_reported() -> Iterator[None]:
 @contextmanager
 def progress_line() -> Iterator[Report | None]:
     """Give what shows progress where stderr is a terminal, else ``None``; its line is gone at the end."""
-    shows_progress = sys.stderr.isatty()
+    shows_progress = sys.stderr is not None and sys.stderr.isatty()
     yield show_progress if shows_progress else None
     if shows_progress:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)

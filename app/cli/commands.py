@@ -103,7 +103,8 @@ def run_command_line(arguments: Sequence[str]) -> int:
         command = next((c for c in COMMANDS if arguments and c.name == arguments[0]), None)
         program = f"{PROGRAM} {command.name}" if command else PROGRAM
         code = _run_command(command, arguments[1:]) if command else _run_window(arguments)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # as without a console
+            sys.stdout.flush()
         return code
     except KeyboardInterrupt:
         return INTERRUPTED

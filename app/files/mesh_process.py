@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -51,6 +52,7 @@ def read_in_process(
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        start_new_session=True,  # Ctrl+C in the terminal is for the program, which ends the process
     )
     assert process.stdout is not None
     messages: SimpleQueue[tuple[str, Any]] = SimpleQueue()
@@ -106,10 +108,14 @@ def restored(loaded: LoadedMeshes) -> LoadedMeshes:
 
 
 def serve() -> None:
-    """Read the file that the command line names and say on the standard output what came of it."""
-    # Whatever a library prints must not come between the messages.
-    with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as pipe:
-        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    """Read the file that the command line names and say on the standard output what came of it.
+
+    Where nobody listens any more, nothing is said.
+    """
+    with suppress(BrokenPipeError), os.fdopen(os.dup(sys.stdout.fileno()), "wb") as pipe:
+        # Whatever a library prints must not come between the messages. A program without a console has no stderr.
+        other = os.open(os.devnull, os.O_WRONLY) if sys.stderr is None else sys.stderr.fileno()
+        os.dup2(other, sys.stdout.fileno())
 
         def say(kind: str, content: object) -> None:
             pickle.dump((kind, content), pipe, protocol=pickle.HIGHEST_PROTOCOL)

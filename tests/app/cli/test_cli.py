@@ -15,6 +15,7 @@ from PIL import Image
 
 from app import __version__
 from app.__main__ import main
+from app.cli.commands import run_command_line
 from app.cli.render import picture_bytes
 from app.files.open_any import open_any
 from app.files.state_files import State, save_state
@@ -332,3 +333,11 @@ def test_an_interrupt_ends_with_130_and_without_a_word():
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         assert (process.returncode, errors) == (130, b"")
+
+
+def test_a_program_without_a_console_ends_well(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    for name in ("stdout", "stderr"):
+        monkeypatch.setattr(f"sys.{name}", None)
+    assert run_command_line(["render", "cube", "-o", "cube.png", "--size", "8x8"]) == 0
+    assert run_command_line(["render", "cube", "-o", "cube.jpg"]) == 2

@@ -1,5 +1,6 @@
 """Opening a mesh file: which files open, what the others say, framing, progress, cancelling, size."""
 
+import json
 import os
 import subprocess
 import sys
@@ -209,6 +210,26 @@ def test_what_a_reader_prints_does_not_disturb_the_result(tmp_path, monkeypatch)
     monkeypatch.setattr(mesh_process, "START", f"{before}\n{noisy}{serve}")
     loaded = load_meshes(write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n"), None, never)
     assert len(loaded.meshes) == 1
+
+
+def test_a_program_without_a_console_reads_too(tmp_path, monkeypatch):
+    """Such as ``pythonw``: it has no standard error."""
+    before, serve = mesh_process.START.rsplit("; ", 1)
+    monkeypatch.setattr(mesh_process, "START", f"{before}; sys.stderr = None; {serve}")
+    loaded = load_meshes(write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n"), None, never)
+    assert len(loaded.meshes) == 1
+
+
+def test_a_reader_that_nobody_listens_to_any_more_is_quiet(tmp_path):
+    path = write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n")
+    order = [json.dumps([str(mesh_process.PROJECT), *filter(None, sys.path)]), str(path), ""]
+    with subprocess.Popen(
+        [sys.executable, "-P", "-c", mesh_process.START, *order],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
 
 
 SHAPES = [cube(), knot(), torus()]
