@@ -191,6 +191,7 @@ def anchored_coefficient(step: StepValues) -> Said:
         rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}}"
     )
     given = number_latex(step.vector("direction")["ab".index(name)])
+    text = f"{text.removesuffix('.')}, in whole numbers that keep the edge's direction before snapping."
     whole = (rf"\mathrm{{whole}}({symbols})", rf"\mathrm{{whole}}({given})")
     return text, equation(value, "=", ("s", _sign(step.number("doubled_area"))), r"\cdot", whole)
 

@@ -47,7 +47,7 @@ C.-P. Jeannerod, *A radix-independent error analysis of the Cornea-Harrison-Tang
 T. J. Dekker, *A floating-point technique for extending the available precision*, 1971 (the exact product).
 """
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -81,7 +81,7 @@ def given_directions(corners: CornerPositions) -> tuple[Floats, Floats]:
     return a, b
 
 
-def whole_direction(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def whole_direction(a: Floats | float, b: Floats | float) -> tuple[Any, Any]:
     """Return whole numbers below 2^27 that decide all vectors of whole numbers up to ``FARTHEST`` as a and b do.
 
     Parameters
@@ -176,7 +176,7 @@ def anchored_coefficients(
     width, height = size
     a = height / 2 * difference_of_products(y1, w2, w1, y2)  #: direction
     b = width / 2 * difference_of_products(w1, x2, x1, w2)
-    a, b = (float(whole) for whole in whole_direction(np.array(a), np.array(b)))  #: whole
+    a, b = whole_direction(a, b)  #: whole
     a = sign * a  #: a
     b = sign * b  #: b
     c = -(a * x + b * y)  #: c
