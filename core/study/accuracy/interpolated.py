@@ -29,7 +29,8 @@ class InterpolationTask(FrameTask):
 
     def __init__(self, assignment: Assignment) -> None:
         side, far = int(assignment.dials["side"]), assignment.dials["w-ratio"]
-        w = np.array([1.0, 1.0, far, far] if assignment.work == "square" else [1.0, far, far, 1.0])
+        self._receding = 1 if assignment.work == "square" else 0
+        w = np.array([[1.0, far, far, 1.0], [1.0, 1.0, far, far]][self._receding])
         self._quad = receding_quad((side, side), w)
         super().__init__(self._quad, side * side, ("interpolate",))
 
@@ -74,9 +75,9 @@ class InterpolationTask(FrameTask):
         return {MEAN_TEXEL.name: float(distance.mean()), LARGEST_TEXEL.name: float(distance.max())}
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
-        """Return the sum of u and v, of which one runs towards the far side, in texels."""
+        """Return the coordinate, u or v, that runs towards the far side, in texels."""
         result, exact = self._coordinates(settings)
-        return scalar_pictures(result.sum(axis=2), exact.sum(axis=2))
+        return scalar_pictures(result[..., self._receding], exact[..., self._receding])
 
 
 INTERPOLATION = StudyFamily(
