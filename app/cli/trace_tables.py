@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from core.explain import account
 from core.explain.latex import plain_text, without_macros
 from core.trace import Explanation, StageTrace
+from core.trace.symbols import symbols_of
 
 Header = dict[str, Any]
 
@@ -80,7 +81,7 @@ def json_lines(stage: StageTrace, header: Header) -> Iterator[str]:
 
 def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
     """Return everything that is known of one row, in values that JSON has."""
-    triangle, pixel = int(stage.triangle[row]), pixel_of(stage, row)
+    triangle, pixel, symbols = int(stage.triangle[row]), pixel_of(stage, row), symbols_of(stage)
     operations = []
     for position, explanation in explanations(stage, row):
         listing, line = explanation.listing, explanation.line
@@ -96,7 +97,7 @@ def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
                 }
                 if made is not None
                 else None,
-                "changed": list(explanation.changed),
+                "changed": [symbols.get(name, name) for name in explanation.changed],
                 "function": listing.function.__name__ if listing is not None and line else None,
                 "line": line or None,
                 "code": listing.source.splitlines()[line - 1].strip() if listing and line else None,
@@ -108,7 +109,7 @@ def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
         "triangle": triangle if triangle >= 0 else None,
         "pixel": pixel,
         "marks": [name for name, flags in stage.marks.items() if flags[row]],
-        "columns": {name: plain(column[row]) for name, column in stage.columns.items()},
+        "columns": {symbols.get(name, name): plain(column[row]) for name, column in stage.columns.items()},
         "operations": operations,
     }
 
@@ -116,9 +117,10 @@ def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
 def csv_lines(stage: StageTrace) -> Iterator[str]:
     """Yield the lines of a CSV table, names first: a line for each row, a column for each element of an array."""
     names, parts = ["row_number", "row_kind", "row_triangle", "pixel_column", "pixel_row"], []
+    symbols = symbols_of(stage)
     for name, column in stage.columns.items():
         flat = column.reshape(len(column), math.prod(column.shape[1:]))
-        names += column_names(name, column.shape[1:])
+        names += column_names(symbols.get(name, name), column.shape[1:])
         parts.append(flat)
     names += [f"is_{mark.replace('-', '_')}" for mark in stage.marks]
     yield csv_line(names)
@@ -141,7 +143,7 @@ def column_names(name: str, shape: tuple[int, ...]) -> list[str]:
 
 
 def arrays(stage: StageTrace) -> dict[str, NDArray[Any]]:
-    """Return the columns by their names, what the rows are, their marks, and the buffers after the last row.
+    """Return the columns by their symbols or names, what the rows are, their marks, and the buffers after the last row.
 
     Returns
     -------
@@ -151,7 +153,8 @@ def arrays(stage: StageTrace) -> dict[str, NDArray[Any]]:
         row 0 at the bottom.
     """
     steps = stage.steps
-    found: dict[str, NDArray[Any]] = dict(stage.columns)
+    symbols = symbols_of(stage)
+    found: dict[str, NDArray[Any]] = {symbols.get(name, name): of for name, of in stage.columns.items()}
     found |= {
         "row_kind": np.array(steps.kinds)[steps.kind],
         "row_triangle": stage.triangle,

@@ -15,15 +15,10 @@ import numpy as np
 
 from core.records.arrays import Flags
 from core.trace.stage_trace import StageTrace
+from core.trace.symbols import column_of, symbols_of
 
 TEXT_LIMIT = 300
 """Longest condition in characters."""
-
-SYMBOLS = {
-    **{f"E{k}": f"value_{k}" for k in range(3)},
-    **{"D": "decision", "m": "slope", "I": "intensity"},
-}
-"""Symbols of formulas, to the names that a trace has for them; a condition may use either."""
 
 _ARITHMETIC: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -181,19 +176,16 @@ def _flags(node: ast.expr, trace: StageTrace) -> Any:
 
 def variable_names(trace: StageTrace) -> tuple[str, ...]:
     """Return the names that a condition on this stage may use."""
-    symbols = {name: symbol for symbol, name in SYMBOLS.items()}
+    symbols = symbols_of(trace)
     names = {symbols.get(name, name) for name in trace.columns} | {*trace.constants, "kind", "triangle"}
     return tuple(sorted(names, key=str.lower))
 
 
 def _column(name: str, trace: StageTrace) -> Any:
-    """Return a variable of all rows: a column by name or symbol, a constant, ``kind`` or ``triangle``."""
-    if name not in trace.columns and SYMBOLS.get(name) in trace.columns:
-        name = SYMBOLS[name]
-    if name in trace.columns:
-        return trace.columns[name]
-    if name in trace.constants:
-        return np.asarray(trace.constants[name])
+    """Return a variable of all rows: a column or an element of it, a constant, ``kind`` or ``triangle``."""
+    found = column_of(name, trace)
+    if found is not None:
+        return found
     if name == "kind":
         return np.array(trace.steps.kinds)[trace.steps.kind]
     if name == "triangle":

@@ -47,6 +47,9 @@ def trace_lines(source: TraceSource) -> StageTrace:
     is_steep = columns["is_steep"]
     columns["major"] = np.where(is_steep, pixel[:, 1], pixel[:, 0])
     columns["minor"] = np.where(is_steep, pixel[:, 0], pixel[:, 1])
+    columns["dx"], columns["dy"] = (
+        np.where(is_steep, columns[other], columns[own]) for own, other in (("run", "rise"), ("rise", "run"))
+    )
 
     method = table.get("line", line)
     operations = method.operations

@@ -1,6 +1,7 @@
 """Lines of a wireframe: how each method chooses its pixels, and interpolation along them."""
 
 import math
+from functools import partial
 
 from core.explain.digits import number_latex, spoken, vector_text
 from core.explain.equation import (
@@ -18,7 +19,8 @@ from core.explain.equation import (
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.variable_text import VariableText, given, shows
+from core.explain.variable_text import GIVEN, PIXEL, VariableText, given, shows
+from core.methods import table
 from core.raster.lines.traits import line_traits
 from core.records.words import counted
 
@@ -63,9 +65,9 @@ def octant(step: StepValues) -> Said:
     wanted = r"\ge" if traits.is_diagonal_steep else ">"
     in_x, in_y = (rise, run) if is_steep else (run, rise)
     return text + end, equation(
-        (r"|\Delta y|", in_y),
+        ("dy", in_y),
         (wanted, relation(in_y, in_x)),
-        (r"|\Delta x|", in_x),
+        ("dx", in_x),
         *conclusion("row by row", steps),
     )
 
@@ -79,7 +81,7 @@ def lengths(step: StepValues) -> Said:
         f"The line goes {counted(int(run), 'pixel')} along {major} and {spoken(rise)} along {minor}, "
         f"so the decision value D starts at 2 · {spoken(rise)} − {spoken(run)} = {spoken(2 * rise - run)}."
     )
-    across, along = (rf"|\Delta {minor}|", rise), (rf"|\Delta {major}|", run)
+    across, along = (f"d{minor}", rise), (f"d{major}", run)
     return text, equation(("D", 2 * rise - run), "=", "2", r"\cdot", across, "-", along)
 
 
@@ -88,7 +90,7 @@ def error_slope(step: StepValues) -> Said:
     """The slope that is added to the error."""
     major, minor = axes(step)
     run, rise, m = (step.number(name) for name in ("run", "rise", "slope"))
-    bars = fraction((rf"|\Delta {minor}|", rise), (rf"|\Delta {major}|", max(run, 1.0)))
+    bars = fraction((f"d{minor}", rise), (f"d{major}", max(run, 1.0)))
     text = f"The slope m is {spoken(rise)} / {spoken(run)} = {spoken(m)}, the change along {minor} with every pixel."
     return text, equation(("m", m), "=", bars)
 
@@ -308,14 +310,27 @@ def decision_name(step: StepValues) -> str:
     return DECISIONS.get(line_method(step), "{minor}").format(minor=minor)
 
 
+def _pixel_label(step: StepValues, word: str, symbol: str) -> str:
+    """Return a coordinate's word, or its symbol where the line method's own coordinates are pixels."""
+    line = line_method(step)
+    return symbol if line in table.names("line") and line_traits(line).takes_pixels else word
+
+
+shows(
+    "raster",
+    {
+        name: VariableText(partial(_pixel_label, word=name, symbol=symbol), PIXEL[name].meaning, GIVEN)
+        for name, symbol in (("column", "x"), ("row", "y"))
+    },
+)
 shows(
     "raster",
     {
         "first_end": VariableText("first end", "Start of the line, as the method uses it."),
         "second_end": VariableText("second end", "End of the line, as the method uses it."),
         "is_steep": VariableText("steep", "Whether y is the major axis: one pixel in every row."),
-        "run": VariableText(lambda step: f"|Δ{axes(step)[0]}|", "Length along the major axis."),
-        "rise": VariableText(lambda step: f"|Δ{axes(step)[1]}|", "Length along the minor axis."),
+        "dx": VariableText("dx", "Length along x, without sign.", "run"),
+        "dy": VariableText("dy", "Length along y, without sign.", "run"),
         "slope": VariableText("m", "Slope: change of the minor coordinate with every step."),
         "intercept": VariableText("b", "Intercept: minor coordinate where the major one is 0."),
         "decision": VariableText(decision_name, "The number whose sign or rounding chooses the pixel."),

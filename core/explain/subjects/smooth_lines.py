@@ -25,7 +25,7 @@ def rectangle_length(step: StepValues) -> Said:
         f"rectangle is {spoken(length)} px long and reaches half a pixel to either side."
     )
     x, y = map(number_latex, (rise, run) if step.flag("is_steep") else (run, rise))
-    return text, equation(("L", length), "=", (r"\sqrt{\Delta x^2 + \Delta y^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
+    return text, equation(("L", length), "=", (r"\sqrt{dx^2 + dy^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
 
 
 @explains("raster.rectangle|rectangle-start.across")
@@ -44,7 +44,7 @@ def across(step: StepValues) -> Said:
     from_y, of_y = difference(("y", y), ("y_0", y0))
     from_x, of_x = difference(("x", x), ("x_0", x0))
     products = (
-        rf"\Delta x ({from_y}) - \Delta y ({from_x})",
+        rf"(x_1 - x_0) ({from_y}) - (y_1 - y_0) ({from_x})",
         rf"{signed_latex(x1 - x0)} \cdot ({of_y}) - {signed_latex(y1 - y0)} \cdot ({of_x})",
     )
     within: list[Part] = [f"-{_HALF}", r"\le", ("a", away), r"\le", _HALF]
