@@ -46,11 +46,10 @@ def study_csv(study: Study) -> str:
     writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
     writer.writeheader()
     common = context | {f"dial_{name}": study.dials[name] for name in dials} | dict(study.machine) | settings
+    front_of = {name: pareto_front(study.points, name) for name in errors}
     for point in study.points:
         on_front = {
-            f"on_front_{name}": int(point in pareto_front(study.points, name))
-            for name in errors
-            if point.is_measured
+            f"on_front_{name}": int(point in front) for name, front in front_of.items() if point.is_measured
         }
         writer.writerow(common | on_front | point_cells(study, point))
     cost = next((dial.name for dial in study.work.dials if dial.is_cost), None)

@@ -97,6 +97,17 @@ class StudyRecord(Record):
             raise ValueError(
                 f"dials must be those of its work ({names}), got {', '.join(sorted(found)) or 'none'}"
             )
+        measures = [measure.name for measure in self.measures]
+        for points in (self.points, *(each.points for each in self.growth)):
+            methods = [point.method for point in points]
+            for name, values in (("measure", measures), ("method", methods)):
+                if len(set(values)) < len(values):
+                    raise ValueError(f"every {name} must be there once, one is there twice")
+            for point in points:
+                if unknown := set(point.errors) - set(measures):
+                    raise ValueError(
+                        f"errors must be those of the measures, {point.method} has {min(unknown)}"
+                    )
         return self
 
 

@@ -19,6 +19,7 @@ from threading import Lock
 from PySide6.QtCore import QLockFile
 
 from app.files.file_writing import FileWriteError, make_folder
+from app.files.input_files import open_input
 from app.files.state_arrays import ArrayFolder, array_folder
 from app.files.state_files import EXTENSION, State, save_state
 
@@ -41,7 +42,7 @@ class EarlierWindow:
     @property
     def title(self) -> str:
         """What was open."""
-        with suppress(OSError, ValueError), open(self.path, "rb") as file:
+        with suppress(OSError, ValueError), open_input(self.path) as file:
             found = re.search(rb'"title": ("(?:[^"\\]|\\.)*")', file.read(TITLE_WITHIN))
             if found:
                 return str(json.loads(found[1])) or "Untitled"

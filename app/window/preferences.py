@@ -124,6 +124,6 @@ def save_preferences(preferences: Preferences) -> None:
 def _recent_of_others(folder: Path) -> list[str]:
     """Return the recent files that stand in the preferences now; another window may have saved them."""
     try:
-        return Preferences.model_validate_json((folder / FILE_NAME).read_bytes()).recent_files
+        return Preferences.model_validate_json(read_input(folder / FILE_NAME, SIZE_LIMIT)).recent_files
     except (OSError, ValidationError):
         return []

@@ -25,6 +25,7 @@ REFUSED = {
         "a list of face has length -1",
     ),
     "a list that is not a number long": ("a.ply", ply_text(LINES, ["nan 0 1 2"]), "has length -1"),
+    "a word among numbers": ("a.ply", ply_text([*LINES[:2], "0 x 0"], ["3 0 1 2"]), "a.ply, line 12"),
     "a texture coordinate without numbers": ("a.obj", SQUARE + "vt\nf 1 2 3\n", "line 5"),
 }
 
@@ -52,10 +53,31 @@ def test_a_ply_with_half_of_its_columns_opens_without_them(tmp_path, names, want
     assert (loaded.meshes[0].uvs, loaded.meshes[0].normals) == (None, None)
 
 
-def test_a_study_without_the_value_of_its_dial_is_refused(tmp_path):
+def repeat_a_method(record):
+    record["points"] *= 2
+
+
+def repeat_a_measure(record):
+    record["measures"] *= 2
+
+
+def name_an_error_that_nothing_measures(record):
+    record["points"][0]["errors"]["x"] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("change", "wanted"),
+    [
+        (lambda record: record["dials"].clear(), "dials must be those of its work"),
+        (repeat_a_method, "every method must be there once"),
+        (repeat_a_measure, "every measure must be there once"),
+        (name_an_error_that_nothing_measures, "errors must be those of the measures, .* has x"),
+    ],
+)
+def test_a_study_that_does_not_fit_together_is_refused(tmp_path, change, wanted):
     record = json.loads((EARLIER / "study-cull-closed.json").read_text())
-    record["dials"] = {}
-    with pytest.raises(StudyFileError, match="dials must be those of its work"):
+    change(record)
+    with pytest.raises(StudyFileError, match=wanted):
         load_study(write(tmp_path / "a.json", json.dumps(record)))
 
 

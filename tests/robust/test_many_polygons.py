@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.files.mesh_files import load_meshes
+from app.files.named_files import OutsideWarning
 from tests.app.files.mesh_writing import write, write_image
 
 DART = ((0, 0), (2, 1), (0, 2), (0.5, 1))
@@ -67,6 +68,17 @@ def test_a_texture_is_read_once_however_often_it_is_named(tmp_path, monkeypatch)
     assert opened == ["a.png"]
     assert len({id(mesh.texture) for mesh in loaded.meshes}) == 1
     assert len(loaded.meshes) == 20
+
+
+def test_of_many_warnings_only_the_first_are_shown(tmp_path):
+    names = "".join(f"newmtl m{k}\nmap_Kd ../m{k}.png\n" for k in range(30))
+    write(tmp_path / "a.mtl", f"{names}Kd red\n")
+    faces = "".join(f"usemtl m{k}\nf 1/1 2/1 3/1\n" for k in range(30))
+    text = f"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n{faces}"
+    warnings = load_meshes(write(tmp_path / "a.obj", text)).warnings
+    assert len(warnings) == 21
+    assert all(isinstance(warning, OutsideWarning) for warning in warnings[:20])
+    assert warnings[20] == "11 more warnings are not shown"
 
 
 def test_splitting_many_polygons_reports(tmp_path):

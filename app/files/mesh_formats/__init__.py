@@ -6,6 +6,7 @@ sort triangles before quads, regroup them by material and leave out what they do
 of triangles (STL, GLB, glTF) need less: STL goes through trimesh.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from app.files.mesh_formats.reading import (
 )
 from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.through_trimesh import describe
-from app.files.named_files import NamedFiles
+from app.files.named_files import NamedFiles, OutsideWarning
 from core.scene import Mesh
 
 READERS: dict[str, Reader] = {
@@ -40,6 +41,9 @@ READERS: dict[str, Reader] = {
 
 EXTENSIONS = tuple(READERS)
 """Endings of the files that open, in lower case with their dot."""
+
+WARNINGS = 20
+"""Most warnings about one file."""
 
 TOGETHER = 4096
 """Triangles looked at together: nearly always some of the first have an area."""
@@ -75,6 +79,7 @@ def read_file(path: Path, report: Report, allows_outside: bool = False) -> Loade
             raise MeshFileError(f"{path.name} is empty")
         loaded = reader(path, report, NamedFiles(path, allows_outside))
         check_meshes(path, loaded.meshes)
+        loaded = replace(loaded, warnings=first_warnings(loaded.warnings))
     except MeshFileError:
         raise
     except FileNotFoundError as problem:
@@ -91,6 +96,14 @@ def read_file(path: Path, report: Report, allows_outside: bool = False) -> Loade
         # The checks of the core on the arrays of a mesh, and whatever a reader has not thought of.
         raise MeshFileError(f"{path.name} cannot be used: {describe(problem)}") from problem
     return loaded
+
+
+def first_warnings(warnings: tuple[str, ...]) -> tuple[str, ...]:
+    """Return as many warnings as a person may read, and how many more there are."""
+    if len(warnings) <= WARNINGS:
+        return warnings
+    kept = sorted(warnings, key=lambda text: not isinstance(text, OutsideWarning))[:WARNINGS]
+    return (*kept, f"{len(warnings) - WARNINGS} more warnings are not shown")
 
 
 def check_meshes(path: Path, meshes: tuple[Mesh, ...]) -> None:

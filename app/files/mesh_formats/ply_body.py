@@ -126,16 +126,26 @@ def read_numbers(path: Path, start: int, report: Report) -> Cells:
     pieces = []
     size = path.stat().st_size
     with open_input(path) as file:
-        file.seek(start)
+        number = file.read(start).count(b"\n")
         while lines := file.readlines(2**20):
             try:
                 pieces.append(np.array([float(word) for word in b" ".join(lines).split()]))
             except ValueError as problem:
+                wrong = next(k for k, line in enumerate(lines, 1) if not is_numbers(line))
                 raise MeshFileError(
-                    f"{path.name} has something other than numbers in its rows: {problem}"
+                    f"{path.name}, line {number + wrong}: something other than numbers: {problem}"
                 ) from problem
+            number += len(lines)
             report(min(1.0, file.tell() / size), "reading numbers")
     return np.concatenate(pieces) if pieces else np.zeros(0)
+
+
+def is_numbers(line: bytes) -> bool:
+    """Return whether a line holds nothing but numbers."""
+    try:
+        return all(isinstance(float(word), float) for word in line.split())
+    except ValueError:
+        return False
 
 
 def read_element(
