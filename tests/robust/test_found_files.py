@@ -8,7 +8,7 @@ import pytest
 
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.study_files import StudyFileError, load_study
-from tests.app.files.mesh_writing import SQUARE, GltfWriter, ply_text, write
+from tests.app.files.mesh_writing import SQUARE, GltfWriter, ply_text, stl_text, write
 from tests.app.files.test_earlier_files import EARLIER
 
 LINES = ["0 0 0", "1 0 0", "0 1 0"]
@@ -85,6 +85,12 @@ def test_a_binary_stl_that_counts_more_than_it_has_is_refused(tmp_path):
     content = b" " * 80 + struct.pack("<I", 2**32 - 1) + bytes(50)
     with pytest.raises(MeshFileError, match=r"a\.stl"):
         load_meshes(write(tmp_path / "a.stl", content))
+
+
+def test_infinite_corners_of_a_text_stl_are_refused_without_a_warning(tmp_path):
+    text = stl_text(np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])).replace("vertex 1 0 0", "vertex 1e999 0 0")
+    with pytest.raises(MeshFileError, match=r"a\.stl"):
+        load_meshes(write(tmp_path / "a.stl", text))
 
 
 def test_a_signalling_nan_in_a_gltf_is_refused_without_a_warning(tmp_path):

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from app.files.input_files import open_input
 from app.files.mesh_formats.reading import MeshFileError
 
@@ -38,7 +40,8 @@ def load_with_trimesh(path: Path) -> Any:
     import trimesh
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-    with open_input(path) as file, warnings.catch_warnings():
+    # Infinite numbers would warn in its products; they are refused later.
+    with open_input(path) as file, warnings.catch_warnings(), np.errstate(all="ignore"):
         # numpy.fromstring only warns where a text stops being numbers: half a mesh would pass as the whole.
         warnings.filterwarnings("error", message="string or file could not be read to its end")
         return trimesh.load_scene(file, file_type=path.suffix.lower()[1:], process=False)
