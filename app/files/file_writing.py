@@ -108,7 +108,7 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
 @contextmanager
 def _beside(target: Path) -> Iterator[BinaryIO]:
     """Open a new file in the folder of ``target`` that replaces it at the end, or disappears."""
-    _remove_abandoned(target)
+    remove_abandoned(target.parent, _part_prefix(target))
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=_part_prefix(target), suffix=PART)
     try:
         with os.fdopen(handle, "wb") as file:
@@ -126,10 +126,10 @@ def _beside(target: Path) -> Iterator[BinaryIO]:
         raise
 
 
-def _remove_abandoned(target: Path) -> None:
-    """Remove unfinished files of ``target`` whose writer was killed; the others are locked, or have just begun."""
-    for entry in os.scandir(target.parent):
-        if entry.name.startswith(_part_prefix(target)) and entry.name.endswith(PART):
+def remove_abandoned(folder: Path, prefix: str) -> None:
+    """Remove unfinished files whose writer was killed; the others are locked, or have just begun."""
+    for entry in os.scandir(folder):
+        if entry.name.startswith(prefix) and entry.name.endswith(PART):
             with suppress(OSError):
                 if time.time() - entry.stat().st_mtime > SECONDS_TO_BEGIN and not _is_locked(entry.path):
                     os.unlink(entry.path)

@@ -18,7 +18,7 @@ from threading import Lock
 
 from PySide6.QtCore import QLockFile
 
-from app.files.file_writing import FileWriteError, make_folder
+from app.files.file_writing import FileWriteError, make_folder, remove_abandoned
 from app.files.input_files import open_input
 from app.files.state_arrays import ArrayFolder, array_folder
 from app.files.state_files import EXTENSION, State, save_state
@@ -117,7 +117,9 @@ def earlier_windows(folder: Path) -> list[EarlierWindow]:
 
 
 def remove_oldest_windows(folder: Path) -> None:
-    """Remove the oldest of the files that no window has open, where there are more than `KEPT`."""
+    """Remove the oldest of the files that no window has open, where there are more than `KEPT`, and unfinished ones."""
+    if folder.is_dir():
+        remove_abandoned(folder, f".{STEM}")
     for earlier in earlier_windows(folder)[KEPT:]:
         with suppress(OSError):
             earlier.path.unlink()

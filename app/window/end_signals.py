@@ -2,16 +2,19 @@
 
 import signal
 import socket
+from time import monotonic
 from types import FrameType
 
 from PySide6.QtCore import QObject, QSocketNotifier, Signal, Slot
 
+PATIENCE = 3.0
+"""Seconds after the first signal in which others change nothing: longer than closing takes."""
 NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 """Not every system has all of them."""
 
 
 class EndSignals(QObject):
-    """Listens to the signals; a second one of a kind ends the program at once.
+    """Listens to the signals, and reports the first one; one that comes much later ends the program at once.
 
     Notes
     -----
@@ -24,6 +27,7 @@ class EndSignals(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._first_at: float | None = None
         self._reader, self._writer = socket.socketpair()
         for end in (self._reader, self._writer):
             end.setblocking(False)
@@ -33,7 +37,7 @@ class EndSignals(QObject):
         for number in (getattr(signal, name) for name in NAMES if hasattr(signal, name)):
             # A program that was started to outlive its terminal, as by nohup, still does.
             if signal.getsignal(number) != signal.SIG_IGN:
-                signal.signal(number, _end_at_once_next_time)
+                signal.signal(number, self._take)
 
     def stop(self) -> None:
         """Do not listen any more."""
@@ -42,11 +46,15 @@ class EndSignals(QObject):
         self._reader.close()
         self._writer.close()
 
+    def _take(self, number: int, frame: FrameType | None) -> None:
+        # Whoever ends a group of processes may well send two signals at once: the first is still being obeyed.
+        if self._first_at is None:
+            self._first_at = monotonic()
+        elif monotonic() - self._first_at > PATIENCE:
+            signal.signal(number, signal.SIG_DFL)
+            signal.raise_signal(number)
+
     @Slot()
     def _read(self) -> None:
-        for number in self._reader.recv(64):
-            self.received.emit(number)
-
-
-def _end_at_once_next_time(number: int, frame: FrameType | None) -> None:
-    signal.signal(number, signal.SIG_DFL)
+        self._notifier.setEnabled(False)
+        self.received.emit(self._reader.recv(1)[0])

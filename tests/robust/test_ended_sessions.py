@@ -49,10 +49,11 @@ class EditedSession:
             assert self.process.poll() is None, self.process.stderr.read()
             time.sleep(0.01)
 
-    def end(self, name: str) -> int:
-        """Send a signal; return the last edit that must not be lost."""
+    def end(self, name: str, times: int = 1) -> int:
+        """Send a signal, or one after the other; return the last edit that must not be lost."""
         at = time.monotonic()
-        self.process.send_signal(getattr(signal, name))
+        for _ in range(times):
+            self.process.send_signal(getattr(signal, name))
         self.process.wait(60)
         self.listener.join()
         with self.process.stderr, self.process.stdout:
@@ -81,9 +82,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_program_that_is_asked_to_end_saves_first_and_goes_on_at_the_next_start(folder: Path) -> None:
     session = EditedSession(0)
     session.wait_for_edits(2)
-    last = session.end("SIGTERM")
+    last = session.end("SIGTERM", times=3)
     found = reopen()
     assert (found.message, number_of(found)) == (None, last)
+    assert not list(folder.glob(".*.part"))
 
 
 def test_what_was_saved_before_a_program_is_killed_is_offered(folder: Path) -> None:
