@@ -22,9 +22,7 @@ VISIBILITIES: dict[Visibility, str] = {
 COLORS: dict[Coloring, str] = {
     "palette": "one for each triangle",
     "corners": "corner colours interpolated as bytes, or as linear light where they differ much",
-    "normals": "light once per visible pixel, in single precision",
-    "lit-texture": "light and texture once per visible pixel, in single precision",
-    "meshes": "light, and texture where there is one, once per visible pixel, mesh by mesh",
+    "lit": "light once per visible pixel, in single precision",
     "texture": "packed texels",
     "deferred": "attributes and light once per visible pixel",
 }

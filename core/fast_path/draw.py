@@ -79,8 +79,8 @@ def draw_picture(
     more away than they are.
 
     The triangle seen at every pixel is that of `render`. The bytes are those of `render` and `to_display` where the
-    `Route` has the colours ``palette`` or ``deferred``, as multisampled pictures always have; with ``corners``,
-    ``normals``, ``lit-texture`` and ``meshes`` they are up to one away, with ``texture`` up to three;
+    `Route` has the colours ``palette`` or ``deferred``, as multisampled pictures always have; with ``corners``
+    and ``lit`` they are up to one away, with ``texture`` up to three;
     but the filter ``nearest`` may take the other texel on the border between two. In a triangle that is hardly wider
     than snapping moves it and has corners much alike, ``corners`` stay between these, where `render` extrapolates.
     """

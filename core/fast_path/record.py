@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from core.records.frame import StageCount
 
 Visibility = Literal["layer", "packed-depth", "stacks", "frame", "supersampled", "multisampled"]
-Coloring = Literal["palette", "corners", "normals", "lit-texture", "meshes", "texture", "deferred"]
+Coloring = Literal["palette", "corners", "lit", "texture", "deferred"]
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ class Route:
     and what they show averaged where they differ."""
     color: Coloring
     """``palette``: one colour a triangle; ``corners``: corner colours interpolated, as bytes where that is near enough,
-    else as linear light, else like ``deferred``; ``normals``: normals lit once per visible pixel; ``lit-texture``: the
-    same times a texture, read in single precision; ``meshes``: each mesh in one of these two ways; ``texture``: packed
-    texels in bands; ``deferred``: attributes and light once per visible pixel, as ``render`` has them."""
+    else as linear light, else like ``deferred``; ``lit``: normals, and a texture or colours of vertices, lit once per
+    visible pixel in single precision; ``texture``: packed texels in bands; ``deferred``: attributes and light once per
+    visible pixel, as ``render`` has them."""
     split: Split | None = None
     visible: int = 0
     """Pixels that something is seen at."""

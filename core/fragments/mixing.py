@@ -21,9 +21,9 @@ BLOCK = 16384
 class LocalNumbers:
     """Numbers the primitives that a block of fragments shows, 0, 1, 2 and so on."""
 
-    def __init__(self, primitive_count: int) -> None:
+    def __init__(self, primitive_count: int, block: int = BLOCK) -> None:
         self._number = np.empty(primitive_count, np.int64)
-        self._order = np.arange(BLOCK)
+        self._order = np.arange(block)
 
     def number(self, primitive: Integers) -> tuple[Integers, Integers]:
         """Return the primitives that occur in ``primitive`` (F,), and the number of each fragment's among them.
@@ -31,7 +31,7 @@ class LocalNumbers:
         Parameters
         ----------
         primitive : (F,) int64 array
-            At most ``BLOCK`` of them.
+            At most ``block`` of them.
 
         Returns
         -------

@@ -13,15 +13,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.fast_path.draw_context import DrawContext, blocks
+from core.fast_path.draw_context import BLOCK, DrawContext, blocks
 from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.lit.normals import NormalPlanes, unit_normals
 from core.fast_path.lit.pixel_light import PixelLight, lit_pixels
+from core.fast_path.lit.planes import Shown
+from core.fragments.mixing import LocalNumbers
 from core.framebuffer.nearest import NearestFragments
 from core.records.arrays import Flags, Integers, Singles
 
-Albedo = Callable[[Integers, Integers, Integers], Sequence[Singles | np.float32]]
-"""Linear grey, or red, green and blue, of primitives (F,) at columns and rows (F,)."""
+Albedo = Callable[[DrawContext, Shown, Integers, Integers], Sequence[Singles | np.float32]]
+"""Linear grey, or red, green and blue, of primitives of a context at columns and rows (F,)."""
 Seen = Iterable[tuple[Integers, Integers]]
 """Places in the picture (V,), and the primitives (V,) that are seen there, some at a time."""
 
@@ -49,13 +51,15 @@ class LitPlanes:
 
     def light_seen(self, context: DrawContext, seen: Seen, albedo: Albedo) -> Lit:
         """Write the lit colour of what is seen at some of the (H*W,) pixels; those in doubt are to be coloured anew."""
+        numbers = LocalNumbers(len(self.is_doubtful), BLOCK)
         seen_count, has_doubtful = 0, bool(self.is_doubtful.any())
         doubtful = [np.empty(0, np.int64)]
         for place, primitive in seen:
             seen_count += len(place)
             column, row = context.raster.position(place)
-            color = albedo(primitive, column, row)
-            normal = unit_normals(self.normals, context, primitive, column, row)
+            shown = Shown(*numbers.number(primitive))
+            color = albedo(context, shown, column, row)
+            normal = unit_normals(self.normals, context, shown, column, row)
             diffuse, specular, in_doubt = self.light.at(context, normal, self.turn, column, row)
             context.pixels[place] = lit_pixels(context, color, diffuse, specular)
             doubtful.append(place.take(in_doubt))

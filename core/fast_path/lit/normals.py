@@ -10,7 +10,7 @@ import numpy as np
 from core.fast_path.draw_context import DrawContext
 from core.fast_path.lit.corner_places import CornerPlaces
 from core.fast_path.lit.pixel_light import make_unit
-from core.fast_path.lit.planes import Plane, evaluate, plane_through
+from core.fast_path.lit.planes import Plane, Shown, evaluate, plane_through
 from core.fast_path.lit.vertex_facts import VertexFacts, are_unlike
 from core.records.arrays import Flags, Integers, Singles
 from core.scene import Camera
@@ -63,13 +63,13 @@ def normal_planes(
 
 
 def unit_normals(
-    planes: NormalPlanes, context: DrawContext, primitive: Integers, column: Integers, row: Integers
+    planes: NormalPlanes, context: DrawContext, shown: Shown, column: Integers, row: Integers
 ) -> Singles:
-    """Return the unit normals (3, F) float32 of primitives (F,) at pixels, in the context's scratch."""
+    """Return the unit normals (3, F) float32 of primitives at pixels (F,), in the context's scratch."""
     x, y = context.raster.centers(column, row)
     value, term = context.scratch("normal_value", len(x)), context.scratch("normal_term", len(x))
     components = context.scratch("components", 3, len(x), dtype=np.float32)
     for plane, component in zip(planes, components, strict=True):
-        evaluate(plane, primitive, x, y, value, term)
+        evaluate(plane, shown, x, y, value, term)
         np.copyto(component, value, casting="same_kind")
     return make_unit(components, context.scratch)

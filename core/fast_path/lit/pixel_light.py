@@ -41,6 +41,11 @@ class PixelLight:
     lights: tuple[FarLight, ...]
     camera: Camera
 
+    @property
+    def strength(self) -> float:
+        """Greatest ambient and diffuse light that there can be."""
+        return self.material.ambient + self.material.diffuse * sum(max(color) for _, color in self.lights)
+
     def at(
         self, context: DrawContext, normal: Singles, turn: float, column: Integers, row: Integers
     ) -> tuple[Singles, Singles, Integers]:

@@ -4,6 +4,8 @@ Planes through corners far from the origin are rounded, these and those of ``ren
 area, as a part of what the corners differ by (``core.fragments.interpolation``).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from core.fast_path.lit.corner_places import CornerPlaces
@@ -37,12 +39,21 @@ def rounding(places: CornerPlaces, extent: Floats) -> Floats:
     return extent
 
 
-def evaluate(plane: Plane, primitive: Integers, x: Floats, y: Floats, values: Floats, term: Floats) -> None:
-    """Write the ``values`` (F,) of the planes of primitives (F,) at pixel centres; ``term`` (F,) is memory."""
-    across, up, origin = plane
-    up.take(primitive, out=values, mode="clip")
+class Shown(NamedTuple):
+    """The primitives of F pixels."""
+
+    primitives: Integers
+    """(U,) int64, each once."""
+    local: Integers
+    """(F,) int64, which of these a pixel shows: numbers of so few stay in the processor's nearest cache."""
+
+
+def evaluate(plane: Plane, shown: Shown, x: Floats, y: Floats, values: Floats, term: Floats) -> None:
+    """Write the ``values`` (F,) of the planes of primitives at pixel centres (F,); ``term`` (F,) is memory."""
+    across, up, origin = (part.take(shown.primitives) for part in plane)
+    up.take(shown.local, out=values, mode="clip")
     values *= y
-    values += origin.take(primitive, out=term, mode="clip")
-    across.take(primitive, out=term, mode="clip")
+    values += origin.take(shown.local, out=term, mode="clip")
+    across.take(shown.local, out=term, mode="clip")
     term *= x
     values += term

@@ -2,7 +2,7 @@
 
 Coordinates are those of ``render`` but for rounding: u/w, v/w and 1/w are linear over the window, each a plane in
 float64 through the corners where they lie before snapping, divided at the pixel. The texture is read in single
-precision (``single_texture``), normals and light are those of ``one_color``.
+precision (``single_texture``), normals and light are those of ``even_mesh``.
 
 How close the bytes are: the rounding of the planes moves the position in the texture by some part of a texel
 (`position_error`), the texture is off by no more, neighbours being 1 apart at most, and bytes by as much times the
@@ -12,59 +12,39 @@ their pixels are coloured once more, exactly (``light_visible``).
 """
 
 from dataclasses import dataclass
-from functools import partial
-from typing import ClassVar
 
 import numpy as np
 
 from core.fast_path.draw_context import DrawContext
-from core.fast_path.lit.corner_places import CornerPlaces, corner_places
+from core.fast_path.lit.corner_places import CornerPlaces
+from core.fast_path.lit.even_mesh import LitMesh
 from core.fast_path.lit.light_errors import STEEPEST
-from core.fast_path.lit.light_visible import Lit, LitPlanes, Seen, color_doubtful
-from core.fast_path.lit.one_color import LitMesh, have_few_unlike, lit_mesh, lit_planes
-from core.fast_path.lit.planes import Plane, evaluate, plane_through, rounding
+from core.fast_path.lit.planes import Plane, Shown, evaluate, plane_through, rounding
 from core.fast_path.lit.vertex_facts import Color
-from core.fast_path.record import Coloring
 from core.fragments.single_texture import FARTHEST, SingleSampler, is_plain
 from core.fragments.single_texture import ROUNDING as TEXEL_ROUNDING
-from core.framebuffer.nearest import NearestFragments
 from core.records.arrays import Floats, Integers, Singles
 from core.scene import Texture
 from core.stages.geometry import Geometry
 
 
 @dataclass(frozen=True, eq=False)
-class LitTexture:
-    """Normals and texture coordinates of P triangles, and what lights them."""
+class TextureAlbedo:
+    """What a texture shows on P triangles."""
 
-    planes: LitPlanes
     coordinates: tuple[Plane, Plane, Plane]
     """1/w, and the position in texels over w."""
     color: Color
     """What the texture is multiplied with: linear grey, or red, green and blue."""
     sampler: SingleSampler
-    name: ClassVar[Coloring] = "lit-texture"
-    stage = "shade"
-    for_layer: ClassVar[None] = None
-    """None: they light what is seen once it is known, so a picture has its depth first."""
 
-    def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
-        """Write the lit colour of what is seen at every pixel, and return how many there are; the others stay."""
-        return color_doubtful(context, nearest, self.light_seen(context, nearest.seen()))
-
-    def light_seen(self, context: DrawContext, seen: Seen) -> Lit:
-        """Write the lit colour of what is seen at some of the (H*W,) pixels."""
-        return self.planes.light_seen(context, seen, partial(self._albedo, context))
-
-    def _albedo(
-        self, context: DrawContext, primitive: Integers, column: Integers, row: Integers
-    ) -> list[Singles]:
-        """Return the linear grey, or red, green and blue, of primitives (F,) at pixels, (F,) float32 each."""
+    def __call__(self, context: DrawContext, shown: Shown, column: Integers, row: Integers) -> list[Singles]:
+        """Return the linear grey, or red, green and blue, of primitives at pixels, (F,) float32 each."""
         x, y = context.raster.centers(column, row)
         inverse_w, u, v = context.scratch("texture_position", 3, len(x))
         term = context.scratch("texture_term", len(x))
         for values, plane in zip((inverse_w, u, v), self.coordinates, strict=True):
-            evaluate(plane, primitive, x, y, values, term)
+            evaluate(plane, shown, x, y, values, term)
         np.divide(1, inverse_w, out=inverse_w)
         u *= inverse_w
         v *= inverse_w
@@ -78,34 +58,25 @@ class LitTexture:
         ]
 
 
-def lit_texture(context: DrawContext) -> LitTexture | None:
-    """Return the lit texture of all primitives, or ``None`` where some pixel could be off by more than the tolerance.
-
-    They are what ``one_color`` draws, with a texture that is looked up bilinearly.
-    """
-    mesh = lit_mesh(context)
-    if mesh is None or mesh.mesh.texture is None or not have_few_unlike(context, [mesh.facts]):
-        return None
-    return texture_of(context, mesh, corner_places(context.geometry))
-
-
-def texture_of(context: DrawContext, mesh: LitMesh, places: CornerPlaces) -> LitTexture | None:
-    """Return the lit texture of a mesh whose corners are at ``places``; ``None``: it has none, or as above."""
+def texture_albedo(
+    context: DrawContext, mesh: LitMesh, places: CornerPlaces
+) -> tuple[TextureAlbedo, float] | None:
+    """Return what the texture of a mesh shows, and by how many bytes that may be off; ``None``: it is not known."""
     texture, settings = mesh.mesh.texture, context.settings
-    if texture is None or settings.texture_filter != "bilinear" or not is_plain(texture, settings.wrap):
+    if texture is None or mesh.color is None or settings.texture_filter != "bilinear":
+        return None
+    if not is_plain(texture, settings.wrap):
         return None
     if not mesh.facts.farthest_uv * max(texture.pixels.shape[:2]) < FARTHEST:
         return None
     position = _texel_positions(context.geometry, mesh, texture)
-    error = _texture_bytes(mesh, position_error(places, position))
-    planes = lit_planes(context, mesh, places, error)
-    if planes is None:
-        return None
+    error = (
+        (position_error(places, position) + TEXEL_ROUNDING) * STEEPEST * mesh.light.strength * mesh.brightest
+    )
     inverse = list(1 / places.w)
     over_w = [[of_corner * by for of_corner, by in zip(axis, inverse, strict=True)] for axis in position]
     inverse_w, u, v = (plane_through(places, values) for values in (inverse, *over_w))
-    sampler = SingleSampler(texture, context.settings.wrap)
-    return LitTexture(planes, (inverse_w, u, v), mesh.color, sampler)
+    return TextureAlbedo((inverse_w, u, v), mesh.color, SingleSampler(texture, settings.wrap)), error
 
 
 def _texel_positions(geometry: Geometry, mesh: LitMesh, texture: Texture) -> list[list[Floats]]:
@@ -129,10 +100,3 @@ def position_error(places: CornerPlaces, position: list[list[Floats]]) -> float:
         extent += np.abs(third - first)
     # Of one triangle, so that what holds for all bands of a picture holds for the picture.
     return float(rounding(places, extent).max(initial=0))
-
-
-def _texture_bytes(mesh: LitMesh, texels: float) -> float:
-    """Return how many bytes a texture may be off, before rounding, whose positions are off by so many ``texels``."""
-    material, lights = mesh.light.material, mesh.light.lights
-    strength = material.ambient + material.diffuse * sum(max(color) for _, color in lights)
-    return (texels + TEXEL_ROUNDING) * STEEPEST * strength * float(max(mesh.color))

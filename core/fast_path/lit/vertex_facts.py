@@ -41,6 +41,12 @@ class VertexValues:
         return seen[1]
 
     @cached_property
+    def colors(self) -> Floats:
+        """(3, M) float64 linear red, green and blue, or (1, M) where they agree, a contiguous row each."""
+        colors = np.ascontiguousarray(self.rows[:, self.layout["color"]].T[:3])
+        return colors[:1] if (colors[1:] == colors[:1]).all() else colors
+
+    @cached_property
     def uv(self) -> Floats:
         """(2, M) float64 texture coordinates, a contiguous row for u and for v."""
         return np.ascontiguousarray(self.rows[:, self.layout["uv"]].T)
@@ -59,10 +65,21 @@ class VertexFacts:
         self._rows = slice(int(corner.min()), int(corner.max()) + 1) if corner.size else slice(0)
 
     @cached_property
-    def color(self) -> Color | None:
-        """Linear grey, or red, green and blue, of all vertices; ``None``: they differ, are below 0, or not opaque."""
+    def is_opaque(self) -> bool:
+        """Whether all vertices are opaque, and no colour is below 0."""
         colors = self.values.rows[self._rows, self.values.layout["color"]]
-        if not len(colors) or (colors != colors[:1]).any() or colors[0].min() < 0 or colors[0, 3] != 1:
+        return bool(len(colors) and (colors[:, 3] == 1).all() and colors.min() >= 0)
+
+    @cached_property
+    def brightest(self) -> float:
+        """Greatest linear colour of a vertex."""
+        return float(self.values.rows[self._rows, self.values.layout["color"]][:, :3].max(initial=0))
+
+    @cached_property
+    def color(self) -> Color | None:
+        """Linear grey, or red, green and blue, of all vertices, if these are opaque; ``None``: they differ."""
+        colors = self.values.rows[self._rows, self.values.layout["color"]]
+        if not len(colors) or (colors != colors[:1]).any():
             return None
         red, green, blue = (np.float32(part) for part in colors[0, :3])
         return (red,) if red == green == blue else (red, green, blue)

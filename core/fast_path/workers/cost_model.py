@@ -20,9 +20,7 @@ COLOR: dict[Coloring, float] = {
     "palette": 1e-9,
     "corners": 8e-9,
     "texture": 25e-9,
-    "normals": 40e-9,
-    "lit-texture": 85e-9,
-    "meshes": 60e-9,
+    "lit": 60e-9,
     "deferred": 120e-9,
 }
 """Seconds for the colour of a pixel, by ``Route.color``."""

@@ -272,7 +272,7 @@ def test_figures_as_text(seconds, rate, text):
 
 
 def test_how_a_frame_was_drawn_as_text():
-    route = Route("packed-depth", "normals", Split(67652, 3, 0, 798142), 399071)
+    route = Route("packed-depth", "lit", Split(67652, 3, 0, 798142), 399071)
     bands = (BandTime(0, 500, 0.0231), BandTime(500, 1024, 0.0228))
     stages = {stage: StageCount(seconds=0.001 * k) for k, stage in enumerate(STAGES)}
     assert drawing_text(figures_of(route=route, sharing=Sharing(bands), stages=stages)).splitlines() == [

@@ -29,7 +29,7 @@ def drawn(scene: Scene, encoding: str, chosen: Settings = PHONG):
 
 def assert_close(scene: Scene, encoding: str, chosen: Settings = PHONG) -> None:
     picture = drawn(scene, encoding, chosen)
-    assert picture.route.color == "normals"
+    assert picture.route.color == "lit"
     away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
     assert away.max() <= 1
     assert (away > 0).mean() < 0.05

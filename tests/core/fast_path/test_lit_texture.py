@@ -43,7 +43,7 @@ def scene_of(
 def assert_close(scene: Scene, encoding: str = "srgb", chosen: Settings | None = None) -> None:
     chosen = chosen or Settings()
     picture = draw_picture(scene, chosen, encoding=encoding)
-    assert picture.route.color == "lit-texture"
+    assert picture.route.color == "lit"
     away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
     assert away.max() <= 1
     assert (away > 0).mean() < 0.05

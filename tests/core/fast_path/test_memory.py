@@ -52,7 +52,7 @@ def test_memory_of_several_meshes() -> None:
     first, second = (
         Scene(meshes, Camera(np.array([x, 0.8, 2.8]), np.zeros(3)), lights, (1024, 1024)) for x in (1.0, 1.1)
     )
-    assert draw_picture(first, Settings(depth="fixed-38")).route.color == "meshes"
+    assert draw_picture(first, Settings(depth="fixed-38")).route.color == "lit"
     limit = PER_PIXEL["none"] * 1024 * 1024 + PER_TRIANGLE * 2 * len(mesh.triangles) + FIXED
     assert held(first, second, Settings(depth="fixed-38")) <= limit
 
@@ -94,7 +94,7 @@ def test_memory_of_a_floor_that_reaches_behind_the_eye() -> None:
         for x in (1.0, 1.1)
     )
     drawn = draw_picture(first, Settings(depth="fixed-38"))
-    assert drawn.route.color == "meshes"
+    assert drawn.route.color == "lit"
     assert drawn.route.visible > 1_000_000
     limit = PER_PIXEL["none"] * 1600 * 1200 + PER_TRIANGLE * len(mesh.triangles) + FIXED
     assert held(first, second, Settings(depth="fixed-38")) <= limit

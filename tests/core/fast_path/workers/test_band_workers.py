@@ -41,9 +41,9 @@ def test_two_processes_draw_the_bytes_of_one(workers: BandWorkers, name: str, en
 
 def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_cheap_ones() -> None:
     smooth, near = textured_ball(), textured_ball(with_near_triangle=True)
-    assert draw_picture(near, region=(0, 0, 220, 100)).route.color == "lit-texture"
+    assert draw_picture(near, region=(0, 0, 220, 100)).route.color == "lit"
     expected = {id(scene): draw_picture(scene) for scene in (smooth, near)}
-    assert [expected[id(scene)].route.color for scene in (smooth, near)] == ["lit-texture", "deferred"]
+    assert [expected[id(scene)].route.color for scene in (smooth, near)] == ["lit", "deferred"]
     assert (expected[id(near)].pixels[:90] != expected[id(smooth)].pixels[:90]).any()
     with BandWorkers(2, always=True) as workers:
         assert workers.start(), workers.failure
@@ -63,11 +63,11 @@ def test_colours_that_one_band_needs_are_those_of_all_bands_and_later_again_the_
         (["palette", "palette"], True, False),
         (["palette", "deferred"], True, True),
         (["deferred", "deferred"], True, True),
-        (["", "normals"], True, False),
+        (["", "lit"], True, False),
     ],
 )
 def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: bool, with_plain: bool) -> None:
-    routes = [Route("packed-depth", name or "normals", visible=1, allowed=name) for name in allowed]
+    routes = [Route("packed-depth", name or "lit", visible=1, allowed=name) for name in allowed]
     assert have_colors_of_whole(routes, plain_colors=False) == with_cheap
     assert have_colors_of_whole(routes, plain_colors=True) == with_plain
 
@@ -81,7 +81,7 @@ def test_bands_have_the_colours_of_the_whole(allowed: list[str], with_cheap: boo
     ],
 )
 def test_the_route_of_a_picture_is_that_of_the_bands_that_show_something(colors, joined: str) -> None:
-    nothing = Route("packed-depth", "meshes", visible=0, allowed="palette")
+    nothing = Route("packed-depth", "lit", visible=0, allowed="palette")
     routes = [Route("layer", color, visible=1, allowed=color) for color in colors]
     for parts in (routes, [nothing, *routes], [*routes, nothing]):
         route = joined_route(parts)
