@@ -81,15 +81,21 @@ def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Se
 
 def open_file(options: argparse.Namespace) -> Opened:
     """Open FILE; warnings go to stderr, and progress too if it is a terminal."""
-    try:
-        with progress_line() as progress:
-            opened = open_any(options.file, progress, allows_outside=options.allow_outside)
-    except (OutsideMeshError, OutsideSourceError) as problem:
-        raise ValueError(f"{problem}; {OUTSIDE_HINT}") from problem
+    with outside_hinted(), progress_line() as progress:
+        opened = open_any(options.file, progress, allows_outside=options.allow_outside)
     for warning in opened.warnings:
         hint = f"; {OUTSIDE_HINT}" if warning in opened.left_outside else ""
         print(f"{PROGRAM}: warning: {warning}{hint}", file=sys.stderr)
     return opened
+
+
+@contextmanager
+def outside_hinted() -> Iterator[None]:
+    """Add the option that helps where a file names one outside its folder."""
+    try:
+        yield
+    except (OutsideMeshError, OutsideSourceError) as problem:
+        raise ValueError(f"{problem}; {OUTSIDE_HINT}") from problem
 
 
 @contextmanager

@@ -4,7 +4,14 @@ import argparse
 import os
 import sys
 
-from app.cli.arguments import add_file, add_settings, chosen_settings, rounds_from_text, size_from_text
+from app.cli.arguments import (
+    add_file,
+    add_settings,
+    chosen_settings,
+    outside_hinted,
+    rounds_from_text,
+    size_from_text,
+)
 from app.cli.commands import UsageError
 from app.cli.window import load_qt
 from app.files.file_writing import check_writable
@@ -138,16 +145,17 @@ def run(options: argparse.Namespace) -> int:
             options.rounds,
             bool(options.grow),
         )
-    grab_window(
-        options.file,
-        options.output,
-        options.size,
-        options.theme,
-        options.stage,
-        options.step,
-        options.view,
-        lambda settings: chosen_settings(settings, options.set),
-        content,
-        options.allow_outside,
-    )
+    with outside_hinted():
+        grab_window(
+            options.file,
+            options.output,
+            options.size,
+            options.theme,
+            options.stage,
+            options.step,
+            options.view,
+            lambda settings: chosen_settings(settings, options.set),
+            content,
+            options.allow_outside,
+        )
     return 0

@@ -8,6 +8,7 @@ from app.cli.arguments import (
     add_allow_outside,
     add_settings,
     chosen_settings,
+    outside_hinted,
     progress_line,
     rounds_from_text,
 )
@@ -125,7 +126,8 @@ def run(options: argparse.Namespace) -> int:
     if family.takes_scene:
         settings = Settings()
         if options.scene is not None:
-            opened = open_any(options.scene, allows_outside=options.allow_outside)
+            with outside_hinted():
+                opened = open_any(options.scene, allows_outside=options.allow_outside)
             scene, title = opened.document.scene, opened.document.title
             if opened.state is not None:
                 settings = opened.document.settings

@@ -255,7 +255,8 @@ def test_the_command_line_says_what_allows_it(folders):
     assert (done.returncode, done.stderr) == (0, "")
     state = saved_state(folders)
     change_source(state, mark="")
-    assert "--allow-outside reads it" in refused(1, "trace", state, "--stage", "raster")
+    for command in (("trace", state, "--stage", "raster"), ("screenshot", state, "-o", inside / "b.png")):
+        assert "--allow-outside reads it" in refused(1, *command)
 
 
 def test_a_broken_mesh_file_is_no_question_of_folders(folders):
