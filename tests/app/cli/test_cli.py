@@ -147,8 +147,8 @@ def test_the_text_has_the_sentence_and_the_formula_of_every_operation():
         "",
         "Row 0, test, triangle 1, pixel (6, 1)",
         "     1  Pixel (6, 1): its depth z = 0.5 is stored as 0.5.",
-        "          z_new = store(z)",
-        "          0.5 = store(0.5)",
+        "          z_new = float32(z)",
+        "          0.5 = float32(0.5)",
     ]
 
 

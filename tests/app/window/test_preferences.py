@@ -127,3 +127,36 @@ def test_the_folder_does_not_depend_on_the_running_program(monkeypatch):
     monkeypatch.delenv("RASTERSCOPE_CONFIG")
     monkeypatch.setenv("XDG_CONFIG_HOME", "/somewhere")
     assert os.fspath(preferences_folder()) == "/somewhere/rasterscope"
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"speed": 1e308, "level": 0, "page": "nowhere", "folded_cards": ["nowhere", ""]},
+        {"speed": 5e-324, "level": 4, "geometry": "AAAA", "layout": {"columns": "AAAA", "nothing": ""}},
+        {
+            "recent_files": ["", "\0", "a" * 5000, "//server/share/a.obj"],
+            "theme": "presenter",
+            "geometry": "=",
+        },
+        {"geometry": "AdnQywADAAA" + "/" * 400, "page": "\0"},
+    ],
+)
+def test_preferences_that_say_nothing_sensible_open_a_window_too(folder, qtbot, content):
+    from app.session.document import open_document
+    from app.window.main_window import MainWindow
+    from lessons.scenes import built_in_scene
+
+    folder.mkdir(parents=True)
+    (folder / FILE_NAME).write_text(json.dumps(content))
+    preferences, warning = load_preferences()
+    assert warning == ""
+    scene = built_in_scene("single-triangle")
+    window = MainWindow(open_document(scene.make(), scene.title), preferences)
+    qtbot.addWidget(window)
+    window.memory.restore(window)
+    window.show()
+    window.page.timeline.toggle_play()
+    qtbot.wait(50)
+    window.close()
+    assert load_preferences()[1] == ""
