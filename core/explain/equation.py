@@ -102,7 +102,7 @@ def holds(statement: Statement, digits: dict[float, int]) -> bool:
 def _growing(statement: Statement, digits: dict[float, int]) -> set[float]:
     """Return the sizes of the numbers that get a digit more: a lone result only where no other number can."""
     found = [{abs(value) for side in statement.sides for value in side.marks()}]
-    if {*statement.relations} <= {"=", r"\approx"}:
+    if {*statement.relations} <= {"=", r"\approx", r"\equiv"}:
         found.insert(0, {abs(v) for side in statement.sides if not side.is_alone for v in side.marks()})
     for values in found:
         inexact = {

@@ -64,12 +64,13 @@ class Statement:
         self, place: int, relation: str, found: list[tuple[Number, Fraction]], digits: Callable[[Term], int]
     ) -> bool:
         (first, one), (second, other) = found[place : place + 2]
-        if relation == r"\equiv":
-            return bool(self.modulus) and (Fraction(first) - Fraction(second)) % self.modulus == 0
-        if relation not in ("=", r"\approx"):
+        if relation not in ("=", r"\approx", r"\equiv"):
             return bool(_COMPARISONS[relation](first, second))
         if is_same(first, second):
             return True
+        if relation == r"\equiv" and self.modulus and math.isfinite(first - second):
+            turns = round((Fraction(first) - Fraction(second)) / self.modulus)
+            first, second = Fraction(first), Fraction(second) + turns * self.modulus
         sides = self.sides[place : place + 2]
         if not math.isfinite(first - second) or any(side.is_rounded for side in sides):
             return False

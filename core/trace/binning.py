@@ -139,5 +139,9 @@ def trace_bin(source: TraceSource) -> StageTrace:
             "covered": is_block & (verdict == INSIDE),
         },
         extra={"blocks": blocks, "boxes": boxes, "is_split": verdict == SPLIT},
-        constants={"center": source.raster.center},
+        constants={
+            "center": source.raster.center,
+            "number_format": geometry.edges.numbers.name,
+            "rounding": geometry.edges.numbers.rounding,
+        },
     )

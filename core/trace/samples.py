@@ -93,6 +93,10 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
     if first.stage == "raster" and "values" in columns:
         columns |= _at_samples(columns, sample[order])
     starts = np.cumsum([0, *lengths[:-1]])
+    # What is the same in all rows of one sample may differ between samples: how many spans there are.
+    differing = [
+        name for name, value in first.constants.items() if any(t.constants[name] != value for t in traces)
+    ]
     return StageTrace(
         stage=first.stage,
         method=first.method,
@@ -103,7 +107,14 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
             ends_of(triangle[order]),
             ends_of(triangle[order], sample[order], group[order]),
         ),
-        columns={**columns, **_sample_columns(sample[order], ROTATED_GRID)},
+        columns={
+            **columns,
+            **{
+                name: np.array([trace.constants[name] for trace in traces])[sample[order]]
+                for name in differing
+            },
+            **_sample_columns(sample[order], ROTATED_GRID),
+        },
         triangle=triangle[order],
         pixel=np.concatenate([trace.pixel for trace in traces])[order],
         listings=first.listings,
@@ -114,7 +125,7 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
             for track in _joined_tracks([trace.buffers[number] for trace in traces], starts, new_row)
         ),
         extra=first.extra,
-        constants=first.constants,
+        constants={name: value for name, value in first.constants.items() if name not in differing},
     )
 
 

@@ -15,6 +15,7 @@ from core.records.arrays import Integers
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.edges import half_plane, known_edges
+from core.trace.symbols import symbols_of
 from widgets.grid.buffer import BufferKind, GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import (
@@ -58,7 +59,10 @@ def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffe
     if not stage.buffers:
         return [_cleared(source)]
     origin, depth = source.raster.bounds[:2], source.settings.depth
-    return [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
+    found = [_described(grid_buffer(track, done, origin), depth) for track in stage.buffers]
+    # The number that chooses a line's pixels is called what the formulas call it.
+    decision = symbols_of(stage).get("decision", "decision")
+    return [replace(buffer, title=decision) if buffer.name == "decision" else buffer for buffer in found]
 
 
 def half_planes(source: TraceSource, rows_done: int) -> list[GridBuffer]:

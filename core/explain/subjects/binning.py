@@ -3,10 +3,20 @@
 import math
 
 from core.explain.digits import number_latex, spoken
-from core.explain.equation import Part, all_of, beside, comparison, conclusion, equation, linear, vector_latex
+from core.explain.equation import (
+    Part,
+    all_of,
+    beside,
+    comparison,
+    conclusion,
+    equation,
+    linear_parts,
+    vector_latex,
+)
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
+from core.explain.subjects.number_formats import equals
 from core.explain.variable_text import COEFFICIENTS, VariableText, given, hides, shows
 from core.records.words import counted, joined, numbered
 
@@ -131,7 +141,10 @@ def _bound(step: StepValues, name: str, extreme: str) -> Formula:
     x = low_x + (reach if (a > 0) == (name == "high") else 0)
     y = low_y + (reach if (b > 0) == (name == "high") else 0)
     coefficients = [(f"a_{k}", a), (f"b_{k}", b), (f"c_{k}", c)]
-    return linear(rf"E_{k}^{{{extreme}}}", values[k], coefficients, ("x", x), ("y", y))
+    symbol, units = rf"E_{k}^{{{extreme}}}", (("x", x), ("y", y))
+    sign, rest = equals(step, values[k], [[a, x], [b, y], [c]])
+    _, _, *summands = linear_parts(symbol, values[k], coefficients, *units)
+    return equation((symbol, values[k]), sign, *summands, *rest)
 
 
 def verdict(step: StepValues) -> Asked:

@@ -34,8 +34,10 @@ def equals(
     congruent modulo 2^n.
     """
     rounding = step.text("rounding") if step.has("rounding") else "exact"
-    if rounding == "exact" or not all(map(math.isfinite, (value, *chain(*terms)))):
+    if rounding == "exact" or not all(map(math.isfinite, chain(*terms))):
         return "=", []
+    if not math.isfinite(value):
+        return "=", error_parts(value)
     error = Fraction(value) - sum(math.prod(map(Fraction, term)) for term in terms)
     if rounding == "rounded":
         return "=", error_parts(float(error))

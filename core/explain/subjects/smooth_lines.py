@@ -48,7 +48,7 @@ def across(step: StepValues) -> Said:
         rf"{signed_latex(x1 - x0)} \cdot ({of_y}) - {signed_latex(y1 - y0)} \cdot ({of_x})",
     )
     within: list[Part] = [f"-{_HALF}", r"\le", ("a", away), r"\le", _HALF]
-    return text, equation(*beside(within, ["a", "=", fraction(products, ("L", length))]))
+    return text, equation(*beside(within, [("a", away), "=", fraction(products, ("L", length))]))
 
 
 @explains("raster.rectangle|rectangle-start.along")
@@ -90,9 +90,10 @@ def divided(step: StepValues) -> Said:
         f"so {_name(step)} gets the intensity {law}{scaled}{result}."
     )
     shown: Part = ("(1 - f)", f"(1 - {number_latex(part)})") if is_lower else ("f", part)
-    of_fraction: Part = (rf"{axis} - \lfloor {axis} \rfloor", number_latex(part))
+    line = number_latex(step.number("decision"))
+    of_fraction: Part = (rf"{axis} - \lfloor {axis} \rfloor", rf"{line} - \lfloor {line} \rfloor")
     made: list[Part] = [("I", intensity), "=", shown, r"\cdot", ("g", of_column)]
-    return text, equation(*beside(["f", "=", of_fraction], made))
+    return text, equation(*beside([("f", part), "=", of_fraction], made))
 
 
 @explains("raster.*.cosine")

@@ -2,11 +2,12 @@
 
 import math
 import re
+from collections import Counter
 
 import pytest
 from pytestqt.qtbot import QtBot
 
-from core import Settings
+from core import ClipScene, Settings, trace
 from core.explain import formula
 from core.explain.equation import comparison, equation, grid_latex
 from core.explain.latex import split_cells
@@ -14,7 +15,7 @@ from core.explain.number_text import latex_text
 from core.explain.records import Formula
 from core.explain.statements import BREAKS, RELATIONS, statements
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_steps, rare_trace
+from tests.core.explain.explained_steps import all_steps, rare_trace, steps_of
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -224,3 +225,21 @@ def test_the_view_shows_them(qtbot: QtBot) -> None:
     qtbot.waitUntil(view.is_complete)
     assert not view.to_image(1.0).isNull()
     assert "plain text" not in view.toolTip()
+
+
+BIG_TRIANGLE = [[[-30.0, -30, 0, 1], [40, -30, 0, 1], [-30, 45, 0, 1]]]
+"""Its edge functions in a picture of 300 pixels go beyond the 32,768 square pixels of 32 bits."""
+
+
+@pytest.mark.parametrize("fill", ["hierarchy", "bounding-box", "incremental", "scanline"])
+def test_numbers_that_wrap_around_are_congruent_not_equal(fill: str) -> None:
+    scene = ClipScene(BIG_TRIANGLE, size=(300, 300))
+    traced = trace(scene, Settings(coverage="fixed-24.8", fill=fill), region=(140, 140, 6, 4))
+    signs = Counter()
+    for name in ("edges", "bin", "raster"):
+        for explanation, _, _ in steps_of(traced.stage(name)):
+            made = formula(explanation)
+            for statement in statements(split_cells(made.substituted)) if made is not None else ():
+                assert statement.holds(), (explanation.key, made)
+                signs.update(statement.relations)
+    assert signs[r"\equiv"]

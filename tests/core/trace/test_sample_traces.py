@@ -97,3 +97,12 @@ def test_a_primitive_has_one_area_in_a_pixel_however_it_was_cut():
     for row_areas, row_shown in zip(areas, shown, strict=True):
         there = row_shown[row_areas > 0]
         assert len(set(there.tolist())) == len(there)
+
+
+def test_spans_are_counted_for_each_sample():
+    """Found at random: with four samples a span was number 4 of 4, counted among those of the first sample."""
+    found = trace(SCENES["clip"], Settings(antialiasing="msaa-4")).stage("raster")
+    c, rows = found.columns, found.steps.kind == found.steps.kinds.index("lane-row")
+    assert len(np.unique(c["span_count"][rows])) > 1
+    assert (c["place"][rows] < c["span_count"][rows]).all()
+    assert (c["lane"][rows] < found.variables(int(np.flatnonzero(rows)[0]))["lane_count"]).all()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.cli.trace_tables import arrays, csv_lines, row_record
+from app.pages.step.grid_records import buffers_of
 from core import Settings
 from core.explain import variables
 from core.methods import table
@@ -77,3 +78,11 @@ def test_edge_functions_are_exported_as_e0() -> None:
 def test_old_names_still_work(old: str, new: str) -> None:
     found = drawn_lines("bresenham")
     assert np.array_equal(parse_condition(old).holds(found), parse_condition(new).holds(found))
+
+
+def test_the_buffer_of_decisions_has_the_symbol_as_title() -> None:
+    traced = line_trace(Settings(polygon_mode="wireframe", line="bresenham"))
+    found = traced.stage("raster")
+    titles = [buffer.label for buffer in buffers_of(found, traced, found.steps.count)]
+    assert "D" in titles
+    assert "decision" not in titles
