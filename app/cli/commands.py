@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
-from app.files.file_writing import FileWriteError
 
 PROGRAM = "rasterscope"
 USAGE_ERROR = 2
@@ -63,18 +62,12 @@ class UsageError(ValueError):
 
 
 def output_folder(options: argparse.Namespace) -> Path | None:
-    """Return the folder that ``-o`` names, ``None`` without it.
-
-    Raises
-    ------
-    UsageError, FileWriteError
-        If there is none, or it may not be written to.
-    """
+    """Return the folder that ``-o`` names, ``None`` without it, or raise UsageError where it cannot be written to."""
     folder = None if options.output is None else Path(options.output)
     if folder is not None and not folder.is_dir():
         raise UsageError(f"argument -o: there is no folder {folder}")
     if folder is not None and not os.access(folder, os.W_OK):
-        raise FileWriteError(f"{folder} cannot be written to: permission is denied")
+        raise UsageError(f"argument -o: {folder} may not be written to")
     return folder
 
 
