@@ -15,7 +15,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.fast_path.draw_context import DrawContext, Words
+from core.fast_path.byte_colors import TOLERANCE
+from core.fast_path.draw_context import TOGETHER, DrawContext, Words
 from core.fast_path.lit.corner_places import CornerPlaces, corner_places
 from core.fast_path.lit.light_errors import STEEPEST
 from core.fast_path.lit.planes import rounding
@@ -26,8 +27,6 @@ from core.numeric.quadratic_planes import Quadratic, QuadraticPlanes, quadratic_
 from core.records.arrays import Flags, Floats, Integers, read_only
 from core.records.primitives import CornerValues
 
-TOLERANCE = 0.95
-"""Bytes that a colour may be away from the exact one before both are rounded."""
 SHIFTS = (0, 21, 42)
 """Lowest bits of red, green and blue."""
 UNIT = 2.0**20
@@ -58,7 +57,7 @@ class LightWords:
 
 @dataclass(frozen=True, eq=False)
 class CornerLight:
-    """What is interpolated between the corners of P triangles: (3, 3, P) float64 each, by corner and channel."""
+    """What is interpolated: (3, M) float64 of vertices, by channel, or (3, 3, P) of the corners of triangles."""
 
     color: Floats
     """albedo * light + mirrored"""
@@ -66,17 +65,33 @@ class CornerLight:
     light: Floats
     """One channel where all are equal."""
     is_opaque: Flags
-    """(P,) bool."""
+    """(M,) bool, or (P,)."""
+
+    def at(self, index: Integers) -> "CornerLight":
+        """Return what corners (3, P) have, that are these vertices."""
+        color, albedo, light = (
+            np.stack([of.take(corner, axis=1) for corner in index])
+            for of in (self.color, self.albedo, self.light)
+        )
+        return CornerLight(color, albedo, light, np.asarray(self.is_opaque.take(index).all(axis=0)))
 
 
 def light_words(context: DrawContext) -> LightWords:
     """Return the colours of all primitives, which are lit at their corners or not at all."""
-    places, corners = (
-        corner_places(context.geometry),
-        corner_light(context.geometry.primitives.values.trimmed()),
-    )
+    values, places = context.geometry.primitives.values.trimmed(), corner_places(context.geometry)
     if context.settings.interpolation == "affine":
         places.w.fill(1.0)
+    vertices, count = vertex_light(values), len(places.is_doubtful)
+    parts = []
+    for first in range(0, count, TOGETHER):
+        at = np.arange(first, min(first + TOGETHER, count))
+        parts.append(words_of(context, places.take(at), vertices.at(values.index[:, at])))
+    planes = (np.concatenate(of) for of in zip(*(part.planes.words for part in parts), strict=True))
+    return LightWords(QuadraticPlanes(*planes), np.concatenate([part.is_certain for part in parts]))
+
+
+def words_of(context: DrawContext, places: CornerPlaces, corners: CornerLight) -> LightWords:
+    """Return the colours of triangles from their ``corners``, at ``places`` (P,), which are used up."""
     inverse = 1 / places.w
     lean = inverse / (0.5 * (inverse.max(axis=0) + inverse.min(axis=0))) - 1
     edges = edge_terms(corners, lean)
@@ -89,26 +104,20 @@ def light_words(context: DrawContext) -> LightWords:
     return LightWords(planes_of(places, context.raster.center, corners.color, edges), is_certain)
 
 
-def corner_light(values: CornerValues) -> CornerLight:
-    """Return what is interpolated, from the values at corners."""
-    rows = values.rows.T
-    albedo, light, mirrored = (
-        np.ascontiguousarray(rows[values.layout.get(name, slice(0))][:3])
-        for name in ("color", "diffuse_light", "specular_light")
-    )
-    if not len(light):
-        light, mirrored = np.ones((1, rows.shape[1])), np.zeros((1, rows.shape[1]))
-    elif (light[1:] == light[:1]).all():
-        light = light[:1]
-    color, albedo, light = (
-        np.stack([of.take(at, axis=1) for at in values.index])
-        for of in (albedo * light + mirrored, albedo, light)
-    )
-    alpha = rows[values.layout["color"]][3:]
-    is_opaque = (
-        (alpha.take(values.index) == 1).all(axis=0) if len(alpha) else np.zeros(len(values.index[0]), bool)
-    )
-    return CornerLight(color, albedo, light, is_opaque)
+def vertex_light(values: CornerValues) -> CornerLight:
+    """Return what is interpolated, of M vertices."""
+    rows, layout = values.rows.T, values.layout
+    given = rows[layout["color"]]
+    # What is missing is 0, alpha is 1.
+    albedo, alpha = np.zeros((3, rows.shape[1])), given[3] if len(given) == 4 else np.ones(rows.shape[1])
+    albedo[: len(given)] = given[:3]
+    light, mirrored = np.ones((1, rows.shape[1])), np.zeros((1, rows.shape[1]))
+    if "diffuse_light" in layout:
+        light, mirrored = (
+            np.ascontiguousarray(rows[layout[f"{name}_light"]]) for name in ("diffuse", "specular")
+        )
+        light = light[:1] if (light[1:] == light[:1]).all() else light
+    return CornerLight(albedo * light + mirrored, albedo, light, np.asarray(alpha == 1))
 
 
 def edge_terms(corners: CornerLight, lean: Floats) -> Floats:
@@ -148,10 +157,7 @@ def certain(
         error += (0.25 * (steps + 4) ** 2 + (1 << TABLE_SHIFT - 1)) / UNIT
         margin = error + 0.25 * size.sum(axis=0)
         slope = steepest_slope(least - margin) if context.encoding == "srgb" else 255.0
-        sides = np.abs(places.x[1:] - places.x[0]).max(axis=0) + np.abs(places.y[1:] - places.y[0]).max(
-            axis=0
-        )
-        is_flat = (most - least + size.sum(axis=0)) * sides < STEEPEST_SLOPE * np.abs(places.doubled_area)
+        is_flat = (most - least + size.sum(axis=0)) * steps < STEEPEST_SLOPE * np.abs(places.doubled_area)
         is_inside = (least - margin > DARKEST) & (most + margin < DARKEST + 2)
         return np.asarray(
             corners.is_opaque & ~places.is_doubtful & is_flat & is_inside & (error * slope <= TOLERANCE)
@@ -182,8 +188,8 @@ def planes_of(places: CornerPlaces, center: float, color: Floats, edges: Floats)
         (x[1] - x[0]) * share,
     )
     p1, p2 = right * a1 + above * b1, right * a2 + above * b2
-    fields = []
-    for channel, shift in enumerate(SHIFTS):
+
+    def field(channel: int) -> Quadratic:
         c0, c1, c2 = UNIT * color[:, channel]
         k01, k02, k12 = UNIT * edges[:, channel]
         mixed, first, second = k12 - k01 - k02, c1 - c0 + k01, c2 - c0 + k02
@@ -195,7 +201,9 @@ def planes_of(places: CornerPlaces, center: float, color: Floats, edges: Floats)
         value = c0 + p1 * (first + p2 * mixed - p1 * k01) + p2 * (second - p2 * k02)
         value += (1 << TABLE_SHIFT - 1) - DARKEST * UNIT
         across, up = a1 * slope1 + a2 * slope2 + bend / 2, b1 * slope1 + b2 * slope2 + arch / 2
-        fields.append((Quadratic(value, across, up, bend, twist, arch), shift))
+        return Quadratic(value, across, up, bend, twist, arch)
+
+    fields = ((field(channel), shift) for channel, shift in enumerate(SHIFTS))
     return quadratic_planes(column.astype(np.int64), row.astype(np.int64), fields)
 
 

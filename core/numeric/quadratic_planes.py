@@ -5,7 +5,7 @@ step, and what the step changes by. Whole numbers wrap at 2^64 without losing an
 ``core.numeric.integer_planes``.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -45,12 +45,14 @@ class QuadraticPlanes:
     arch: Integers
     """(P,) int64, what the change per row grows by from row to row."""
 
+    @property
+    def words(self) -> tuple[Integers, ...]:
+        """All six, in their order."""
+        return self.origin, self.across, self.up, self.bend, self.twist, self.arch
+
     def part(self, first: int, end: int) -> "QuadraticPlanes":
         """Return the planes of triangles ``first`` to ``end``."""
-        at = slice(first, end)
-        return QuadraticPlanes(
-            self.origin[at], self.across[at], self.up[at], self.bend[at], self.twist[at], self.arch[at]
-        )
+        return QuadraticPlanes(*(word[first:end] for word in self.words))
 
     def at(self, triangle: Integers, column: Integers, row: Integers) -> tuple[Integers, Integers]:
         """Return the values (F,) int64 of triangles (F,) at pixels, and their changes to the next column."""
@@ -64,7 +66,7 @@ class QuadraticPlanes:
 
 
 def quadratic_planes(
-    column: Integers, row: Integers, fields: Sequence[tuple[Quadratic, int]]
+    column: Integers, row: Integers, fields: Iterable[tuple[Quadratic, int]]
 ) -> QuadraticPlanes:
     """Round quadratics to whole numbers, and put those of all ``fields`` side by side in one word.
 
@@ -72,7 +74,7 @@ def quadratic_planes(
     ----------
     column, row : (P,) int64
         The pixels that they are counted from.
-    fields : sequence of (Quadratic, int)
+    fields : iterable of (Quadratic, int)
         Each with the lowest bit of its field in the word.
     """
     words = np.zeros((6, len(column)), np.int64)

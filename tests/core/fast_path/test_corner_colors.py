@@ -183,6 +183,16 @@ def test_small_triangles_of_any_colours_and_depths_are_within_a_byte(
     assert away.max() <= 1
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_colours_of_fewer_than_four_numbers_are_opaque_and_what_is_missing_is_black(count: int) -> None:
+    scene, chosen = far_apart(7, (160, 120), "perspective")
+    assert scene.attributes is not None
+    scene = replace(scene, attributes=scene.attributes[..., :count])
+    for encoding in ("srgb", "linear"):
+        picture = draw_picture(scene, chosen, encoding=encoding)
+        assert np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max() <= 1
+
+
 def test_where_no_triangle_allows_bytes_all_have_attributes_and_light() -> None:
     both = smooth_below_and_steep_above()
     assert both.attributes is not None

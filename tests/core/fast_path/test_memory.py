@@ -45,6 +45,19 @@ def held(first: AnyScene, second: AnyScene, settings: Settings) -> int:
     return peak + scratch.byte_count
 
 
+def test_memory_of_triangles_with_unlike_colours() -> None:
+    mesh = sphere(columns=400, rows=200)
+    colors = np.ones((len(mesh.positions), 4))
+    colors[:, :3] = np.random.default_rng(1).uniform(0.1, 1, (len(colors), 3))
+    meshes = (replace(mesh, colors=colors),)
+    first, second = (
+        Scene(meshes, Camera(np.array([x, 0.8, 2.8]), np.zeros(3)), (), (512, 512)) for x in (1.0, 1.1)
+    )
+    chosen = Settings(depth="fixed-38", shading="unlit")
+    limit = PER_PIXEL["none"] * 512 * 512 + PER_TRIANGLE * len(mesh.triangles) + FIXED
+    assert held(first, second, chosen) <= limit
+
+
 def test_memory_of_several_meshes() -> None:
     mesh, aside = sphere(columns=64, rows=32), np.eye(4)
     aside[0, 3] = 0.6
