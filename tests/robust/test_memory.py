@@ -14,6 +14,7 @@ from app.cli.render import check_memory
 from app.files import memory
 from app.files.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory
 from app.files.mesh_files import MeshFileError, load_meshes
+from app.files.mesh_formats import gltf
 from app.files.state_arrays import array_from, array_record
 from core import Settings
 from tests.app.cli.cli_runs import refused, run_program
@@ -108,6 +109,17 @@ def test_many_places_of_one_mesh_in_a_glb_are_counted(tmp_path):
         else:
             with pytest.raises(MeshFileError, match="drawing the meshes of its 400 nodes would take"):
                 load_meshes(path)
+
+
+def test_a_large_mesh_in_one_place_takes_what_is_free(tmp_path, monkeypatch):
+    writer = GltfWriter()
+    writer.primitive([[0, 1, 2]], POSITION=np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]))
+    monkeypatch.setattr(gltf, "DRAWING", 10**8)
+    path = write(tmp_path / "a.glb", writer.glb())
+    assert len(load_meshes(path).meshes) == 1
+    monkeypatch.setattr(memory, "free_memory", lambda: 1e8)
+    with pytest.raises(MeshFileError, match="drawing the meshes of its 1 nodes may take"):
+        load_meshes(path)
 
 
 def test_compressed_bytes_that_cannot_hold_an_array_are_not_unpacked():

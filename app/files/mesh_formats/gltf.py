@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.memory import Need
+from app.files.memory import Need, check_free
 from app.files.mesh_formats.gltf_buffers import GltfFile
 from app.files.mesh_formats.gltf_header import MeshParts, Node, Primitive
 from app.files.mesh_formats.images import TextureReader
@@ -77,16 +77,22 @@ def check_header(file: GltfFile) -> list[str]:
 
 
 def check_instances(file: GltfFile, meshes: list[int]) -> None:
-    """Raise MeshFileError where drawing all ``meshes`` of the nodes takes too much memory for what the file holds."""
-    need = Need()
-    corners = sum(
-        file.item(file.header.accessors, index, "accessor").count
-        for number in meshes
-        for part in file.item(file.header.meshes, number, "mesh").primitives
-        for index in (part.attributes.get("POSITION"), part.indices)
-        if index is not None
-    )
-    need.ask(corners * DRAWING, file.byte_count, f"drawing the meshes of its {len(meshes)} nodes")
+    """Raise MeshFileError where drawing all ``meshes`` of the nodes takes too much memory.
+
+    What the file holds once may take what is free; what it only repeats takes no more than its bytes warrant.
+    """
+    accessors: list[int] = []
+    for number in meshes:
+        for part in drawn_parts(file.header.meshes[number]):
+            named = (part.attributes.get("POSITION"), part.indices)
+            accessors += [index for index in named if index is not None]
+    counts = {index: file.item(file.header.accessors, index, "accessor").count for index in set(accessors)}
+    total = sum(counts[index] for index in accessors)
+    # A number of the file has a byte at least, whatever its accessors count.
+    once = min(sum(counts.values()), file.byte_count)
+    what = f"drawing the meshes of its {len(meshes)} nodes"
+    Need().ask((total - once) * DRAWING, file.byte_count, what)
+    check_free(total * DRAWING, what)
 
 
 def placed_nodes(file: GltfFile) -> Iterator[tuple[int, Floats, str]]:
