@@ -13,6 +13,8 @@ from core.trace import StageTrace
 
 ROW_LIMIT = 150
 """Rows of a stage that are executed: all of them, or these many of them spread over the trace."""
+FOLLOWED_ROWS = 25
+"""Those of them that are followed line by line, at least."""
 
 Ran = dict[CodeType, list[list[int]]]
 """Function to the lines of each of its calls, in the order in which they ran, from 1."""
@@ -21,7 +23,12 @@ Ran = dict[CodeType, list[list[int]]]
 def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
     """Yield rows, and check what is executed before the next: the line that an operation marks is one that ran."""
     rows = np.flatnonzero(found.steps.kind == found.steps.kinds.index(kind))
-    for row in rows[:: max(len(rows) // ROW_LIMIT, 1)].tolist():
+    executed = rows[:: max(len(rows) // ROW_LIMIT, 1)].tolist()
+    every = max(len(executed) // FOLLOWED_ROWS, 1)
+    for number, row in enumerate(executed):
+        if number % every:
+            yield row
+            continue
         with lines_that_run() as ran:
             yield row
         check_marks(found, row, ran)
