@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job, Progress
 from app.session.document import Document
 from core import Trace
+from core.resolved import resolve
 
 QUICK_SECONDS = 0.3
 """What is estimated to take longer is traced off the GUI thread."""
@@ -47,6 +48,9 @@ def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> T
     trace = document.make_trace(earlier=earlier)
     trace.stage(stage)
     assert trace.source.picture is not None
+    if resolve(trace.source.settings).sampling.count == 1:
+        # What the pipeline rail counts: of a large mesh it would hold up the window.
+        assert trace.source.depth_tests is not None
     return trace
 
 

@@ -13,27 +13,26 @@ from app.views.pixel_ray import pixel_marks
 from app.views.pointed_pixel import pointed_pixels
 from app.views.scene_figures import OWN_SIZE, drawing_text, figures_text, fixed_size, size_choices
 from app.views.scene_picture import (
+    MOST_TRIANGLES,
     DrawnScene,
     SceneShot,
-    draw_scene,
+    Thinning,
+    draw_thinned,
     fractions,
     moved_parallel,
     space_words,
     triangle_seen,
 )
 from app.views.scene_worker import SceneWorker
-from app.views.view_space import ViewSpace, make_space, move_corner_to, thinned
+from app.views.view_space import ViewSpace, make_space, move_corner_to
 from core.fast_path.workers import BandWorkers
-from core.records.arrays import Integers
 from core.records.words import counted
-from core.scene import AnyScene, Scene
+from core.scene import Scene
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.frame_corner import FrameRate
 from widgets.space.orbit import Orbit, fitted
 from widgets.space.scene_view import SceneHandle, ScenePicture, SceneView
 
-MOST_TRIANGLES = 600_000
-"""A scene of more is thinned to so many."""
 FIGURES_MS = 200
 """Figures change at most this often: faster, nobody could read them."""
 
@@ -57,15 +56,13 @@ class Scene3dPresenter(QObject):
         self._session, self._view = session, view
         self._space: ViewSpace | None = None
         self._document: Document | None = None
-        self._drawable: tuple[AnyScene, Integers | None] | None = None
-        """The document's scene as it is drawn, and the numbers of its triangles where they are not all."""
         self._drawn: DrawnScene | None = None
         self._home = Orbit()
         self._size_name = OWN_SIZE
         self._rate = FrameRate()
         self._has_new_figures = False
         self._drags = 0
-        self._band_workers, self._backs = BandWorkers(1), HiddenBacks()
+        self._band_workers, self._backs, self._thinning = BandWorkers(1), HiddenBacks(), Thinning()
         self._worker, self._picker = SceneWorker(self), SceneWorker(self)
         self._worker.done.connect(self._take_drawn)
         self._worker.failed.connect(self.refused)
@@ -94,8 +91,6 @@ class Scene3dPresenter(QObject):
             return
         before = self._document
         self._document = document
-        if before is None or before.scene is not document.scene:
-            self._drawable = None
         self._space = make_space(document.traced_scene, self._session.trace.source.geometry.vertices)
         if before is None or _place_of(before) != _place_of(document):
             self._begin_anew()
@@ -183,16 +178,11 @@ class Scene3dPresenter(QObject):
         """Ask for a picture of what is to be seen now."""
         if self._space is None:
             return
-        if self._drawable is None:
-            scene = self._space.scene
-            is_too_large = self._session.document.triangle_count > MOST_TRIANGLES
-            self._drawable = thinned(scene, MOST_TRIANGLES) if is_too_large else (scene, None)
-        scene, numbers = self._drawable
         thickness = self._view.pixels_per_point() * current_theme().text_px / 13
         shot = SceneShot(
             self._space,
-            scene,
-            numbers,
+            self._space.scene,
+            None,
             self._session.document.settings,
             self._view.orbit(),
             self._view.picture_size(),
@@ -200,7 +190,7 @@ class Scene3dPresenter(QObject):
             thickness,
             current_theme(),
         )
-        self._worker.start(partial(draw_scene, shot, self._band_workers, self._backs))
+        self._worker.start(partial(draw_thinned, shot, self._thinning, self._band_workers, self._backs))
 
     @Slot(object)
     def _take_drawn(self, drawn: DrawnScene) -> None:

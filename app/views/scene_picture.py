@@ -8,7 +8,7 @@ import numpy as np
 from app.views.hidden_backs import HiddenBacks
 from app.views.scene_figures import FrameFigures
 from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines
-from app.views.view_space import ViewSpace, viewed_scene, viewing_camera, viewing_matrix
+from app.views.view_space import ViewSpace, thinned, viewed_scene, viewing_camera, viewing_matrix
 from core import Camera, Settings
 from core.fast_path.workers import BandWorkers
 from core.framebuffer.display import Bytes, linear_light
@@ -25,6 +25,10 @@ from widgets.space.view_depth import ViewDepth
 
 SIGHT_COLUMNS, SIGHT_ROWS = 96, 64
 """Places at which the distance of what is seen is kept."""
+
+
+MOST_TRIANGLES = 600_000
+"""A scene of more is thinned to so many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +73,29 @@ def view_settings(scene: AnyScene, settings: Settings, are_backs_hidden: bool = 
         wrap=settings.wrap,
         depth="fixed-38",
     )
+
+
+class Thinning:
+    """Keeps the thinned scene from one picture to the next; used by one thread."""
+
+    def __init__(self) -> None:
+        self._scene: AnyScene | None = None
+        self._thinned: tuple[AnyScene, Integers] | None = None
+
+    def thin(self, shot: SceneShot) -> SceneShot:
+        """Return what is drawn instead of a scene of more than `MOST_TRIANGLES`."""
+        if scene_triangle_count(shot.scene) <= MOST_TRIANGLES:
+            self._scene = self._thinned = None
+            return shot
+        if self._thinned is None or self._scene is not shot.scene:
+            self._scene, self._thinned = shot.scene, thinned(shot.scene, MOST_TRIANGLES)
+        scene, numbers = self._thinned
+        return replace(shot, scene=scene, numbers=numbers)
+
+
+def draw_thinned(shot: SceneShot, thinning: Thinning, workers: BandWorkers, backs: HiddenBacks) -> DrawnScene:
+    """Draw a picture as `draw_scene` does, of at most `MOST_TRIANGLES`."""
+    return draw_scene(thinning.thin(shot), workers, backs)
 
 
 def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> DrawnScene:

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, QPoint, QPointF, Qt, QTimer
 from PySide6.QtGui import QKeySequence, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from shiboken6 import isValid
 
 from app.window.keys import ACTIONS
 from app.window.main_window import MainWindow
@@ -103,9 +104,11 @@ class Monkey(QObject):
         QTest.mousePress(widget, button, NO_MODIFIER, at)
         for _ in range(self.random.randrange(1, 6)):
             at = at + QPoint(self.random.randrange(-60, 60), self.random.randrange(-60, 60))
-            QTest.mouseMove(widget, at)
+            if isValid(widget):  # what was opened meanwhile may have other widgets
+                QTest.mouseMove(widget, at)
             QApplication.processEvents()
-        QTest.mouseRelease(widget, button, NO_MODIFIER, at)
+        if isValid(widget):
+            QTest.mouseRelease(widget, button, NO_MODIFIER, at)
         return name
 
     def turn(self) -> str:

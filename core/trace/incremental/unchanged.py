@@ -34,11 +34,11 @@ def _are_comparable(now: TraceSource, before: TraceSource) -> bool:
     return (
         now.settings == before.settings
         and now.raster == before.raster
+        and is_same(_surroundings(now.scene), _surroundings(before.scene))
         and now.geometry.outlines is None
         and now.geometry.edges.numbers == before.geometry.edges.numbers
         and now.geometry.primitives.layout == before.geometry.primitives.layout
         and logarithm_range(now.geometry) == logarithm_range(before.geometry)
-        and is_same(_surroundings(now.scene), _surroundings(before.scene))
     )
 
 
