@@ -31,6 +31,15 @@ class Operation:
         return str(self.label(columns, slice(row, row + 1))[0])
 
 
-def either(flag: str, when_set: str, otherwise: str) -> Labels:
-    """Return the labels of an operation that does one thing or another: the column ``flag`` (R,) bool decides."""
-    return lambda columns, rows: np.where(columns[flag][rows], when_set, otherwise)
+@dataclass(frozen=True)
+class Either:
+    """`Labels` of an operation that does one thing or another."""
+
+    flag: str
+    """The column (R,) bool that decides."""
+    when_set: str
+    otherwise: str
+
+    def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
+        """Return the labels (C,) of rows."""
+        return np.where(columns[self.flag][rows], self.when_set, self.otherwise)

@@ -6,7 +6,7 @@ from core.framebuffer.depth import depth_in_range, depth_test, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.records.arrays import Flags, Integers
 from core.records.listing import Listing, listing
-from core.records.operation import Operation, either
+from core.records.operation import Either, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
 from core.trace.depth_values import value_columns, value_constants, value_listings, value_operations
@@ -18,7 +18,7 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "test": (
         Operation("depth", "", ("depth", "stored")),
         Operation("compare", "compare", ("before", "passes")),
-        Operation("write", either("passes", "store", "reject"), ("after",)),
+        Operation("write", Either("passes", "store", "reject"), ("after",)),
     ),
     "out-of-range": (Operation("range", "range", ("depth", "passes")),),
     "store": (

@@ -30,7 +30,7 @@ from core.raster.lines.records import (
 from core.raster.lines.traits import OCTANT, PLOT, Coefficients, LineTraits, line_rows
 from core.raster.spans.lines import find_line_pixels
 from core.records.arrays import Flags, Floats, Integers
-from core.records.operation import Operation, either
+from core.records.operation import Either, Operation
 
 Listed = list[tuple[int, int, float]]
 """Column, row and decision of each pixel, from a listing."""
@@ -38,7 +38,7 @@ Listed = list[tuple[int, int, float]]
 _LENGTHS = Operation("lengths", "lengths", ("run", "rise"))
 _TESTED = (
     Operation("test", "test", ("decision", "is_tie")),
-    Operation("step", either("has_stepped", "step", "test"), ("has_stepped",)),
+    Operation("step", Either("has_stepped", "step", "test"), ("has_stepped",)),
     PLOT,
 )
 

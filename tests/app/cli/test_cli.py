@@ -24,6 +24,7 @@ from core import STAGES, Settings, render, trace
 from core.framebuffer.display import to_display
 from core.methods import table
 from core.scene import ClipScene
+from core.trace.symbols import symbols_of
 from lessons.scenes import make_scene, scene_names
 from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
@@ -118,14 +119,15 @@ def test_the_json_of_a_stage_has_every_number_and_a_sentence_for_every_operation
     expected = trace(
         type(scene)(scene.meshes, scene.camera, scene.lights, (12, 8)), STEPPED, triangle=1
     ).stage(stage)
+    symbols = symbols_of(expected)
     assert (found["stage"], found["method"], found["triangle"]) == (stage, expected.method, 1)
     assert found["size"] == [12, 8]
     assert len(found["rows"]) == found["row_count"] == expected.steps.row_count > 0
     for number, row in enumerate(found["rows"]):
         assert (row["row"], row["kind"]) == (number, expected.kind_of(number))
-        assert set(row["columns"]) == set(expected.columns)
-        for name, value in row["columns"].items():
-            column = expected.columns[name][number]
+        assert set(row["columns"]) == {symbols.get(name, name) for name in expected.columns}
+        for name, of_rows in expected.columns.items():
+            column, value = of_rows[number], row["columns"][symbols.get(name, name)]
             numbers = np.array(value, column.dtype if column.dtype.kind in "Ub" else float)
             assert np.array_equal(numbers, np.asarray(column), equal_nan=column.dtype.kind == "f")
         for operation in row["operations"]:
@@ -180,9 +182,11 @@ def test_the_npz_has_the_columns_bit_for_bit(tmp_path):
         "depth"
     )
     with np.load(tmp_path / "depth.npz") as found:
+        assert symbols_of(expected)["depth"] == "z"
         for name, column in expected.columns.items():
-            assert found[name].dtype == column.dtype
-            assert found[name].tobytes() == column.tobytes()
+            written = found[symbols_of(expected).get(name, name)]
+            assert written.dtype == column.dtype
+            assert written.tobytes() == column.tobytes()
         assert found["row_pixel"].tolist() == expected.pixel.tolist()
         assert found["row_kind"].tolist() == [expected.kind_of(k) for k in range(expected.steps.row_count)]
         assert np.array_equal(found["mark_covered"], expected.marks["covered"])

@@ -156,12 +156,15 @@ def test_explanations_name_known_variables_and_lines_that_exist(name, choice):
                 assert explained.key == f"{found.stage}.{kind}.{operation.name}"
                 assert set(explained.known) <= set(explained.values), explained.key
                 assert set(explained.changed) <= set(explained.known), explained.key
-                if explained.listing is not None:
-                    assert operation.label in explained.listing.lines, (explained.key, operation.label)
+                label = operation.label_at(found.columns, row)
+                if explained.listing is None:
+                    assert explained.key in WITHOUT_LISTING
+                elif label:
+                    assert explained.line == explained.listing.lines[label], (explained.key, label)
                     lines = explained.listing.source.splitlines()
                     assert lines[explained.line - 1].strip(), explained.key
                 else:
-                    assert explained.key in WITHOUT_LISTING
+                    assert explained.line == 0, explained.key
 
 
 @pytest.mark.parametrize("name", list(SCENES))
