@@ -43,7 +43,7 @@ def shades(*lights: float) -> Floats:
 
 def near_plane() -> AnyScene:
     """A bright triangle with a corner behind the eye, on nothing: its outline is cut at the view volume."""
-    clip = np.array([[[-0.9, -0.8, 0.5, 1.0], [0.1, 0.3, -1.2, -0.4], [0.9, -0.8, 0.5, 1.0]]])
+    clip = np.array([[[-0.9, -0.8, 0.5, 1.0], [-0.75, -0.47, -1.2, -0.2], [0.9, -0.8, 0.5, 1.0]]])
     return ClipScene(clip, np.tile(COLORS[5], (1, 3, 1)), (SIDE, SIDE))
 
 
