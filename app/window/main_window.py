@@ -307,8 +307,8 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember window, panes and scene, end all work, then close."""
-        self.memory.save(self)
         with ending_within(SECONDS_TO_END):
+            self.memory.save(self)
             for page in self.pages.made:
                 page.stop()
             self.files.shut_down()
