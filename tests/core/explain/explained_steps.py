@@ -12,14 +12,15 @@ from core.settings import families
 from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
 from tests.core.strategies import clip_of_window
+from tests.covering import is_everything
 
 Step = tuple[Explanation, int, tuple[int, int]]
 """An explanation, its triangle and its pixel."""
 
 WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
-ROWS = 4
-"""Rows of a kind that are explained of a trace, spread over it."""
+ROWS = 2
+"""Rows of a kind that are explained of a trace, spread over it; with --all twice as many."""
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
@@ -97,11 +98,12 @@ def every_choice() -> list[Settings]:
 
 def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
     """Yield all operations of some rows of every kind, of one stage or of all."""
+    count = 2 * ROWS if is_everything() else ROWS
     stages = [traced.stage(name) for name in STAGES] if isinstance(traced, Trace) else [traced]
     for stage in stages:
         for kind in range(len(stage.steps.kinds)):
             rows = np.flatnonzero(stage.steps.kind == kind)
-            for row in rows[np.unique(np.linspace(0, len(rows) - 1, ROWS).astype(int))] if rows.size else []:
+            for row in rows[np.unique(np.linspace(0, len(rows) - 1, count).astype(int))] if rows.size else []:
                 column, line = stage.pixel[row].tolist()
                 for position in range(stage.steps.starts[row] + 1, stage.steps.starts[row + 1] + 1):
                     explanation = stage.explain(int(position))

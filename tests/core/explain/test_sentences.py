@@ -10,7 +10,7 @@ from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_steps, explained, rare_trace
+from tests.core.explain.explained_steps import all_steps, explained, rare_trace, steps_of
 
 NUMBERS = {
     "transform.object-to-world.x": "after_x",
@@ -58,7 +58,8 @@ def test_nothing_is_undefined_in_the_built_in_scenes() -> None:
 
 def test_an_undefined_number_is_said_only_where_there_is_one() -> None:
     said = 0
-    for explanation, triangle, pixel in explained("rare"):
+    overflown = steps_of(rare_trace("far-away", Settings(coverage="float16")))
+    for explanation, triangle, pixel in (*explained("rare"), *overflown):
         text = sentence(explanation, triangle, pixel)
         if "NaN" in text:
             said += 1

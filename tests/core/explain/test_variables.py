@@ -146,7 +146,7 @@ def plain(text: str) -> str:
 def test_symbols_are_those_of_the_formulas() -> None:
     symbols: dict[str, str] = {}
     shown: dict[str, set[str]] = {}
-    for explanation, triangle, pixel in all_steps():
+    for explanation, triangle, pixel in all_steps()[::3]:
         kind, (_, made) = explanation.key.rpartition(".")[0], account(explanation, triangle, pixel)
         symbols[kind] = symbols.get(kind, "") + (plain(plain_text(made.symbolic)) if made else "")
         shown.setdefault(kind, set()).update(
