@@ -21,6 +21,7 @@ from app.pages.step.stepping_presenter import Bookmark
 from app.session.tracing import trace_now
 from app.window.message_words import sentences
 from core import STAGES, Trace
+from core.numeric.buffers import give_back
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
@@ -91,6 +92,7 @@ class FileActions(QObject):
     def _show_result(self, result: tuple[Opened, Trace]) -> None:
         opened, trace = result
         self.show_opened(opened, trace)
+        give_back()
         self._messages.clear()
         if opened.warnings:
             outside = opened.left_outside

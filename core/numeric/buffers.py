@@ -10,6 +10,8 @@ three times what the sum itself takes. Operations that convert types do need a b
 as good for them.
 """
 
+import ctypes
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import prod
@@ -24,6 +26,13 @@ _LARGEST_KEPT = 31 << 20
 """Bytes of a block that the C library still keeps for later."""
 _block = np.empty(_LARGEST_KEPT, np.uint8)
 del _block
+
+
+def give_back() -> None:
+    """Give freed memory back to the system where the C library (GNU's) keeps it: after something large was let go."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
+    if trim is not None:
+        trim(0)
 
 
 class ScratchBuffers:
