@@ -19,7 +19,6 @@ from core.fast_path.fragment_colors import FragmentColors
 from core.fast_path.light_words import LightWords, light_pixels, light_words
 from core.fast_path.record import Coloring
 from core.framebuffer.nearest import READ_AT_ONCE, NearestFragments
-from core.pipeline import covered
 from core.raster.spans.packed import bent_spans, each_pass
 from core.records.arrays import Flags, Integers
 
@@ -78,6 +77,8 @@ class CornerColors:
         """Write the pixels of the plain triangles of a picture that is one layer."""
         chosen = np.flatnonzero(self.way == PLAIN)
         if len(chosen):
+            from core.pipeline import covered  # Few pictures have such triangles.
+
             part = context.part(chosen)
             colors = FragmentColors(part)
             for fragments in covered(part.geometry, context.raster, context.counts):
@@ -87,7 +88,7 @@ class CornerColors:
 
     def look_up(self, context: DrawContext, nearest: NearestFragments) -> int:
         """Write the colour of what is seen at every pixel, and return how many there are; the others stay."""
-        ways = {way: self._writer(context, way) for way in np.unique(self.way).tolist()}
+        ways = {way: self._writer(context, way) for way in np.flatnonzero(np.bincount(self.way)).tolist()}
         seen_count = 0
         if len(ways) == 1:
             (write,) = ways.values()

@@ -74,6 +74,14 @@ def test_the_first_picture_imports_nothing_that_it_does_not_use() -> None:
     assert not set(UNUSED) & set(imported)
 
 
+def test_a_first_picture_of_mixed_colours_waits_for_no_other_pipeline() -> None:
+    code = "import sys\nfrom core import draw_picture\nfrom lessons.scenes import make_scene\n"
+    code += "print(draw_picture(make_scene('single-triangle')).route.color)\nprint(*sys.modules, sep='\\n')"
+    route, *imported = run_fresh(code)
+    assert route == "corners"
+    assert not {"core.pipeline", "core.framebuffer.blending", "numpy.ma"} & set(imported)
+
+
 @pytest.mark.parametrize("name", UNUSED)
 def test_what_is_not_imported_is_there(name: str) -> None:
     path = ROOT.joinpath(*name.split("."))
