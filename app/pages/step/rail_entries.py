@@ -23,17 +23,24 @@ UNITS = dict.fromkeys(GEOMETRY_STAGES, "triangles") | {"bin": "pixels", "resolve
 def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     """Return what goes into and comes out of every stage as it is stepped.
 
-    A picture interpolates and shades only what is seen in the end; the trace does it with every fragment, in pipeline
-    order. With several samples a pixel, the counts are those of the picture.
+    The picture has all triangles, and interpolates and shades only what is seen in the end; the trace may have one
+    triangle in focus, and does it with every fragment, in pipeline order. With several samples a pixel, the counts from
+    the bins on are those of the picture.
     """
-    source, counts = trace.source, trace.source.picture.statistics
+    source, geometry = trace.source, trace.source.geometry
+    given, kept, pieces = len(geometry.assembled), len(geometry.kept), len(geometry.primitives)
+    counts = source.picture.statistics
     found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
-    if not found["raster"][0] and found["raster"][1]:
-        found["raster"] = found["bin"][1], found["raster"][1]
+    found |= {"transform": (given, given), "cull": (given, kept), "clip": (kept, pieces)}
+    found |= {"edges": (pieces, pieces)}
     if resolve(source.settings).sampling.count == 1:
         fragments, passed = len(source.fragments), int(source.depth_tests.passes.sum())
+        tested = fragments if geometry.outlines is not None else int(source.runs.lengths.sum())
+        found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
         found |= dict.fromkeys(("interpolate", "shade"), (fragments, fragments))
         found |= {"depth": (fragments, passed), "blend": (passed, passed)}
+    elif not found["raster"][0] and found["raster"][1]:
+        found["raster"] = found["bin"][1], found["raster"][1]
     return found
 
 
@@ -57,9 +64,10 @@ def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[Sta
         state, is_inserted, reason = _state_and_reason(
             stage, count, stage == current, trace.source.settings.coverage
         )
-        if stage == "raster" and incoming != count.incoming:
+        if stage == "raster" and outgoing and not count.incoming:
             reason = reason or COMPUTED
-        if stage in ("interpolate", "shade") and outgoing > count.outgoing:
+        is_whole = trace.source.triangle is None
+        if is_whole and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         entries.append(
             StageEntry(

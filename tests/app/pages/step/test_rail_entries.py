@@ -33,6 +33,16 @@ def test_several_samples_are_counted_as_the_picture_counts_them() -> None:
     assert traced_counts(run)["shade"] == (counts["shade"].incoming, counts["shade"].outgoing)
 
 
+@pytest.mark.parametrize("mode", ["fill", "wireframe"])
+def test_a_triangle_in_focus_is_counted_alone(mode: str) -> None:
+    run = trace(make_scene("torus"), Settings(polygon_mode=mode), triangle=1161, region=(246, 251, 24, 16))
+    counts = traced_counts(run)
+    assert counts["transform"] == counts["edges"] == (1, 1)
+    for stage, following in pairwise(("bin", "raster", "interpolate", "shade", "depth", "blend")):
+        assert counts[stage][1] == counts[following][0] > 0
+    assert counts["shade"][1] == run.stage("shade").steps.row_count
+
+
 def test_an_empty_picture_computes_nothing() -> None:
     away = ClipScene([[[4, 4, 0, 1], [5, 4, 0, 1], [4, 5, 0, 1]]], size=(8, 8))
     entry = rail_entries(trace(away), current="raster", is_predicting=False)[STAGES.index("raster")]
