@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QThreadPool, Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.background.progress import WorkProgress
@@ -92,7 +92,8 @@ class FileActions(QObject):
     def _show_result(self, result: tuple[Opened, Trace]) -> None:
         opened, trace = result
         self.show_opened(opened, trace)
-        give_back()
+        # It may take a tenth of a second: not on the GUI thread.
+        QThreadPool.globalInstance().start(give_back)
         self._messages.clear()
         if opened.warnings:
             outside = opened.left_outside

@@ -74,7 +74,7 @@ def fingerprints_of(meshes: tuple[Mesh, ...]) -> Fingerprints:
 
 
 def remember_file(path: str | Path, meshes: tuple[Mesh, ...], allows_outside: bool = False) -> None:
-    """Remember that ``path`` holds these meshes as it is now, and whether it may name files outside its folder."""
+    """Remember which meshes ``path`` holds at present, and whether it may name files outside its folder."""
     key = Path(path).resolve()
     _remembered[key] = _Remembered(_stamp(key), fingerprints_of(meshes), allows_outside)
 

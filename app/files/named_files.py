@@ -35,7 +35,7 @@ class NamedFiles:
         Parameters
         ----------
         name : str
-            As it is written in a file.
+            The name, as the file gives it.
         folder : Path, optional
             The folder of the file in which it is written; that of ``path`` by default.
 

@@ -2,7 +2,7 @@
 
 Coverage is decided on corners snapped to 1/256 pixel, and a snapped corner lies up to sqrt(2)/512 pixel from its place.
 OpenGL snaps the corners that clipping makes too, and computes all window positions in float32, which may put a corner
-on the next step. So its edges and the core's both lie beside the edge as it is given, together by at most a step's
+on the next step. So its edges and the core's both lie beside the given edge, together by at most a step's
 diagonal, sqrt(2)/256 pixel: only centres nearer to an edge may show another triangle. Where near and far plane cut a
 triangle are edges like the others.
 """

@@ -30,7 +30,7 @@ COLORS: dict[Coloring, str] = {
 
 
 MOST_STAGES = 4
-"""Stages whose time is told."""
+"""Stages whose time is shown."""
 
 
 @dataclass(frozen=True, eq=False)

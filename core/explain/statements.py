@@ -104,7 +104,7 @@ def last_unit(value: Number, digits: int) -> Fraction:
 
 
 def statements(cells: Sequence[str]) -> list[Statement]:
-    """Return what the cells of a line of numbers state, as far as it is arithmetic; marked numbers are read too."""
+    """Return the statements of a line of numbers that can be read as arithmetic; marked numbers are read too."""
     found: list[Statement] = []
     start = 0
     for end in [*(k for k, cell in enumerate(cells) if cell in BREAKS), len(cells)]:

@@ -41,11 +41,7 @@ def fragment_depth(
     depth = line_depth(outlines, fragments, raster.center)
     depth, keeps = clamp_depth(depth, outlines.is_in_range.take(fragments.segment))
     plane = _plane_along(geometry, fragments, raster, depth_format.quantity, depth)
-    return (
-        depth,
-        _in_front(keeps, plane, depth_format),
-        depth_format.store(_converted(geometry, plane, depth_format.quantity)),
-    )
+    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
 
 
 def depth_at(
@@ -55,11 +51,7 @@ def depth_at(
     depth = plane_value(geometry.depth_plane, primitive, x, y)
     depth, keeps = clamp_depth(depth, geometry.is_in_range.take(primitive))
     plane = _plane_at(geometry, primitive, (x, y), depth_format.quantity, depth)
-    return (
-        depth,
-        _in_front(keeps, plane, depth_format),
-        depth_format.store(_converted(geometry, plane, depth_format.quantity)),
-    )
+    return depth, _in_front(keeps, plane, depth_format), _stored(geometry, plane, depth_format)
 
 
 def farthest_stored(geometry: Geometry, depth_format: DepthFormat) -> Stored:
@@ -85,7 +77,7 @@ def farthest_stored(geometry: Geometry, depth_format: DepthFormat) -> Stored:
         farthest = np.minimum(at_corners.max(axis=1) + beyond, 1.0)
     else:
         farthest = np.maximum(at_corners.min(axis=1) - beyond, 0.0)
-    stored = depth_format.store(_converted(geometry, farthest, quantity))
+    stored = _stored(geometry, farthest, depth_format)
     # On an integer plane every step along a row or a column is rounded.
     return np.add(stored, (1 + sum(geometry.vertices.size)) / 2) if depth_format.is_planar else stored
 
@@ -125,6 +117,10 @@ def _plane_along(
 def _in_front(keeps: Flags, plane: Floats, depth_format: DepthFormat) -> Flags:
     """Drop fragments (F,) whose interpolated 1/w shows a point behind the eye."""
     return keeps & (plane > 0) if depth_format.quantity.plane == "inverse-w" else keeps
+
+
+def _stored(geometry: Geometry, plane: Floats, depth_format: DepthFormat) -> Stored:
+    return depth_format.store(_converted(geometry, plane, depth_format.quantity))
 
 
 def _converted(geometry: Geometry, plane: Floats, quantity: DepthQuantity) -> Floats:

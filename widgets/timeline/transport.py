@@ -56,7 +56,6 @@ class Timeline(QWidget):
         super().__init__(parent)
         self._count = 0
         self._position = 0
-        self._has_before = self._has_after = False
         self._level = Level.PIXEL
         self.clock = QTimer(self)
         self.clock.setInterval(round(1000 / SPEEDS[2]))
@@ -104,7 +103,7 @@ class Timeline(QWidget):
     @Slot(object)
     def show_run(self, run: TimelineRun) -> None:
         """Show another run; the position is kept inside it."""
-        self._count, self._has_before, self._has_after = run.count, run.has_before, run.has_after
+        self._count = run.count
         self._position = min(self._position, run.count)
         self._fit_position_box()
         self.count_label.setText(f"/ {run.count:,}")
@@ -221,7 +220,7 @@ class Timeline(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def _can_go_on(self) -> bool:
-        return self._position < self._count or self._has_after
+        return self._position < self._count or self.bar.run().has_after
 
     def _fit_position_box(self) -> None:
         text = "0" * (len(str(self._count)) + 1)
@@ -230,7 +229,7 @@ class Timeline(QWidget):
     def _update_state(self) -> None:
         is_after_start, is_before_end = self._position > 0, self._position < self._count
         self.first_button.setEnabled(is_after_start)
-        self.back_button.setEnabled(is_after_start or self._has_before)
+        self.back_button.setEnabled(is_after_start or self.bar.run().has_before)
         self.forward_button.setEnabled(self._can_go_on())
         self.last_button.setEnabled(is_before_end)
         self.play_button.setEnabled(self._can_go_on())

@@ -1,4 +1,4 @@
-"""The JSON of glTF 2.0 as far as it is read: one class for each of its objects."""
+"""The JSON of glTF 2.0: one class for each of its objects that is read."""
 
 from typing import Annotated, Literal
 

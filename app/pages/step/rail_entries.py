@@ -21,7 +21,7 @@ UNITS = dict.fromkeys(GEOMETRY_STAGES, "triangles") | {"bin": "pixels", "resolve
 
 
 def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
-    """Return what goes into and comes out of every stage as it is stepped.
+    """Return what goes into and comes out of every stage of the trace.
 
     The picture has all triangles, and interpolates and shades only what is seen in the end; the trace may have one
     triangle in focus, and does it with every fragment, in pipeline order. With several samples a pixel, the counts from
@@ -31,8 +31,8 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     given, kept, pieces = len(geometry.assembled), len(geometry.kept), len(geometry.primitives)
     counts = source.picture.statistics
     found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
-    found |= {"transform": (given, given), "cull": (given, kept), "clip": (kept, pieces)}
-    found |= {"edges": (pieces, pieces)}
+    found |= {"transform": (given, given), "cull": (given, kept)}
+    found |= {"clip": (kept, pieces), "edges": (pieces, pieces)}
     if resolve(source.settings).sampling.count == 1:
         fragments, passed = len(source.fragments), int(source.depth_tests.passes.sum())
         tested = fragments if geometry.outlines is not None else int(source.runs.lengths.sum())
@@ -58,6 +58,7 @@ def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[Sta
     """
     counts, through = trace.source.picture.statistics, traced_counts(trace)
     whole_seconds = sum(count.seconds for count in counts.values())
+    is_whole = trace.source.triangle is None
     entries = []
     for index, stage in enumerate(STAGES):
         count, (incoming, outgoing) = counts[stage], through[stage]
@@ -66,7 +67,6 @@ def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[Sta
         )
         if stage == "raster" and outgoing and not count.incoming:
             reason = reason or COMPUTED
-        is_whole = trace.source.triangle is None
         if is_whole and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         entries.append(

@@ -2,11 +2,11 @@
 
 One end is snapped. The other lies behind the eye, at w = 0, or too far away, and keeps its place. A line through the
 snapped end and the other end would turn without bound as both come close in the window. So the edge runs through its
-snapped end in the direction of the edge as it is given, between both ends before snapping.
+snapped end in the direction of the given edge, between both ends before snapping.
 
 Bound
 -----
-The edge as it is given runs through the end p, the decided edge through the snapped p', in the same direction. Their
+The given edge runs through the end p, the decided edge through the snapped p', in the same direction. Their
 distance is at most |p' - p|, and that is at most sqrt(2)/512 pixel: half a step along each axis. So no pixel centre
 farther than sqrt(2)/512 pixel from the given edge is decided against it, wherever it lies. The direction is computed
 from the clip positions with a relative error below 2^-50, whatever cancels (`difference_of_products`), and replaced by

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from core.methods import table
 from core.records.arrays import Floats
 from core.records.frame import Frame
+from core.records.primitives import lit_by
 from core.scene import ClipScene, Scene
 from core.settings import Settings
 from core.study.accuracy.family import Assignment, StudyFamily
@@ -114,7 +114,7 @@ class ShadingTask(ColorTask):
             "faces": len(mesh.triangles),
             "nothing": 0,
         }
-        return counts | {"lights evaluated": lit[table.get("shading", settings.shading).traits]}
+        return counts | {"lights evaluated": lit[lit_by(settings.shading)]}
 
 
 def make_shading(assignment: Assignment) -> ShadingTask:

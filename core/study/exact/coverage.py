@@ -187,7 +187,7 @@ def facing(corners: Sequence[Corner | WholeCorner]) -> int:
 
 
 def _edge_line(k: int, given: list[WholeCorner], placed: list[WholeCorner | None], turn: int) -> Line:
-    """Return edge k: between two ends on the grid, or as it is given, moved to the end that is on the grid."""
+    """Return edge k: between two ends on the grid, or the given one, moved to the end that is on the grid."""
     first, second = placed[k - 2], placed[k - 1]
     ends = (first, second) if first and second else (given[k - 2], given[k - 1])
     (x1, y1, w1), (x2, y2, w2) = ends
