@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from app.cli.commands import PROGRAM, UsageError
+from app.cli.commands import PROGRAM, UsageError, add_allow_outside
 from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
@@ -17,7 +17,6 @@ from core.scene import SIZE_LIMIT
 from core.settings import settings_from_texts
 
 FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
-OUTSIDE_HELP = "read files that FILE names from outside its folder, too"
 OUTSIDE_HINT = "--allow-outside reads it"
 MOST_ROUNDS = 1000
 
@@ -45,11 +44,6 @@ def add_file(parser: argparse.ArgumentParser) -> None:
     """Let the command take FILE."""
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     add_allow_outside(parser)
-
-
-def add_allow_outside(parser: argparse.ArgumentParser) -> None:
-    """Let the command take ``--allow-outside``."""
-    parser.add_argument("--allow-outside", action="store_true", help=OUTSIDE_HELP)
 
 
 SETTINGS_HELP = (

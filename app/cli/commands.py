@@ -61,6 +61,15 @@ class UsageError(ValueError):
     """The command line is wrong; the message is one line."""
 
 
+def add_allow_outside(parser: argparse.ArgumentParser) -> None:
+    """Let a command take ``--allow-outside``."""
+    parser.add_argument(
+        "--allow-outside",
+        action="store_true",
+        help="read files that FILE names from outside its folder, too",
+    )
+
+
 def output_folder(options: argparse.Namespace) -> Path | None:
     """Return the folder that ``-o`` names, ``None`` without it, or raise UsageError where it cannot be written to."""
     folder = None if options.output is None else Path(options.output)
@@ -150,11 +159,7 @@ def _run_window(arguments: Sequence[str]) -> int:
         names = ", ".join(command.name for command in COMMANDS)
         parser.error(f"expected one FILE or a command ({names}), got {' '.join(arguments)}")
     parser.add_argument("file", metavar="FILE", nargs="?", help="what to open in the window")
-    parser.add_argument(
-        "--allow-outside",
-        action="store_true",
-        help="read files that FILE names from outside its folder, too",
-    )
+    add_allow_outside(parser)
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {__version__}")
     options = _parse(parser, arguments)
     if options is None:

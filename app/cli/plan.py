@@ -7,7 +7,6 @@ import numpy as np
 
 from app.cli.arguments import (
     FILE_HELP,
-    add_allow_outside,
     add_settings,
     chosen_settings,
     open_file,
@@ -15,7 +14,7 @@ from app.cli.arguments import (
     rounds_from_text,
     size_from_text,
 )
-from app.cli.commands import UsageError
+from app.cli.commands import UsageError, add_allow_outside
 from app.cli.study import aligned
 from core import Settings
 from core.study import PlanReport, Tolerance, plan_and_check

@@ -5,14 +5,13 @@ import argparse
 from app import __version__
 from app.cli.arguments import (
     FILE_HELP,
-    add_allow_outside,
     add_settings,
     chosen_settings,
     outside_hinted,
     progress_line,
     rounds_from_text,
 )
-from app.cli.commands import UsageError, output_folder
+from app.cli.commands import UsageError, add_allow_outside, output_folder
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
