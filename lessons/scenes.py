@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
-from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, sphere, torus
+from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
+from lessons.teapot import teapot
 
 TEACHING_SIZE = (64, 48)
 """Raster of the small cases in pixels: every pixel can be pointed at."""
@@ -91,6 +92,19 @@ def shared_edge() -> ClipScene:
     return ClipScene(clip, colors, TEACHING_SIZE, shared=corners)
 
 
+def fan() -> ClipScene:
+    """Sixteen triangles around a pixel centre: edges to all sides run through pixel centres."""
+    rim = [(20, 0), (20, 8), (18, 18), (8, 20), (0, 20), (-8, 20), (-18, 18), (-20, 8)]
+    around = [(0, 0), *rim, *((-x, -y) for x, y in rim)]
+    x, y = np.array(around).T + np.array([[32.5], [24.5]])
+    corners = np.array([[0, k, k % 16 + 1] for k in range(1, 17)])
+    clip = np.stack(
+        [window_triangle(x[row], y[row], np.full(3, 0.5), np.ones(3), TEACHING_SIZE) for row in corners]
+    )
+    palette = [linear_color(FACE_COLORS[k % 4]) for k in range(16)]
+    return ClipScene(clip, np.repeat(palette, 3, axis=0).reshape(16, 3, 4), TEACHING_SIZE, shared=corners)
+
+
 def near_plane() -> Scene:
     """One triangle that reaches from far in front of the camera to behind it."""
     triangle = Mesh(
@@ -111,6 +125,12 @@ def intersecting() -> ClipScene:
     falling = window_triangle([4, 60, 54], [24, 4, 45], [0.8, 0.2, 0.4], [1, 1, 1], size)
     colors = np.stack([np.tile(linear_color(color), (3, 1)) for color in FACE_COLORS[:2]])
     return ClipScene(np.stack([rising, falling]), colors, size)
+
+
+def z_fighting() -> Scene:
+    """Two plates, one a hair's breadth behind the other: less than a step of 16-bit depth, many of 24 bits."""
+    camera = Camera(eye=np.array([1.0, 1.1, 3.1]), target=np.zeros(3), near=0.05, far=50.0)
+    return Scene(plates(), camera, (sun(),), TEACHING_SIZE)
 
 
 def textured_floor() -> Scene:
@@ -158,6 +178,12 @@ CATALOGUE = (
         shared_edge,
     ),
     BuiltInScene(
+        "fan",
+        "Fan of shared edges",
+        "Sixteen triangles meet at a pixel centre, and every pixel still belongs to exactly one.",
+        fan,
+    ),
+    BuiltInScene(
         "near-plane",
         "Near-plane crosser",
         "One triangle that begins in front of the camera and ends behind it.",
@@ -170,12 +196,24 @@ CATALOGUE = (
         intersecting,
     ),
     BuiltInScene(
+        "z-fighting",
+        "Z-fighting plates",
+        "Two plates lie so close that 16 bits of depth mix them, while 24 bits and floats keep them apart.",
+        z_fighting,
+    ),
+    BuiltInScene(
         "textured-floor",
         "Textured floor",
         "Two large triangles with a repeated checkerboard show what perspective does to texture coordinates.",
         textured_floor,
     ),
     BuiltInScene("cube", "Cube", "Six faces of one colour each, twelve triangles.", of_mesh(cube, 5.4)),
+    BuiltInScene(
+        "teapot",
+        "Teapot",
+        "The Utah teapot, 32 Bezier patches cut into 2,256 triangles.",
+        of_mesh(teapot, 3.5, "#E8E8E8"),
+    ),
     BuiltInScene(
         "sphere", "Sphere", "A round surface of 2,208 flat triangles.", of_mesh(sphere, 3.4, "#56B4E9")
     ),

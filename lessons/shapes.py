@@ -154,6 +154,33 @@ def floor(half: float = 20.0, tiles: float = 20.0) -> Mesh:
     )
 
 
+def plates(half: float = 1.1, gap: float = 0.0016) -> tuple[Mesh, Mesh]:
+    """Return two squares that lean back, a blue one and then an orange one ``gap`` in front of it and to its left.
+
+    Notes
+    -----
+    The plate behind comes first: where both get the same stored depth, the first one stays.
+    """
+    corners = np.array([[-1.0, -1.0, 0.5], [1.0, -1.0, 0.5], [1.0, 1.0, -0.5], [-1.0, 1.0, -0.5]]) * half
+    normal = np.array([0.0, 1.0, 2.0]) / 5**0.5
+
+    def plate(name: str, color: str, place: Floats) -> Mesh:
+        return Mesh(
+            positions=corners + place,
+            triangles=np.array([[0, 1, 2], [0, 2, 3]]),
+            normals=np.tile(normal, (4, 1)),
+            colors=np.tile(linear_color(color), (4, 1)),
+            faces=np.array([0, 0]),
+            name=name,
+        )
+
+    aside = np.array([0.35, 0.0, 0.0])
+    return (
+        plate("plate behind", FACE_COLORS[0], aside),
+        plate("plate in front", FACE_COLORS[1], gap * normal - aside),
+    )
+
+
 def checkerboard(square: int = 16) -> Texture:
     """Return a texture of 2 x 2 squares of ``square`` texels, with the letter F in the one at (0, 0)."""
     light, dark, ink = (linear_color(color)[:3] for color in ("#E8E8E8", "#404850", "#D55E00"))

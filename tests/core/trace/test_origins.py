@@ -6,7 +6,7 @@ import pytest
 from core import STAGES, Settings, Trace, trace
 from core.scene import AnyScene
 from core.trace.origins import SOURCES, origin
-from lessons.scenes import CATALOGUE
+from lessons.scenes import make_scene
 
 
 def middle(scene: AnyScene) -> tuple[int, int, int, int]:
@@ -39,16 +39,16 @@ def origins(run: Trace, stage: str, rows: int) -> list[tuple[str, int]]:
     return found
 
 
-@pytest.mark.parametrize("number", [0, 3, 4, 6])
-def test_the_same_number_stands_in_an_earlier_step(number: int) -> None:
-    scene = CATALOGUE[number].make()
+@pytest.mark.parametrize("name", ["single-triangle", "intersecting", "textured-floor", "sphere"])
+def test_the_same_number_stands_in_an_earlier_step(name: str) -> None:
+    scene = make_scene(name)
     run = trace(scene, Settings(fill="bounding-box"), region=middle(scene))
     names = {name for stage in STAGES for name, _ in origins(run, stage, 12)}
     assert {"raster.a", "raster.b", "raster.c", "blend.source", "resolve.linear"} <= names
 
 
 def test_a_byte_is_followed_to_a_vertex() -> None:
-    scene = CATALOGUE[5].make()
+    scene = make_scene("cube")
     run = trace(scene, region=middle(scene))
     shown = np.argwhere(run.source.picture.primitive >= 0)[0][::-1] + run.source.raster.bounds[:2]
     rows = run.stage("resolve").rows_at_pixel(*shown)
@@ -68,7 +68,7 @@ def test_a_byte_is_followed_to_a_vertex() -> None:
 
 
 def test_what_was_given_and_what_this_step_made_come_from_nowhere() -> None:
-    run = trace(CATALOGUE[0].make(), region=(10, 10, 20, 16))
+    run = trace(make_scene("single-triangle"), region=(10, 10, 20, 16))
     raster = run.stage("edges")
     assert origin(run, "edges", 0, "a") is None
     assert origin(run, "edges", int(raster.steps.starts[4]) + 1, "a") is None

@@ -81,7 +81,9 @@ def textured_clip_scene() -> ClipScene:
     return ClipScene(clip, uv, (10, 8), texture)
 
 
-SCENES = {name: small_scene(name) for name in scene_names() if name not in ("sphere", "torus", "knot")} | {
+SCENES = {
+    name: small_scene(name) for name in scene_names() if name not in ("teapot", "sphere", "torus", "knot")
+} | {
     "lit": lit_scene(),
     "orthographic": lit_scene("orthographic"),
     "clip": clip_scene(),
