@@ -256,10 +256,11 @@ class Session(QObject):
         count = self.stage_trace.steps.count
         self._jump(replace(self._cursor, position=min(max(position, 0), count)))
 
-    def scrub(self, position: int) -> None:
-        """Go to a position while a slider is dragged: not remembered."""
-        count = self.stage_trace.steps.count
-        self._move(replace(self._cursor, position=min(max(position, 0), count)))
+    def scrub(self, position: int, stage: str = "") -> None:
+        """Go to a position, of another stage if it is named, while a slider is dragged: not remembered."""
+        stage = stage or self._cursor.stage
+        count = self._trace.stage(stage).steps.count
+        self._move(replace(self._cursor, stage=stage, position=min(max(position, 0), count)))
 
     def set_stage(self, stage: str, position: int | None = None) -> None:
         """Go to another stage, to its end unless a position is given."""

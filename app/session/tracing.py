@@ -49,7 +49,7 @@ def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> T
     trace.stage(stage)
     assert trace.source.picture is not None
     if resolve(trace.source.settings).sampling.count == 1:
-        # What the pipeline rail counts: of a large mesh it would hold up the window.
+        # What the chapters count: of a large mesh it would hold up the window.
         assert trace.source.depth_tests is not None
     return trace
 

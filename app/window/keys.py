@@ -186,6 +186,18 @@ LOCAL_KEYS = (
     *_on(
         "step",
         KeyAction("value_origin", ("Return",), "In Variables: go to the step that made the number", STEPPING),
+        KeyAction(
+            "choose_chapter",
+            ("Left", "Right", "Return"),
+            "In the chapters: choose a stage and enter it",
+            STEPPING,
+        ),
+        KeyAction(
+            "leap",
+            ("PgDown", "PgUp"),
+            "In the chapters and the timeline: go on or back by a twentieth of the stage",
+            STEPPING,
+        ),
     ),
     *_on(
         "compare",

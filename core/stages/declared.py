@@ -1,4 +1,4 @@
-"""The stages of the pipeline, each declared once: rail, cards, keys, settings and traces read it here."""
+"""The stages of the pipeline, each declared once: chapters, cards, keys, settings and traces read it here."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ class Stage:
     name: str
     """The spelling of files, command line and API."""
     short_title: str
-    """Its name on the pipeline rail."""
+    """Its name as a chapter of the run."""
     title: str
     """Heading of its card."""
     purpose: str

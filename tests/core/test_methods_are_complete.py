@@ -93,7 +93,9 @@ def stage_lacking(stage: Stage) -> list[str]:
     tracer = getattr(import_module(module), name, None)
     found += [] if tracer is not None and tracer.__doc__ else [f"no tracer {stage.tracer}"]
     found += [] if stage.name in ACCOUNTS else ["no account of its rows"]
-    found += [] if stage.title.startswith(stage.short_title) else ["a title that is not its name on the rail"]
+    found += (
+        [] if stage.title.startswith(stage.short_title) else ["a title that is not its name as a chapter"]
+    )
     return found
 
 

@@ -1,1 +1,1 @@
-"""The timeline of steps and the rail of stages."""
+"""The timeline: the run as chapters, and the steps of the present one."""

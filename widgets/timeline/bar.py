@@ -1,4 +1,4 @@
-"""The whole run as one bar: a lane of marks per outcome, the present position, zoom and scrub.
+"""The steps of one stage as one bar: a lane of marks per outcome, the present position, zoom and scrub.
 
 Position p means that p steps are done; step k (from 0) fills the stretch [k, k + 1) and is the one just done
 at position k + 1.

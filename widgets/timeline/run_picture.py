@@ -17,7 +17,7 @@ from widgets.basics.theme import current_theme
 LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)
 """Outcomes with a lane of their own, top down."""
 FLAGS = (Mark.PINNED, Mark.BREAKPOINT, Mark.BOOKMARK)
-"""Marks that stand on the rail above the lanes."""
+"""Marks that stand on the line above the lanes."""
 
 _MOST_FLAGS = 60
 
@@ -173,7 +173,7 @@ def lane_height() -> int:
 
 
 def flag_height() -> int:
-    """Return the height of the rail for flags."""
+    """Return the height of the line of flags."""
     return current_theme().small_px + 2
 
 

@@ -56,7 +56,7 @@ class StageCardView(QWidget):
     def show_card(self, card: StageCard | None) -> None:
         """Show the card of a stage, or the hint for an empty pane."""
         self.fold_button.setText(card.title if card else "Stage card")
-        hint = "Choose a stage in the rail above to read its purpose, input and output."
+        hint = "Choose a stage below to read its purpose, input and output."
         texts = (card.purpose, card.gets, card.gives, card.source) if card else (hint, "", "", "")
         set_role(self._texts[0], "" if card else "muted")
         for label, view, text in zip(self._labels, self._texts, texts, strict=True):

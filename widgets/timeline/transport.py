@@ -1,9 +1,9 @@
-"""Transport, level, position and speed over the bar of the whole run."""
+"""Transport, level, position and speed over the chapters of the run and the bar of the present one."""
 
 from collections.abc import Mapping
 
 from PySide6.QtCore import QPointF, QSize, Qt, QTimer, Signal, Slot
-from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap, QPolygonF
+from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import (
     QButtonGroup,
     QComboBox,
@@ -20,6 +20,7 @@ from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 from widgets.timeline.bar import TimelineBar
+from widgets.timeline.chapters import ChapterRow
 from widgets.timeline.run_picture import TimelineRun
 
 __all__ = ["SPEEDS", "Timeline", "TimelineRun"]
@@ -44,7 +45,9 @@ class Timeline(QWidget):
     step_requested = Signal(int)
     """One step at the present level: 1 forward, -1 back; by button or by the playing clock."""
     ends_requested = Signal(int)
-    """The user wants the start (-1) or the end (1) of the run."""
+    """The user wants the start (-1) or the end (1) of the stage."""
+    leap_requested = Signal(int)
+    """The user wants to go on (1) or back (-1) by many steps."""
     level_chosen = Signal(object)
     """The user has chosen another `Level`."""
     play_toggled = Signal(bool)
@@ -60,6 +63,7 @@ class Timeline(QWidget):
         self.clock = QTimer(self)
         self.clock.setInterval(round(1000 / SPEEDS[2]))
         self.clock.timeout.connect(self._tick)
+        self.chapters = ChapterRow(self)
         self.bar = TimelineBar(self)
         self.bar.position_requested.connect(self.position_requested)
         self.first_button = self._button("Go to the start", "Home")
@@ -115,6 +119,7 @@ class Timeline(QWidget):
         """Show how many steps are done; playing stops at the end of the last run."""
         self._position = position
         self.bar.show_position(position)
+        self.chapters.show_share_done(position / self._count if self._count else 0.0)
         if not self._can_go_on():
             self.clock.stop()
         self._update_state()
@@ -163,6 +168,14 @@ class Timeline(QWidget):
         if place != self.speed_box.currentIndex():
             self.speed_box.setCurrentIndex(place)
             self._choose_speed(place)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Leap through the run with Page Down and Page Up, while the chapters or the bar have the focus."""
+        leaps = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}
+        if event.key() in leaps and event.modifiers() == Qt.KeyboardModifier.NoModifier:
+            self.leap_requested.emit(leaps[Qt.Key(event.key())])
+        else:
+            super().keyPressEvent(event)
 
     def add_control(self, widget: QWidget) -> None:
         """Put another control into the row above the bar, left of the position."""
@@ -216,7 +229,10 @@ class Timeline(QWidget):
         row.addWidget(self.speed_box)
         layout = column_layout(self, 4, margins=(8, 4, 8, 4))
         layout.addLayout(row)
-        layout.addWidget(self.bar)
+        chapters = column_layout(spacing=0)
+        chapters.addWidget(self.chapters)
+        chapters.addWidget(self.bar)
+        layout.addLayout(chapters)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def _can_go_on(self) -> bool:

@@ -1,4 +1,4 @@
-"""The stepping page: rail, scene, grids, inspector and timeline around one session."""
+"""The stepping page: scene, grids, inspector and timeline around one session."""
 
 from math import isclose
 
@@ -42,7 +42,6 @@ from widgets.inspector.history_view import PixelHistory
 from widgets.inspector.listing import ListingView
 from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
-from widgets.timeline.pipeline_rail import PipelineRail
 from widgets.timeline.stage_card import StageCardView
 from widgets.timeline.transport import Timeline
 
@@ -53,7 +52,7 @@ class StepPage(Page):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.session = session
-        self.rail, self.timeline = PipelineRail(self), Timeline(self)
+        self.timeline = Timeline(self)
         self.outline, self.settings_panel = SceneOutline(self), SettingsPanel(self)
         self.grid, self.strip = PixelGrid(self), BufferStrip(self)
         self.legend, self.ranges = OverlayLegend(self), RangeControl(self)
@@ -63,7 +62,7 @@ class StepPage(Page):
         self.sentence = QLabel(self)
         self.event_box = QComboBox(self)
 
-        self.stepping = SteppingPresenter(session, self.timeline, self.rail, self)
+        self.stepping = SteppingPresenter(session, self.timeline, self)
         self.inspector = InspectorPresenter(
             session,
             self.stepping,
@@ -104,7 +103,6 @@ class StepPage(Page):
         self.columns.setSizes([296, 616, 352])
         self.columns.setChildrenCollapsible(True)
         page = column_layout(self, 8, margins=(8, 4, 8, 8))
-        page.addWidget(self.rail)
         page.addWidget(self.columns, 1)
         self._add_run_to()
         page.addWidget(self.timeline)

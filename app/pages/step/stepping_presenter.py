@@ -1,4 +1,4 @@
-"""Stepping: the timeline, the pipeline rail, and running to events, breakpoints and bookmarks."""
+"""Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks."""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.pages.step.rail_entries import rail_entries
+from app.pages.step.chapters import chapters_of
 from app.session.session import Session
 from core import STAGES
 from core.methods import table
@@ -19,7 +19,6 @@ from core.trace import StageTrace
 from core.trace.conditions import Condition, parse_condition
 from core.trace.run_to import next_at_pixel, next_marked
 from widgets.basics.marks import Mark
-from widgets.timeline.pipeline_rail import PipelineRail
 from widgets.timeline.run_picture import TimelineRun
 from widgets.timeline.transport import Timeline
 
@@ -37,6 +36,8 @@ EVENT_TITLES = {
     "nan": "NaN or infinity",
     "depth-failed": "depth failed",
 }
+LEAPS = 20
+"""Leaps with Page Down from the start of a stage to its end."""
 LAST_STEP = "The picture is finished. Press Home for the start of this stage, 1 for the first stage."
 FIRST_STEP = "Nothing comes before this. Press Right for the first step."
 
@@ -65,11 +66,9 @@ class SteppingPresenter(QObject):
     condition_changed = Signal(str)
     """The condition of a breakpoint, empty: none."""
 
-    def __init__(
-        self, session: Session, timeline: Timeline, rail: PipelineRail, parent: QObject | None = None
-    ) -> None:
+    def __init__(self, session: Session, timeline: Timeline, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._session, self._timeline, self._rail = session, timeline, rail
+        self._session, self._timeline = session, timeline
         self.event_kind = "covered"
         """Kind of event that N runs to."""
         self.pixel_breakpoints: set[tuple[int, int]] = set()
@@ -89,7 +88,9 @@ class SteppingPresenter(QObject):
         timeline.step_requested.connect(self.step)
         timeline.ends_requested.connect(self.go_to_end)
         timeline.level_chosen.connect(session.set_level)
-        rail.stage_chosen.connect(self.choose_stage)
+        timeline.leap_requested.connect(self.leap)
+        timeline.chapters.chapter_chosen.connect(self.choose_stage)
+        timeline.chapters.run_scrubbed.connect(self.scrub_run)
         self._stage = ""
         self.refresh_run()
 
@@ -120,7 +121,7 @@ class SteppingPresenter(QObject):
             self._stage = cursor.stage
             self._timeline.show_level_names(self._level_names(cursor.stage))
             self.refresh_marks()
-            self.show_rail()
+            self.show_chapters()
         elif self._session.is_predicting:
             self.refresh_marks()
         self._timeline.show_level(cursor.level)
@@ -155,11 +156,11 @@ class SteppingPresenter(QObject):
         self._timeline.show_run(TimelineRun(trace.steps.count, marks, place > 0, place < last))
         self._timeline.show_position(self._session.cursor.position)
 
-    def show_rail(self) -> None:
+    def show_chapters(self) -> None:
         """Show what every stage took in, gave out, and which part of the time it took."""
         session = self._session
-        self._rail.show_stages(
-            rail_entries(session.trace, current=session.cursor.stage, is_predicting=session.is_predicting)
+        self._timeline.chapters.show_chapters(
+            chapters_of(session.trace, current=session.cursor.stage, is_predicting=session.is_predicting)
         )
 
     # Moving.
@@ -180,8 +181,24 @@ class SteppingPresenter(QObject):
 
     @Slot(int)
     def choose_stage(self, index: int) -> None:
-        """Go to the start of a stage, by its place in the rail."""
+        """Go to the start of a stage, by its place in the run."""
         self._session.set_stage(STAGES[index], 0)
+
+    @Slot(int, float)
+    def scrub_run(self, index: int, share: float) -> None:
+        """Go to where a share of a stage is done, while the chapters are dragged through."""
+        count = self._session.trace.stage(STAGES[index]).steps.count
+        self._session.scrub(round(share * count), STAGES[index])
+
+    @Slot(int)
+    def leap(self, direction: int) -> None:
+        """Go on (1) or back (-1) by a part of the stage, from stage to stage."""
+        cursor, count = self._session.cursor, self._session.stage_trace.steps.count
+        position = min(max(cursor.position + direction * max(count // LEAPS, 1), 0), count)
+        if position != cursor.position:
+            self._session.scrub(position)
+        else:
+            self.step(direction)
 
     def toggle_play(self) -> None:
         """Play or pause; at the end of the last stage, play from the first."""

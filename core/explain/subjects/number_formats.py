@@ -103,7 +103,7 @@ def inverse_coefficient(step: StepValues) -> Said:
 
 
 def replaced_fill(fill: str, coverage: str) -> str:
-    """Return why a fill by spans was replaced, as the pipeline rail shows it."""
+    """Return why a fill by spans was replaced, as its chapter shows it."""
     return (
         f"Every pixel of the bounding box is tested: {fill} needs float64 numbers, and coverage {coverage} "
         "uses others."

@@ -1,4 +1,4 @@
-"""The stepping presenter: runs to events, pins, breakpoints, lines and bookmarks; what the rail and timeline show."""
+"""The stepping presenter: runs to events, pins, breakpoints, lines and bookmarks; what the timeline shows."""
 
 from itertools import pairwise
 
@@ -130,16 +130,44 @@ def test_bookmarks(window: MainWindow) -> None:
     assert "not set" in window.statusBar().currentMessage()
 
 
-def test_the_rail_shows_every_stage_and_its_counts(window: MainWindow, qtbot: QtBot) -> None:
-    session = window.session
+def test_dragging_over_the_chapters_goes_through_the_whole_run(window: MainWindow, qtbot: QtBot) -> None:
+    session, row = window.session, window.page.timeline.chapters
+    session.set_stage(STAGES[-1])
     for index, stage in enumerate(STAGES):
-        window.page.rail.stage_chosen.emit(index)
-        assert session.cursor.stage == stage
+        qtbot.mouseClick(row.buttons()[index], Qt.MouseButton.LeftButton)
+        assert (session.cursor.stage, session.cursor.position) == (stage, 0)
+    first, last = row.buttons()[0], row.buttons()[-1]
+    start = QPoint(2, 10)
+    qtbot.mousePress(first, Qt.MouseButton.LeftButton, pos=start)
+    visited = []
+    for x in range(20, row.width(), 5):
+        qtbot.mouseMove(first, QPoint(x, 10))
+        visited.append((STAGES.index(session.cursor.stage), session.cursor.position))
+    qtbot.mouseMove(first, QPoint(row.width() + 50, 10))
+    assert session.cursor.position == session.stage_trace.steps.count > 0
+    qtbot.mouseRelease(first, Qt.MouseButton.LeftButton, pos=start)
+    assert session.cursor.stage == last.chapter().title.lower() == STAGES[-1], "the release is no click"
+    assert visited == sorted(visited)
+    assert {stage for stage, _ in visited} == set(range(len(STAGES)))
 
 
-def test_the_rail_says_which_lines_asked_for_blending(window: MainWindow) -> None:
+def test_page_down_leaps_through_the_whole_run(window: MainWindow, qtbot: QtBot) -> None:
+    session, timeline = window.session, window.page.timeline
+    session.set_stage(STAGES[0], 0)
+    visited = []
+    while session.cursor.stage != "interpolate":
+        visited.append(session.cursor)
+        qtbot.keyClick(timeline.bar, Qt.Key.Key_PageDown)
+    assert len(visited) < 150
+    for before in reversed(visited):
+        qtbot.keyClick(timeline.chapters.buttons()[0], Qt.Key.Key_PageUp)
+        assert session.cursor.stage == before.stage
+        assert session.cursor.position <= before.position + 1
+
+
+def test_a_chapter_says_which_lines_asked_for_blending(window: MainWindow) -> None:
     def blend_tip() -> str:
-        return window.page.rail.buttons()[STAGES.index("blend")].toolTip()
+        return window.page.timeline.chapters.buttons()[STAGES.index("blend")].toolTip()
 
     window.session.set_setting("polygon_mode", "wireframe")
     assert "nserted" not in blend_tip()
@@ -251,21 +279,21 @@ def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
         assert np.array_equal(shown, pixel[None])
 
 
-def test_the_rail_counts_what_is_stepped_whatever_the_view(window: MainWindow) -> None:
+def test_chapters_count_what_is_stepped_whatever_the_view(window: MainWindow) -> None:
     def counted() -> dict[str, str]:
-        buttons = window.page.rail.buttons()
-        return {stage: button.entry().counts for stage, button in zip(STAGES, buttons, strict=True)}
+        buttons = window.page.timeline.chapters.buttons()
+        return {stage: button.chapter().counts for stage, button in zip(STAGES, buttons, strict=True)}
 
     session = window.session
     session.open(open_document(make_scene("intersecting"), "intersecting"))
     of_pixels = counted()
     for stage in ("interpolate", "shade", "depth", "blend", "resolve"):
         rows = session.trace.stage(stage).steps.row_count
-        assert of_pixels[stage].split(" → ")[0] == f"{rows:,}"
+        assert of_pixels[stage].split()[0] == f"{rows:,}"
     window.page.show_view("scene")
     window.page.settle()
     assert counted() == of_pixels
-    units = [button.entry().unit for button in window.page.rail.buttons()]
+    units = [counts.split()[-1] for counts in of_pixels.values()]
     assert units == ["triangles"] * 4 + ["pixels"] + ["fragments"] * 5 + ["pixels"]
 
 

@@ -1,11 +1,11 @@
-"""What the pipeline rail shows of each stage: what went in and came out, how long it took, why it is there."""
+"""The run as chapters: what went into each stage and came out, how long it took, why it is there."""
 
 from core import STAGES, Trace
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
-from widgets.timeline.pipeline_rail import StageEntry, StageState
+from widgets.timeline.chapters import Chapter, ChapterState
 
 INSERTED_FOR = {
     "clip": "corners in front of the eye",
@@ -14,10 +14,13 @@ INSERTED_FOR = {
 """What a method lacked that made the pipeline insert a stage."""
 COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
-
-
-UNITS = dict.fromkeys(GEOMETRY_STAGES, "triangles") | {"bin": "pixels", "resolve": "pixels"}
-"""What comes out of a stage, where it is not fragments."""
+_TRIANGLES, _PIXELS, _FRAGMENTS = ("triangles", "tri"), ("pixels", "px"), ("fragments", "frag")
+_UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
+    "bin": (_TRIANGLES, _PIXELS),
+    "raster": (_PIXELS, _FRAGMENTS),
+    "resolve": (_PIXELS, _PIXELS),
+}
+"""What goes into a stage and comes out of it, in words and in signs, where it is not fragments."""
 
 
 def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
@@ -44,8 +47,8 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     return found
 
 
-def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[StageEntry]:
-    """Return the entries of all stages.
+def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chapter]:
+    """Return the chapters of all stages.
 
     Parameters
     ----------
@@ -59,40 +62,43 @@ def rail_entries(trace: Trace, *, current: str, is_predicting: bool) -> list[Sta
     counts, through = trace.source.picture.statistics, traced_counts(trace)
     whole_seconds = sum(count.seconds for count in counts.values())
     is_whole = trace.source.triangle is None
-    entries = []
+    chapters = []
     for index, stage in enumerate(STAGES):
         count, (incoming, outgoing) = counts[stage], through[stage]
-        state, is_inserted, reason = _state_and_reason(
-            stage, count, stage == current, trace.source.settings.coverage
-        )
+        state, is_inserted, reason = _state_and_reason(stage, current, count, trace.source.settings.coverage)
         if stage == "raster" and outgoing and not count.incoming:
             reason = reason or COMPUTED
         if is_whole and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
-        entries.append(
-            StageEntry(
-                stage_of(stage).short_title,
-                str((index + 1) % 10) if index < 10 else "",
-                "? → ?" if is_predicting else f"{incoming:,} → {outgoing:,}",
-                UNITS.get(stage, "fragments"),
-                f"{count.seconds * 1000:.1f} ms",
-                state,
-                is_inserted,
-                reason,
-                count.seconds / whole_seconds if whole_seconds > 0 else 0.0,
-            )
+        share = count.seconds / whole_seconds if whole_seconds > 0 else 0.0
+        words, short = (_counted(stage, incoming, outgoing, is_predicting, form) for form in (0, 1))
+        duration = f"{count.seconds * 1000:.1f} ms, {100 * share:.0f} % of all stages"
+        key = str((index + 1) % 10) if index < 10 else ""
+        chapters.append(
+            Chapter(stage_of(stage).short_title, key, words, short, duration, state, is_inserted, reason)
         )
-    return entries
+    return chapters
+
+
+def _counted(stage: str, incoming: int, outgoing: int, is_predicting: bool, form: int) -> str:
+    """Return what goes in and comes out with its units, in words (0) or signs (1); one unit is written once."""
+    units = _UNITS.get(stage, (_FRAGMENTS, _FRAGMENTS))
+    takes, gives = (unit[form] for unit in units)
+    ins, outs = ("?", "?") if is_predicting else (f"{incoming:,}", f"{outgoing:,}")
+    return f"{ins} → {outs} {gives}" if takes == gives else f"{ins} {takes} → {outs} {gives}"
 
 
 def _state_and_reason(
-    stage: str, count: StageCount, is_current: bool, coverage: str
-) -> tuple[StageState, bool, str]:
-    """Return where a stage stands, whether the pipeline has put it in by itself, and why."""
-    state = StageState.CURRENT if is_current else StageState.DONE
+    stage: str, current: str, count: StageCount, coverage: str
+) -> tuple[ChapterState, bool, str]:
+    """Return where a stage lies in the run, whether the pipeline has put it in by itself, and why."""
+    place, present = STAGES.index(stage), STAGES.index(current)
+    state = ChapterState.DONE if place < present else ChapterState.AHEAD
+    if place == present:
+        state = ChapterState.CURRENT
     if count.note == "not-chosen":
         reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
-        return state if is_current else StageState.SKIPPED, False, reason
+        return state if place == present else ChapterState.SKIPPED, False, reason
     if count.note and stage == "raster":
         return state, True, replaced_fill(count.note, coverage)
     if count.note:
