@@ -32,6 +32,8 @@ class Family(SettingField):
     """The stage that runs the method."""
     is_look: bool = False
     """Whether it chooses what is to be seen, not how well: references take it from the settings given."""
+    classical: tuple[str, ...] = ()
+    """Its methods that a first course teaches; empty: a first course does without the family."""
     asks: tuple[str, ...] = ()
     """Fields of `core.methods.Method` that every method of the family fills in, ``listing`` and ``operations``."""
     files: tuple[str, ...]

@@ -38,8 +38,21 @@ class Settings:
         If a value is not in the table; the message lists those that are.
     """
 
-    cull: str = choice("none", "Cull", "cull", "core.geometry.culling", is_look=True)
-    clipping: str = choice("homogeneous", "Clipping", "clip", "core.geometry.polygon_clipping.methods")
+    cull: str = choice(
+        "none",
+        "Cull",
+        "cull",
+        "core.geometry.culling",
+        is_look=True,
+        classical=("none", "back"),
+    )
+    clipping: str = choice(
+        "homogeneous",
+        "Clipping",
+        "clip",
+        "core.geometry.polygon_clipping.methods",
+        classical=("homogeneous", "sutherland-hodgman"),
+    )
     coverage: str = choice(
         "snapped",
         "Number format",
@@ -67,8 +80,16 @@ class Settings:
         "core.raster.spans.fill",
         taken_by="polygon_mode",
         otherwise="Wireframes are not filled.",
+        classical=("bounding-box", "blocks", "scanline"),
     )
-    polygon_mode: str = choice("fill", "Polygons", "raster", "core.raster.polygon_mode", is_look=True)
+    polygon_mode: str = choice(
+        "fill",
+        "Polygons",
+        "raster",
+        "core.raster.polygon_mode",
+        is_look=True,
+        classical=("fill", "wireframe"),
+    )
     line: str = choice(
         "bresenham",
         "Lines",
@@ -82,6 +103,7 @@ class Settings:
         otherwise="Only wireframes draw lines.",
         asks=("listing", "operations"),
         is_look=True,
+        classical=("bresenham", "dda", "wu"),
     )
     line_clipping: str = choice(
         "none",
@@ -103,6 +125,7 @@ class Settings:
         "core.fragments.interpolation",
         "core.fragments.corrected_affine",
         asks=("listing", "operations", "traits"),
+        classical=("perspective", "affine", "flat"),
     )
     provoking: str = choice(
         "last",
@@ -121,6 +144,7 @@ class Settings:
         "core.fragments.level_of_detail",
         reason=has_no_texture,
         asks=("listing", "operations"),
+        classical=("nearest", "bilinear", "trilinear"),
     )
     wrap: str = choice(
         "repeat",
@@ -139,9 +163,15 @@ class Settings:
         reason=has_no_light,
         asks=("traits",),
         is_look=True,
+        classical=("flat", "gouraud", "phong"),
     )
     visibility: str = choice(
-        "z-buffer", "Visibility", "depth", "core.visibility.painters", "core.visibility.ray_casting"
+        "z-buffer",
+        "Visibility",
+        "depth",
+        "core.visibility.painters",
+        "core.visibility.ray_casting",
+        classical=("z-buffer", "painters", "ray-casting"),
     )
     depth: str = choice(
         "z-float32",
@@ -150,6 +180,7 @@ class Settings:
         "core.framebuffer.depth",
         "core.framebuffer.depth_formats",
         "core.framebuffer.fixed_depth",
+        classical=("z-float32", "z-16", "inverse-w"),
     )
     blend: str = choice(
         "opaque",
@@ -159,7 +190,13 @@ class Settings:
         asks=("operations", "traits"),
         is_look=True,
     )
-    antialiasing: str = choice("none", "Antialiasing", "resolve", "core.antialiasing.sampling")
+    antialiasing: str = choice(
+        "none",
+        "Antialiasing",
+        "resolve",
+        "core.antialiasing.sampling",
+        classical=("none", "ssaa-4", "msaa-4"),
+    )
     resolve_filter: str = choice(
         "box",
         "Resolve filter",

@@ -39,6 +39,8 @@ class Preferences(BaseModel):
     """Stages whose card is folded."""
     page: str = "step"
     """Page that was shown last."""
+    shows_all_methods: bool = False
+    """Whether the pane Methods shows those beyond a first course too."""
     level: Annotated[int, Field(ge=0, le=4)] = 3
     """Level of stepping, a ``core.records.steps.Level``."""
     speed: Annotated[float, Field(gt=0)] = 4.0

@@ -34,6 +34,7 @@ class Remembering(QObject):
         for page in window.pages.made:
             self.restore_page(page)
         window.page.inspector.set_folded(self.preferences.folded_cards)
+        window.page.settings_panel.show_more(self.preferences.shows_all_methods)
         window.page.timeline.show_speed(self.preferences.speed)
         window.session.set_level(Level(self.preferences.level))
         window.pages.show_page(self.preferences.page)
@@ -71,6 +72,7 @@ class Remembering(QObject):
                 "geometry": window.saveGeometry().toBase64().toStdString(),
                 "layout": layout,
                 "page": window.pages.current_name,
+                "shows_all_methods": window.page.settings_panel.more_button.isChecked(),
                 "folded_cards": window.page.inspector.folded(),
                 "level": int(window.session.cursor.level),
             }

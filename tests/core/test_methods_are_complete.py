@@ -85,6 +85,25 @@ def test_methods_are_complete(family: str) -> None:
     assert {name: problems for name, problems in found.items() if problems} == {}
 
 
+def test_a_first_course_has_two_or_three_methods_of_ten_families() -> None:
+    first = {name: family.classical for name, family in FAMILIES.items() if family.classical}
+    assert set(first) - {"polygon_mode"} == {
+        "cull",
+        "clipping",
+        "fill",
+        "line",
+        "interpolation",
+        "texture_filter",
+        "shading",
+        "depth",
+        "visibility",
+        "antialiasing",
+    }
+    assert {len(names) for names in first.values()} == {2, 3}
+    for family, names in first.items():
+        assert set(names) <= set(table.names(family))
+
+
 def stage_lacking(stage: Stage) -> list[str]:
     """Return what a stage lacks."""
     texts = ("short_title", "title", "purpose", "takes", "gives", "source", "heading", "initial", "group")

@@ -13,11 +13,14 @@ from PySide6.QtWidgets import (
     QStyle,
     QStyleOptionComboBox,
     QStylePainter,
+    QToolButton,
     QWidget,
 )
 
-from widgets.basics.controls import column_layout
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.labels import text_label
+
+MORE, FEWER = "More methods", "Fewer methods"
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,8 @@ class SettingChoice:
     tooltip: str = ""
     refusal: str = ""
     """Why it cannot be chosen now; empty: it can."""
+    is_more: bool = False
+    """Whether it is offered among the others only where the user wants them, or where it is the present one."""
 
 
 @dataclass(frozen=True)
@@ -44,26 +49,46 @@ class Setting:
     """Why the whole family has no effect now; empty: it has."""
     group: str = ""
     """Heading above the first setting of a group; empty: none."""
+    is_more: bool = False
+    """Whether it stands among the others, which the user unfolds."""
 
 
 class SettingsPanel(QWidget):
-    """A row per family: label and choice; what cannot be chosen says why."""
+    """A row per family: label, choice and a button that explains it; what cannot be chosen says why.
+
+    A button under the rows unfolds the others, families and methods.
+    """
 
     setting_chosen = Signal(str, str)
     """The user has chosen another value: family and value."""
+    reference_requested = Signal(str, str)
+    """The user asks what a choice is: family and its present value."""
+    more_unfolded = Signal(bool)
+    """The user has unfolded (True) the others, or folded them away."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._settings: tuple[Setting, ...] = ()
         self._combos: dict[str, ChoiceBox] = {}
         self._labels: dict[str, QLabel] = {}
+        self._buttons: dict[str, QToolButton] = {}
+        self._headings: dict[str, QLabel] = {}
+        """Heading of each family's group, by family."""
         self._body: QWidget | None = None
         self._layout = column_layout(self)
         self._empty = text_label("Choose the methods of each stage here.", self, role="muted")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(8, 8, 8, 8)
+        self.more_button = button_with_tip(MORE, "Show the families and methods beyond a first course", self)
+        self.more_button.setCheckable(True)
+        self.more_button.toggled.connect(self._unfold)
+        self.more_button.hide()
+        foot = row_layout(margins=(8, 0, 8, 8))
+        foot.addWidget(self.more_button)
+        foot.addStretch(1)
         self._layout.addWidget(self._empty)
+        self._layout.addLayout(foot)
         self._layout.addStretch(1)
         self.setProperty("role", "panel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -82,6 +107,42 @@ class SettingsPanel(QWidget):
             # A choice that was refused is still what the control shows.
             if setting != shown.get(setting.family) or self._shown_value(setting.family) != setting.current:
                 self._fill(setting)
+        self._show_rows()
+
+    @Slot(bool)
+    def show_more(self, is_unfolded: bool) -> None:
+        """Show all families and methods, or those of a first course and those in use."""
+        self.more_button.setChecked(is_unfolded)
+
+    @Slot(bool)
+    def _unfold(self, is_unfolded: bool) -> None:
+        self.more_button.setText(FEWER if is_unfolded else MORE)
+        for setting in self._settings:
+            self._fill(setting)
+        self._show_rows()
+        self.more_unfolded.emit(is_unfolded)
+
+    def _show_rows(self) -> None:
+        """Show the rows that are wanted, and the headings that something stands under."""
+        is_all = self.more_button.isChecked()
+        has_more = any(
+            setting.is_more or any(c.is_more for c in setting.choices) for setting in self._settings
+        )
+        self.more_button.setVisible(has_more)
+        used: dict[QLabel, bool] = dict.fromkeys(self._headings.values(), False)
+        for setting in self._settings:
+            is_shown = is_all or not setting.is_more
+            for widget in (self._labels, self._combos, self._buttons):
+                widget[setting.family].setVisible(is_shown)
+            if setting.family in self._headings:
+                used[self._headings[setting.family]] |= is_shown
+        for heading, is_used in used.items():
+            heading.setVisible(is_used)
+
+    def _offered(self, setting: Setting) -> list[SettingChoice]:
+        """Return the choices of a family that its control lists."""
+        is_all = self.more_button.isChecked() or all(choice.is_more for choice in setting.choices)
+        return [c for c in setting.choices if is_all or not c.is_more or c.value == setting.current]
 
     def combo(self, family: str) -> QComboBox:
         """Return the control of a family."""
@@ -93,6 +154,8 @@ class SettingsPanel(QWidget):
             self._body.deleteLater()
         self._combos.clear()
         self._labels.clear()
+        self._buttons.clear()
+        self._headings.clear()
         self._empty.setVisible(not settings)
         body = QWidget(self)
         self._body = body
@@ -102,12 +165,15 @@ class SettingsPanel(QWidget):
         grid.setVerticalSpacing(4)
         grid.setColumnStretch(1, 1)
         row = 0
+        heading = None
         for setting in settings:
             if setting.group:
                 heading = text_label(setting.group, body, role="muted")
                 heading.setContentsMargins(0, 8 if row else 0, 0, 0)
-                grid.addWidget(heading, row, 0, 1, 2)
+                grid.addWidget(heading, row, 0, 1, 3)
                 row += 1
+            if heading is not None:
+                self._headings[setting.family] = heading
             combo = ChoiceBox(body)
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -123,6 +189,14 @@ class SettingsPanel(QWidget):
             grid.addWidget(combo, row, 1)
             self._combos[setting.family] = combo
             self._labels[setting.family] = label
+            button = flat_button(
+                "i", f"About {setting.label}", f"What {setting.label} is, and what this method does", body
+            )
+            button.setObjectName(setting.family)
+            button.setMinimumSize(24, 24)
+            button.clicked.connect(self._ask)
+            grid.addWidget(button, row, 2)
+            self._buttons[setting.family] = button
             row += 1
         self._layout.insertWidget(0, body)
 
@@ -132,7 +206,8 @@ class SettingsPanel(QWidget):
     def _fill(self, setting: Setting) -> None:
         combo = self._combos[setting.family]
         model = QStandardItemModel(combo)
-        for choice in setting.choices:
+        offered = self._offered(setting)
+        for choice in offered:
             item = QStandardItem(choice.label)
             item.setEnabled(not choice.refusal)
             note = f"Not possible now: {choice.refusal}" if choice.refusal else ""
@@ -141,11 +216,11 @@ class SettingsPanel(QWidget):
             model.appendRow(item)
         # The combo box deletes the model it owned before.
         combo.setModel(model)
-        values = [choice.value for choice in setting.choices]
+        values = [choice.value for choice in offered]
         place = values.index(setting.current) if setting.current in values else -1
         combo.setCurrentIndex(place)
         combo.setEnabled(not setting.refusal)
-        chosen = setting.choices[place] if place >= 0 else None
+        chosen = offered[place] if place >= 0 else None
         tip = "\n".join(part for part in (chosen.label, chosen.tooltip) if part) if chosen else ""
         tip = f"Not used now: {setting.refusal}" if setting.refusal else tip
         combo.setToolTip(tip or setting.label)
@@ -153,6 +228,11 @@ class SettingsPanel(QWidget):
         label = self._labels[setting.family]
         label.setToolTip(tip or setting.label)
         label.setEnabled(not setting.refusal)
+
+    @Slot()
+    def _ask(self) -> None:
+        family = self.sender().objectName()
+        self.reference_requested.emit(family, self._shown_value(family))
 
     @Slot(int)
     def _choose(self, place: int) -> None:

@@ -10,7 +10,7 @@ from app.session.session import Session
 from core.families import WholeNumber
 from core.methods import table
 from core.scene import Scene
-from core.settings import FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
+from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
@@ -107,10 +107,14 @@ def _record(document: Document, name: str, heading: str) -> Setting:
         numbers = [str(number) for number in declared.offered]
         numbers += [] if current in numbers else [current]
         choices = tuple(SettingChoice(number, declared.label.format(number)) for number in numbers)
+        is_more = False
     else:
         choices = tuple(_choice(document, name, method) for method in table.names(name))
+        is_more = not FAMILIES[name].classical
     reason = no_effect(settings, name, document.scene)
-    return Setting(name, declared.title, choices, current, reason, heading)
+    is_used = current != str(getattr(DEFAULTS, name))
+    is_more = not is_used and (is_more or (isinstance(declared, WholeNumber) and bool(reason)))
+    return Setting(name, declared.title, choices, current, reason, heading, is_more)
 
 
 def _choice(document: Document, family: str, name: str) -> SettingChoice:
@@ -122,4 +126,4 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
     if "perspective" in found.needs and is_orthographic:
         refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
-    return SettingChoice(name, found.title, tooltip, refusal)
+    return SettingChoice(name, found.title, tooltip, refusal, name not in FAMILIES[family].classical)

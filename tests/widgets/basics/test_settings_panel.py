@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QToolButton
 
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 
@@ -104,3 +104,40 @@ def test_controls_stay_while_the_families_stay(panel) -> None:
 
 def test_names_for_screen_readers(panel) -> None:
     assert panel.combo("fill").accessibleName() == "Fill"
+
+
+def test_more_unfolds_the_other_families_and_methods(qtbot, panel) -> None:
+    fills = (
+        SettingChoice("spans", "Spans", is_more=True),
+        SettingChoice("blocks", "Blocks"),
+        SettingChoice("exact", "Exact", is_more=True),
+    )
+    wraps = (SettingChoice("repeat", "Repeat", is_more=True), SettingChoice("clamp", "Clamp", is_more=True))
+    panel.show_settings(
+        [
+            Setting("fill", "Fill", fills, "spans", group="Raster"),
+            Setting("wrap", "Wrap", wraps, "repeat", group="Fragments", is_more=True),
+        ]
+    )
+    fill, wrap = panel.combo("fill"), panel.combo("wrap")
+
+    def offered() -> list[str]:
+        return [fill.itemText(place) for place in range(fill.count())]
+
+    # The method in use is always offered.
+    assert offered() == ["Spans", "Blocks"]
+    assert wrap.isHidden()
+    seen = []
+    panel.more_unfolded.connect(seen.append)
+    panel.more_button.setFocus()
+    qtbot.keyClick(panel.more_button, Qt.Key.Key_Space)
+    assert offered() == ["Spans", "Blocks", "Exact"]
+    assert (wrap.isHidden(), wrap.count(), panel.more_button.text()) == (False, 2, "Fewer methods")
+    panel.show_more(False)
+    assert (offered(), wrap.isHidden(), seen) == (["Spans", "Blocks"], True, [True, False])
+
+
+def test_the_button_of_a_row_asks_what_its_choice_is(qtbot, panel) -> None:
+    with qtbot.waitSignal(panel.reference_requested) as asked:
+        panel.findChildren(QToolButton, "fill")[0].click()
+    assert asked.args == ["fill", "blocks"]
