@@ -9,19 +9,24 @@ from app.files.state_files import State, StateFileError
 from app.files.window_files import WindowFile, new_window_file
 from app.session.document import Document
 from app.session.session import Session
+from app.window.message_words import sentences
 from app.window.preferences import preferences_folder
 
 PAUSE = 700
 """Milliseconds after the last edit."""
 LATEST = 1800
 """Milliseconds after the first edit that is not saved, if others follow all the time."""
+RETRY = 10_000
+"""Milliseconds after saving has failed: the disk may have room again."""
 
 
 class Autosave(QObject):
     """Keeps the file of one window up to date, from `begin` to `finish`."""
 
     failed = Signal(str)
-    """Why the scene cannot be saved, as a sentence; sent once until it can be saved again."""
+    """Why the scene cannot be saved, in sentences; sent once until it can be saved again."""
+    recovered = Signal()
+    """It is saved again."""
 
     def __init__(self, session: Session, state: Callable[[], State], parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -37,6 +42,9 @@ class Autosave(QObject):
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._save)
+        self._retry = QTimer(self)
+        self._retry.setSingleShot(True)
+        self._retry.timeout.connect(self.ask)
 
     def begin(self, file: WindowFile | None, stand_in: Document | None = None) -> None:
         """Save every edit from now on.
@@ -71,20 +79,28 @@ class Autosave(QObject):
 
         Raises
         ------
-        OSError, StateFileError
-            If it cannot be saved.
+        OSError, StateFileError, MemoryError
+            If it cannot be saved; it is tried again later, unless `end` follows.
         """
         if self._is_finished:
             return
-        self._is_finished = True
         self._timer.stop()
         try:
             if self._is_worth_saving():
                 self._open_file().save(self._state())
-        finally:
-            if self._file is not None:
-                self._file.release()
-            self._job.shut_down()
+        except (OSError, StateFileError, MemoryError):
+            self._retry.start(RETRY)
+            raise
+        self.end()
+
+    def end(self) -> None:
+        """Leave the file, as it is, to the next start."""
+        self._is_finished = True
+        self._timer.stop()
+        self._retry.stop()
+        if self._file is not None:
+            self._file.release()
+        self._job.shut_down()
 
     def _is_worth_saving(self) -> bool:
         return self._file is not None or self._session.document is not self._stand_in
@@ -115,12 +131,16 @@ class Autosave(QObject):
 
     @Slot()
     def _succeed(self) -> None:
-        self._has_failed = False
+        if self._has_failed:
+            self._has_failed = False
+            self.recovered.emit()
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
         if not isinstance(error, OSError | StateFileError | MemoryError):
             raise error
+        self._retry.start(RETRY)
         if not self._has_failed:
-            self.failed.emit(f"What is open cannot be saved for the next start: {error}")
-        self._has_failed = True
+            self._has_failed = True
+            why = f"What is open cannot be saved for the next start: {error}"
+            self.failed.emit(sentences(why, "Saving is tried again every 10 seconds"))

@@ -27,6 +27,7 @@ STEM = "last"
 """What the names of the files begin with."""
 TITLE_WITHIN = 4096
 """Bytes of a file that are searched for its title, which stands near the beginning."""
+LOCK_FAILED = "its folder cannot be written to, or the disk is full"
 KEPT = 12
 """Files of windows that are closed, beside those of open windows."""
 
@@ -71,7 +72,7 @@ class WindowFile:
         self._turn = Lock()
         if not self._lock.tryLock(0):
             is_taken = self._lock.error() == QLockFile.LockError.LockFailedError
-            reason = "another window has it open" if is_taken else "its folder cannot be written to"
+            reason = "another window has it open" if is_taken else LOCK_FAILED
             raise FileWriteError(f"{path} cannot be written: {reason}")
 
     def save(self, state: State) -> None:

@@ -23,7 +23,7 @@ from app.session.session import Session
 from app.window.appearance import Appearance, the_application
 from app.window.keys import has_use_for
 from app.window.menus import Menus
-from app.window.message_words import sentence_case
+from app.window.message_words import sentence_case, sentences
 from app.window.overlays import Overlays
 from app.window.preferences import Preferences
 from app.window.remembering import Remembering
@@ -34,6 +34,8 @@ BY_SIGNAL = 128
 """Exit code of a program that a signal has ended, less the signal's number."""
 SECONDS_TO_END = 1.0
 """How long a window that closes waits for its work."""
+CLOSE_UNSAVED = "Close without saving"
+"""The button that closes a window although what is open could not be saved."""
 HINT_MILLISECONDS = 8000
 """How long a hint stays in the status bar."""
 
@@ -50,6 +52,7 @@ class MainWindow(QMainWindow):
         assert isinstance(step_page, StepPage)
         self.page = step_page
         self._has_mouse_focus = False
+        self._closes_unsaved = False
         self._offered = ""
         """Path of the state that the message bar offers to open."""
         self._lay_out()
@@ -108,6 +111,7 @@ class MainWindow(QMainWindow):
         self.files.file_used.connect(self.memory.remember_file)
         self.memory.recent_changed.connect(self.menus.show_recent)
         self.memory.autosave.failed.connect(self._warn)
+        self.memory.autosave.recovered.connect(self._tell_saved_again)
         self.files.progress.edit_cancelled.connect(self._edit_cancelled)
         self.messages.action_requested.connect(self._open_offered)
         the_application().focusChanged.connect(self._focus_moved)
@@ -296,19 +300,39 @@ class MainWindow(QMainWindow):
     def _open_offered(self, message: Message) -> None:
         if message.action == READ_OUTSIDE:
             self.open_path(self.files.target, allows_outside=True)
+        elif message.action == CLOSE_UNSAVED:
+            self._closes_unsaved = True
+            self.close()
         else:
             self.open_path(self._offered)
 
     @Slot(int)
     def end_by_signal(self, number: int) -> None:
         """Close, and end the program with the exit code that a shell has for a program ended by this signal."""
+        self._closes_unsaved = True
         self.close()
         the_application().exit(BY_SIGNAL + number)
 
+    def _tell_unsaved(self, reason: str) -> None:
+        text = sentences(
+            f"The window stays open: what is open could not be saved for the next start: {reason}",
+            "Make room and close again, or save it elsewhere (Ctrl+S)",
+        )
+        self.messages.show_message(Message(MessageKind.ERROR, text, action=CLOSE_UNSAVED))
+
+    @Slot()
+    def _tell_saved_again(self) -> None:
+        self.messages.show_message(Message(MessageKind.INFORMATION, "What is open is saved again."))
+
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Remember window, panes and scene, end all work, then close."""
+        """Remember window, panes and scene, end all work, then close; stay open where the scene cannot be saved."""
         with ending_within(SECONDS_TO_END):
-            self.memory.save(self)
+            unsaved = self.memory.save_open(self._closes_unsaved)
+            if unsaved and not self._closes_unsaved:
+                event.ignore()
+                self._tell_unsaved(unsaved)
+                return
+            self.memory.save_preferences(self)
             for page in self.pages.made:
                 page.stop()
             self.files.shut_down()

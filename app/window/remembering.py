@@ -62,8 +62,31 @@ class Remembering(QObject):
         self.preferences = with_recent_file(self.preferences, path)
         self.recent_changed.emit(self.preferences.recent_files)
 
-    def save(self, window: "MainWindow") -> None:
-        """Save preferences and what is open: the window closes. What cannot be saved is one line on stderr."""
+    def save_open(self, is_last_chance: bool) -> str:
+        """Save what is open, for the window closes.
+
+        Parameters
+        ----------
+        is_last_chance : bool
+            The window closes whatever comes of it: a failure is one line on stderr.
+
+        Returns
+        -------
+        str
+            Why it could not be saved; empty if it was.
+        """
+        try:
+            self.autosave.finish()
+        except (OSError, StateFileError, MemoryError) as error:
+            reason = str(error) or "there is not enough memory"
+            if is_last_chance:
+                self.autosave.end()
+                print(f"rasterscope: what is open could not be saved: {reason}", file=sys.stderr)
+            return reason
+        return ""
+
+    def save_preferences(self, window: "MainWindow") -> None:
+        """Save how the window looks; a failure is one line on stderr."""
         layout = dict(self.preferences.layout)
         for page in window.pages.made:
             layout |= page.layout_state()
@@ -77,11 +100,7 @@ class Remembering(QObject):
                 "level": int(window.session.cursor.level),
             }
         )
-        for what, save in (
-            ("what is open", self.autosave.finish),
-            ("the preferences", lambda: save_preferences(self.preferences)),
-        ):
-            try:
-                save()
-            except (OSError, StateFileError) as error:
-                print(f"rasterscope: {what} could not be saved: {error}", file=sys.stderr)
+        try:
+            save_preferences(self.preferences)
+        except OSError as error:
+            print(f"rasterscope: the preferences could not be saved: {error}", file=sys.stderr)
