@@ -1,11 +1,12 @@
 """Saving what is open soon after every edit: the next start has it, however this one ends."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal, Slot
+from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal, SignalInstance, Slot
 
 from app.background.workers import Job, Progress
 from app.files.state_files import State, StateFileError
+from app.files.state_models import Breakpoints
 from app.files.window_files import WindowFile, new_window_file
 from app.session.document import Document
 from app.session.session import Session
@@ -28,9 +29,17 @@ class Autosave(QObject):
     recovered = Signal()
     """It is saved again."""
 
-    def __init__(self, session: Session, state: Callable[[], State], parent: QObject | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        state: Callable[[], State],
+        edits: Sequence[SignalInstance],
+        parent: QObject | None = None,
+    ) -> None:
+        """Save what ``state`` returns whenever the document or the pin changes, or one of ``edits`` is emitted."""
         super().__init__(parent)
         self._session, self._state = session, state
+        self._edits = (session.document_changed, session.pin_changed, *edits)
         self._file: WindowFile | None = None
         self._stand_in: Document | None = None
         self._has_failed = self._is_finished = False
@@ -57,7 +66,7 @@ class Autosave(QObject):
             What is shown because nothing else was to be opened: not worth a file while it is unchanged.
         """
         self._file, self._stand_in = file, stand_in
-        for edited in (self._session.document_changed, self._session.pin_changed):
+        for edited in self._edits:
             edited.connect(self.ask)
 
     @property
@@ -103,7 +112,10 @@ class Autosave(QObject):
         self._job.shut_down()
 
     def _is_worth_saving(self) -> bool:
-        return self._file is not None or self._session.document is not self._stand_in
+        if self._file is not None or self._session.document is not self._stand_in:
+            return True
+        state = self._state()
+        return bool(state.bookmarks) or state.breakpoints != Breakpoints()
 
     def _open_file(self) -> WindowFile:
         if self._file is None:

@@ -16,8 +16,8 @@ from app.files.save_dialog import SaveDialog
 from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
+from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
-from app.pages.step.stepping_presenter import Bookmark
 from app.session.tracing import trace_now
 from app.window.message_words import sentences
 from core import STAGES, Trace
@@ -108,16 +108,16 @@ class FileActions(QObject):
         page, session, state = self._page, self._session, opened.state
         page.timeline.show_playing(False)
         session.open(opened.document, trace)
-        page.stepping.forget_places()
         if state is None:
+            page.stepping.set_places()
             session.set_stage(STAGES[0], 0)
             page.show_own_view()
             return
-        page.stepping.set_bookmarks([Bookmark(stage, position) for stage, position in state.bookmarks])
+        page.stepping.set_places(state.bookmarks, state.breakpoints)
         session.set_level(Level(state.level))
         session.set_stage(state.stage, state.position)
         session.set_pin(state.pin)
-        page.show_view(state.view)
+        show_look(page, state.look)
 
     @Slot(object)
     def _tell_failed(self, error: Exception) -> None:
@@ -148,8 +148,9 @@ class FileActions(QObject):
             position=cursor.position,
             level=int(cursor.level),
             pin=self._session.pin,
-            bookmarks=[(mark.stage, mark.position) for mark in self._page.stepping.bookmarks],
-            view=self._page.current_view(),
+            bookmarks=tuple(self._page.stepping.bookmarks.marks),
+            breakpoints=self._page.stepping.breakpoints(),
+            look=look_of(self._page),
         )
 
     def ask_save(self) -> None:

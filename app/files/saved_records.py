@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -27,6 +28,7 @@ def read_record(
     *,
     limit: int = SIZE_LIMIT,
     union: str = "",
+    migrations: Sequence[Callable[[dict[str, Any]], dict[str, Any]]] = (),
 ) -> Model:
     """Return what a file holds.
 
@@ -40,11 +42,13 @@ def read_record(
     noun : str
         What such a file is called, with its article: ``a study``.
     version : int
-        The only one that is read.
+        The present one.
     limit : int
         Its largest size in bytes.
     union : str
         As in `field_problem`.
+    migrations : sequence of callable
+        What turns a record of each earlier version that is read into one of the next version.
 
     Raises
     ------
@@ -58,9 +62,14 @@ def read_record(
         raise SavedRecordError(f"it is not {noun}, or it is incomplete: it is not valid JSON") from problem
     if not isinstance(found, dict) or found.get("program") != program:
         raise SavedRecordError(f"it is not {noun} of Rasterscope")
-    if found.get("version") != version or isinstance(found.get("version"), bool | float):
-        came = str(found.get("version"))[:20]
-        raise SavedRecordError(f"it is of version {came}, and this Rasterscope opens version {version}")
+    came, earliest = found.get("version"), version - len(migrations)
+    if type(came) is not int or not earliest <= came <= version:
+        known = f"version {version}" if earliest == version else f"versions {earliest} to {version}"
+        raise SavedRecordError(f"it is of version {str(came)[:20]}, and this Rasterscope opens {known}")
+    if came < version:
+        for migrate in migrations[came - earliest :]:
+            found = migrate(found)
+        content = json.dumps(found | {"version": version}).encode()
     try:
         return model.model_validate_json(content)
     except ValidationError as problem:

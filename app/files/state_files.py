@@ -7,7 +7,7 @@ What the source holds is checked by fingerprints: a mesh file that has changed s
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,15 @@ from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
-from app.files.state_models import VERSION, BookmarkRecord, RasterRecord, StateRecord
+from app.files.state_models import (
+    MIGRATIONS,
+    VERSION,
+    Bookmark,
+    Breakpoints,
+    Look,
+    RasterRecord,
+    StateRecord,
+)
 from app.files.state_scenes import (
     Keep,
     OutsideSourceError,
@@ -24,11 +32,11 @@ from app.files.state_scenes import (
     scene_from_record,
     scene_record,
 )
-from app.session.document import VIEWS, Document, TeachingRaster
-from core import STAGES
+from app.session.document import Document, TeachingRaster
 from core.scene import AnyScene
 from core.settings import settings_from_texts, settings_record
 from core.stages.vertices import check_needs
+from core.trace.conditions import parse_condition
 
 __all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]
 
@@ -51,10 +59,9 @@ class State:
     """A ``core.records.steps.Level``."""
     pin: tuple[int, int] | None = None
     """Column and row of the pinned pixel."""
-    bookmarks: Sequence[tuple[str, int]] = ()
-    """Stage and position of every bookmark."""
-    view: str = "pixels"
-    """Name of the main view."""
+    bookmarks: Sequence[Bookmark] = ()
+    breakpoints: Breakpoints = field(default_factory=Breakpoints)
+    look: Look = field(default_factory=Look)
 
 
 def save_state(path: str | Path, state: State, keep: Keep = array_record) -> None:
@@ -94,8 +101,9 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
         position=state.position,
         level=state.level,
         pin=state.pin,
-        bookmarks=[BookmarkRecord(stage=stage, position=position) for stage, position in state.bookmarks],
-        view=state.view,
+        bookmarks=list(state.bookmarks),
+        breakpoints=state.breakpoints,
+        look=state.look,
     )
     text = readable_json(record.model_dump(mode="json", exclude_defaults=True))
     write_file(path, text.encode() + b"\n")
@@ -134,7 +142,14 @@ def load_state(
     path = Path(path)
     try:
         record = read_record(
-            path, StateRecord, "rasterscope", "a state file", VERSION, limit=SIZE_LIMIT, union="scene"
+            path,
+            StateRecord,
+            "rasterscope",
+            "a state file",
+            VERSION,
+            limit=SIZE_LIMIT,
+            union="scene",
+            migrations=MIGRATIONS,
         )
         scene, mesh_path, warnings = scene_from_record(
             record.scene, path.resolve(), progress, is_cancelled, allows_outside
@@ -151,13 +166,14 @@ def load_state(
 
 def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
     """Return the state of a record, or say which field does not fit."""
-    marks = [("stage", record.stage), *((f"bookmarks.{k}", m.stage) for k, m in enumerate(record.bookmarks))]
-    for name, stage in marks:
-        if stage not in STAGES:
-            raise StateFileError(f"{name} must be one of {', '.join(STAGES)}, got {stage}")
     with in_field("settings"):
         settings = settings_from_texts({name: str(value) for name, value in record.settings.items()})
         check_needs(scene, settings)
+    with in_field("look.other"):
+        settings_from_texts({name: str(value) for name, value in record.look.other.items()})
+    if record.breakpoints.condition:
+        with in_field("breakpoints.condition"):
+            parse_condition(record.breakpoints.condition)
     with in_field("raster"):
         raster = TeachingRaster(record.raster.columns, record.raster.rows, record.raster.origin)
     document = Document(
@@ -171,16 +187,15 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
     )
     with in_field("triangle and raster"):
         document.make_trace()
-    if record.view not in VIEWS:
-        raise StateFileError(f"view must be one of {', '.join(VIEWS)}, got {record.view}")
     return State(
         document=document,
         stage=record.stage,
         position=record.position,
         level=record.level,
         pin=record.pin,
-        bookmarks=tuple((mark.stage, mark.position) for mark in record.bookmarks),
-        view=record.view,
+        bookmarks=tuple(record.bookmarks),
+        breakpoints=record.breakpoints,
+        look=record.look,
     )
 
 

@@ -1,12 +1,20 @@
 """The content of a state file: a strict model, one class for each object of the JSON."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-VERSION: Literal[1] = 1
-"""Of the format; files of others are refused. A field that is added with a default needs no new version."""
+from app.session.document import VIEWS
+from core import STAGES
+from widgets.space.orbit import EXTENT_LIMITS
+
+VERSION: Literal[2] = 2
+"""Of the format. Files of earlier versions are migrated, files of later ones are refused."""
+
+
+NOTE_LIMIT = 500
+"""Longest note of a bookmark in characters."""
 
 
 class Record(BaseModel):
@@ -143,18 +151,100 @@ class RasterRecord(Record):
     origin: tuple[Count, Count] | None
 
 
-class BookmarkRecord(Record):
+def _one_of(*names: str) -> AfterValidator:
+    """Return a check that a text is one of these names."""
+
+    def check(name: str) -> str:
+        if name not in names:
+            raise ValueError(f"must be one of {', '.join(names)}, got {name}")
+        return name
+
+    return AfterValidator(check)
+
+
+def _rises(ends: tuple[float, float]) -> tuple[float, float]:
+    if ends[0] > ends[1]:
+        raise ValueError(f"the first end must not be above the second, got {ends[0]:g} and {ends[1]:g}")
+    return ends
+
+
+Fraction = Annotated[float, Field(ge=0, le=1)]
+Range = Annotated[tuple[float, float], AfterValidator(_rises)]
+StageName = Annotated[str, _one_of(*STAGES)]
+ViewName = Annotated[str, _one_of(*VIEWS)]
+
+
+class Bookmark(Record):
     """A remembered step."""
 
-    stage: str
+    stage: StageName
     position: Count
+    note: Annotated[str, Field(max_length=NOTE_LIMIT)] = ""
+    """What the user wrote about it."""
+
+
+class Breakpoints(Record):
+    """Where running stops."""
+
+    pixels: list[tuple[Count, Count]] = []
+    """Columns and rows of the traced picture."""
+    lines: list[tuple[str, Annotated[int, Field(ge=1)]]] = []
+    """Name of a listing's function, and a line of it."""
+    condition: str = ""
+    """Text of ``core.trace.conditions``; empty: none."""
+
+
+class GridLook(Record):
+    """What the pixel grid shows, where it is not what it shows at first."""
+
+    buffers: dict[StageName, str] = {}
+    """Buffer of the main view by stage."""
+    overlays: dict[StageName, list[str]] = {}
+    """Overlays that are on, by stage."""
+    ranges: dict[str, Range] = {}
+    """Colour range by buffer."""
+    fits_ranges: bool = False
+    """Whether the colour range follows the values."""
+    hidden_buffers: list[str] = []
+    """Buffers that the strip leaves out."""
+    middle: tuple[Fraction, Fraction] = (0.5, 0.5)
+    """Middle of the visible part, as fractions of the raster's width and height from its lower left corner."""
+    zoom: Annotated[float, Field(ge=0.01, le=1e6)] = 1.0
+    """Magnification; at 1 the whole raster just fits."""
+
+
+class OrbitRecord(Record):
+    """A ``widgets.space.orbit.Orbit``."""
+
+    azimuth: float
+    elevation: float
+    target: Numbers3
+    extent: Annotated[float, Field(ge=EXTENT_LIMITS[0], le=EXTENT_LIMITS[1])]
+
+
+class Look(Record):
+    """How the Step page shows the run, where it is not how it is first shown."""
+
+    view: ViewName = "pixels"
+    """The main view."""
+    views: dict[StageName, ViewName] = {}
+    """Main view by stage, where the user has chosen one."""
+    grid: GridLook = GridLook()
+    orbits: dict[ViewName, OrbitRecord] = {}
+    """From where views in space are seen, where the user has turned them."""
+    other: dict[str, str | int] = {}
+    """Family to method: what B does otherwise than A."""
+    other_buffer: str = "color"
+    """Buffer in which A and B are compared."""
+    event: str = "covered"
+    """Kind of event that N runs to."""
 
 
 class StateRecord(Record):
     """A whole state file."""
 
     program: Literal["rasterscope"]
-    version: Literal[1]
+    version: Literal[2]
     title: str
     scene: Annotated[MeshSceneRecord | ClipSceneRecord, Field(discriminator="kind")]
     settings: dict[str, str | int]
@@ -163,9 +253,20 @@ class StateRecord(Record):
     triangle: Count | None
     before: str
     """``earlier`` or ``cleared``."""
-    stage: str
+    stage: StageName
     position: Count
     level: Annotated[int, Field(ge=0, le=4)]
     pin: tuple[Count, Count] | None
-    bookmarks: list[BookmarkRecord]
-    view: str
+    bookmarks: list[Bookmark]
+    breakpoints: Breakpoints = Breakpoints()
+    look: Look = Look()
+
+
+def _from_version_1(record: dict[str, Any]) -> dict[str, Any]:
+    """Return a record of version 1 as one of version 2: the main view was all that it kept of the look."""
+    rest = {name: value for name, value in record.items() if name != "view"}
+    return rest | {"look": {"view": record["view"]} if "view" in record else {}}
+
+
+MIGRATIONS = (_from_version_1,)
+"""What turns a record of each earlier version, from 1, into one of the next version."""

@@ -1,11 +1,15 @@
 """The views beside the pixel grid: the 3D scene and `VIEWS`. Only what is seen is drawn."""
 
+from collections.abc import Mapping
+
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
 from app.views.scene3d_presenter import Scene3dPresenter
 from app.views.stage_view import ClipView, PyramidView, StageView, TextureView
+from widgets.space.orbit import Orbit
+from widgets.space.orbit_area import OrbitArea
 from widgets.space.scene_view import SceneView
 
 VIEWS: tuple[type[StageView], ...] = (
@@ -64,6 +68,23 @@ class StageViews(QObject):
         if name not in self._views:
             raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
         self._refresh(name)
+
+    def chosen_orbits(self) -> dict[str, Orbit]:
+        """Return from where the views in space are seen that the user has turned, by their names."""
+        found = {
+            name: widget.chosen_orbit()
+            for name, widget in self._views.items()
+            if isinstance(widget, OrbitArea)
+        }
+        return {name: orbit for name, orbit in found.items() if orbit is not None}
+
+    def look_from(self, orbits: Mapping[str, Orbit]) -> None:
+        """Look from there in these views in space, and in the others from where they are first seen."""
+        for name, widget in self._views.items():
+            if isinstance(widget, OrbitArea):
+                if name in orbits:
+                    self._refresh(name)  # What is seen first would be seen from where it is first seen.
+                widget.look_from(orbits.get(name))
 
     def look_at_focus(self) -> None:
         """Magnify the triangle in focus in the 3D view."""

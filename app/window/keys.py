@@ -74,6 +74,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("toggle_breakpoint", ("F9", "B"), "Breakpoint at the pinned pixel", RUNNING, "Step"),
         KeyAction("edit_condition", ("Ctrl+F9",), "Breakpoint on a condition…", RUNNING, "Step"),
         KeyAction("toggle_bookmark", ("Ctrl+B",), "Bookmark this step", RUNNING, "Step"),
+        KeyAction("note_bookmark", ("Ctrl+Shift+B",), "Bookmark with a note…", RUNNING, "Step"),
         *(
             KeyAction(f"bookmark_{k}", (f"Ctrl+{(k + 1) % 10}",), f"Go to bookmark {k + 1}", RUNNING)
             for k in range(10)

@@ -93,6 +93,7 @@ class MainWindow(QMainWindow):
         self.pages.page_changed.connect(self._show_page)
         page.timeline.speed_changed.connect(self.memory.remember_speed)
         page.stepping.message_ended.connect(self._end_hint)
+        page.stepping.bookmarks.bookmarks_changed.connect(self._show_bookmarks)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
         page.view_bar.currentChanged.connect(self._show_view)
         menus.action_chosen.connect(self.run_action)
@@ -133,6 +134,7 @@ class MainWindow(QMainWindow):
             "next_page": lambda: self.pages.show_next(1),
             "previous_page": lambda: self.pages.show_next(-1),
             "edit_condition": self.overlays.ask_condition,
+            "note_bookmark": self.overlays.ask_note,
             "go_to_pixel": self.overlays.ask_pixel,
             "unpin": self.dismiss,
             "predict": self.toggle_predict,
@@ -268,6 +270,11 @@ class MainWindow(QMainWindow):
         self.menus.show_checked("toggle_cleared", document.before == "cleared")
         self._show_history()
         self._show_pointed()
+
+    @Slot()
+    def _show_bookmarks(self) -> None:
+        bookmarks = self.page.stepping.bookmarks
+        self.menus.show_bookmarks([bookmarks.text(index) for index in range(len(bookmarks.marks))])
 
     @Slot()
     def _show_history(self) -> None:

@@ -51,6 +51,7 @@ class Menus(QObject):
         self.recent_menu = QMenu("Open &recent", window)
         self.earlier_menu = QMenu("Earlier &windows", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
+        self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group = QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
         self._menus = menus
@@ -64,6 +65,8 @@ class Menus(QObject):
                 menus["File"].addMenu(self.recent_menu)
                 menus["File"].addMenu(self.earlier_menu)
                 menus["File"].addMenu(self.scene_menu)
+            if entry.name == "note_bookmark":
+                menus["Step"].addMenu(self.bookmark_menu)
             if entry.name in BEFORE_SEPARATORS:
                 menus[entry.menu].addSeparator()
         self._fill_scenes()
@@ -73,6 +76,7 @@ class Menus(QObject):
             menu.triggered.connect(self._choose_recent)
         self.earlier_menu.aboutToShow.connect(self._fill_earlier)
         self.show_recent(())
+        self.show_bookmarks(())
 
     def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
         made = QAction(entry.title, window)
@@ -140,6 +144,16 @@ class Menus(QObject):
             self.recent_menu.addAction(path).setData(path)
         if self.recent_menu.isEmpty():
             self.recent_menu.addAction("No files yet").setEnabled(False)
+
+    def show_bookmarks(self, texts: Sequence[str]) -> None:
+        """Offer the bookmarks, in the order of their keys."""
+        self.bookmark_menu.clear()
+        for index, text in enumerate(texts):
+            action = self.actions_by_name[f"bookmark_{index}"]
+            action.setText(text)
+            self.bookmark_menu.addAction(action)
+        if not texts:
+            self.bookmark_menu.addAction("No bookmarks yet").setEnabled(False)
 
     @Slot()
     def _fill_earlier(self) -> None:

@@ -65,6 +65,12 @@ class Overlays(QObject):
         hint = f"F5 stops where the condition holds. Names: {names}. Leave it empty for no condition."
         self._ask("condition", "Break where", hint, self._page.stepping.condition)
 
+    def ask_note(self) -> None:
+        """Ask for the note of the bookmark at this step, which is made if there is none."""
+        mark = self._page.stepping.bookmarks.here()
+        hint = "Why this step is worth coming back to. Step, Bookmarks lists all notes."
+        self._ask("note", "Bookmark note", hint, mark.note if mark else "")
+
     def _ask(self, name: str, label: str, hint: str, text: str = "") -> None:
         self.ask_bar.ask(name, label, hint, text)
         self.place()
@@ -75,6 +81,8 @@ class Overlays(QObject):
         try:
             if name == "pixel":
                 self._go_to_pixel(text)
+            elif name == "note":
+                self._page.stepping.bookmarks.describe(text.strip())
             else:
                 self._page.stepping.set_condition(text)
         except ValueError as error:

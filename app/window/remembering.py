@@ -24,7 +24,8 @@ class Remembering(QObject):
     def __init__(self, window: "MainWindow", preferences: Preferences) -> None:
         super().__init__(window)
         self.preferences = preferences
-        self.autosave = Autosave(window.session, window.files.state, self)
+        edits = window.page.look_changed, window.page.stepping.places_changed
+        self.autosave = Autosave(window.session, window.files.state, edits, self)
         self._keeps_results = False
 
     def restore(self, window: "MainWindow") -> None:

@@ -9,6 +9,7 @@ from PIL import Image
 from app.files.mesh_files import frame_meshes
 from app.files.open_any import open_any
 from app.files.state_files import State, save_state
+from app.files.state_models import Bookmark, Breakpoints, GridLook, Look, OrbitRecord
 from app.session.document import Document, open_document
 from core.scene import Mesh
 from tests.app.files.mesh_writing import GltfWriter, ply_binary, ply_text, stl_binary, stl_text
@@ -64,7 +65,18 @@ def gltf_writer() -> GltfWriter:
 def state_of(document: Document, folder: Path) -> bytes:
     """Return the state file of a document."""
     path = folder / "a.rasterscope"
-    save_state(path, State(document, bookmarks=[("raster", 3)]))
+    state = State(
+        document,
+        bookmarks=[Bookmark(stage="raster", position=3, note="here")],
+        breakpoints=Breakpoints(pixels=[(1, 2)], lines=[("cover", 3)], condition="E0 < 0.5"),
+        look=Look(
+            views={"raster": "clip"},
+            grid=GridLook(buffers={"raster": "color"}, ranges={"depth": (0.0, 0.5)}, zoom=2.0),
+            orbits={"scene": OrbitRecord(azimuth=1.0, elevation=0.5, target=(0.0, 0.0, 0.0), extent=2.0)},
+            other={"fill": "scanline"},
+        ),
+    )
+    save_state(path, state)
     return path.read_bytes()
 
 

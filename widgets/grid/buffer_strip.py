@@ -201,6 +201,10 @@ class BufferStrip(QWidget):
         for tile in self._tiles.values():
             tile.grid.set_view(view)
 
+    def hidden_names(self) -> frozenset[str]:
+        """Return the names of the buffers that are hidden."""
+        return self._hidden
+
     def set_hidden_names(self, names: frozenset[str]) -> None:
         """Hide these buffers again; emits nothing."""
         self._hidden = frozenset(names)

@@ -48,6 +48,14 @@ class OrbitArea(MovedArea):
             self._orbit = orbit
             self._orbit_replaced()
 
+    def chosen_orbit(self) -> Orbit | None:
+        """Return from where the space is seen, if that is not from where it is first seen."""
+        return None if self._orbit == self._home else self._orbit
+
+    def look_from(self, orbit: Orbit | None) -> None:
+        """Look from there, or from where the space is first seen, as the user's wish."""
+        self._change(orbit or self._home)
+
     def set_home(self, home: Orbit) -> None:
         """Say what a double click and the Home key go back to; emits nothing."""
         self._home = home

@@ -34,6 +34,8 @@ class ComparePresenter(QObject):
     """Keeps the settings of B and shows both pictures while the view is open."""
 
     edit_refused = Signal(str)
+    look_changed = Signal()
+    """B differs otherwise, or another buffer is compared."""
 
     def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -51,7 +53,7 @@ class ComparePresenter(QObject):
         session.pin_changed.connect(self.refresh_pointing)
         session.hover_changed.connect(self.refresh_pointing)
         view.setting_chosen.connect(self._choose)
-        view.buffer_chosen.connect(self._choose_buffer)
+        view.buffer_chosen.connect(self.set_buffer)
         view.reset_requested.connect(self._reset)
         view.swap_requested.connect(self._swap)
         view.pixel_hovered.connect(self._hover)
@@ -62,6 +64,16 @@ class ComparePresenter(QObject):
     def other(self) -> Settings:
         """Settings of B: those of the page, but for what it does otherwise."""
         return replace(self._session.document.settings, **self._differences)  # type: ignore[arg-type]
+
+    @property
+    def differences(self) -> Mapping[str, str | int]:
+        """What B does otherwise than A: family and value."""
+        return self._differences
+
+    @property
+    def buffer(self) -> str:
+        """Name of the buffer in which both are compared."""
+        return self._buffer
 
     def set_active(self, is_active: bool) -> None:
         """Show the comparison from now on, or stop computing it."""
@@ -132,6 +144,7 @@ class ComparePresenter(QObject):
         mine = self._session.document.settings
         self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
         self.refresh()
+        self.look_changed.emit()
 
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
@@ -139,9 +152,12 @@ class ComparePresenter(QObject):
         self.set_differences({**self._differences, family: chosen})
 
     @Slot(str)
-    def _choose_buffer(self, name: str) -> None:
-        self._buffer = name
-        self.refresh()
+    def set_buffer(self, name: str) -> None:
+        """Compare in another buffer."""
+        if name in dict(BUFFERS):
+            self._buffer = name
+            self.refresh()
+            self.look_changed.emit()
 
     @Slot()
     def _reset(self) -> None:

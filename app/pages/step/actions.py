@@ -3,20 +3,18 @@
 from functools import partial
 
 from app.pages.page_bar import Handlers
+from app.pages.step.bookmarks import BOOKMARKS
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
 from core.stages.declared import STAGES
 from widgets.timeline.transport import Timeline
-
-BOOKMARKS = 10
-"""Bookmarks that have a key."""
 
 
 def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timeline) -> Handlers:
     """Return the handlers by the names of ``app.window.keys.ACTIONS``."""
     return {
         **{f"stage_{k}": partial(stepping.choose_stage, k) for k in range(len(STAGES))},
-        **{f"bookmark_{k}": partial(stepping.go_to_bookmark, k) for k in range(BOOKMARKS)},
+        **{f"bookmark_{k}": partial(stepping.bookmarks.go_to, k) for k in range(BOOKMARKS)},
         "step_forward": lambda: stepping.step(1),
         "step_back": lambda: stepping.step(-1),
         "larger_forward": lambda: stepping.step_larger(1),
@@ -37,7 +35,7 @@ def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timel
         "run_forward": lambda: stepping.run_to_breakpoint(1),
         "run_back": lambda: stepping.run_to_breakpoint(-1),
         "toggle_breakpoint": stepping.toggle_pixel_breakpoint,
-        "toggle_bookmark": stepping.toggle_bookmark,
+        "toggle_bookmark": stepping.bookmarks.toggle,
         "next_stage": lambda: session.next_stage(1),
         "previous_stage": lambda: session.next_stage(-1),
         "pin_left": lambda: session.nudge_pin(-1, 0),

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.files.state_models import GridLook
 from app.pages.step.cut_overlays import area_overlays, clip_overlays
 from app.pages.step.grid_records import (
     block_overlay,
@@ -26,6 +27,7 @@ from widgets.grid.overlay import Overlay
 from widgets.grid.overlay_legend import OverlayLegend
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.range_control import RangeControl
+from widgets.grid.view import GridView
 
 HIGHLIGHT_LIMIT = 4096
 """Pixels of a step that are outlined."""
@@ -44,6 +46,8 @@ class GridPresenter(QObject):
 
     edit_refused = Signal(str)
     """Why a drag did nothing."""
+    look_changed = Signal()
+    """The user has chosen another buffer, overlay or colour range."""
 
     def __init__(
         self,
@@ -124,6 +128,35 @@ class GridPresenter(QObject):
         pixels = self._step_pixels()
         self._grid.show_step(pixels)
         self._strip.show_step(pixels)
+
+    def look(self) -> GridLook:
+        """Return what the user has chosen to see."""
+        view, overlays = self._grid.view(), self._shown_overlays
+        return GridLook(
+            buffers=dict(self._chosen),
+            overlays={
+                stage: sorted(keys) for stage, keys in overlays.items() if DEFAULT_OVERLAYS.get(stage) != keys
+            },
+            ranges=dict(self._own_ranges),
+            fits_ranges=self._ranges.keeps_fitting(),
+            hidden_buffers=sorted(self._strip.hidden_names()),
+            middle=(view.x, view.y),
+            zoom=view.zoom,
+        )
+
+    def show_look(self, look: GridLook) -> None:
+        """Show what the user had chosen to see."""
+        self._chosen = dict(look.buffers)
+        self._shown_overlays = DEFAULT_OVERLAYS | {
+            stage: frozenset(keys) for stage, keys in look.overlays.items()
+        }
+        self._own_ranges = dict(look.ranges)
+        self._ranges.set_keeps_fitting(look.fits_ranges)
+        self._strip.set_hidden_names(frozenset(look.hidden_buffers))
+        view = GridView(*look.middle, look.zoom)
+        self._grid.set_view(view)
+        self._strip.set_view(view)
+        self.refresh_step()
 
     def _stepped_triangle(self) -> int:
         return self._focus
@@ -228,29 +261,33 @@ class GridPresenter(QObject):
     @Slot(str)
     def _choose_buffer(self, name: str) -> None:
         self._chosen[self._session.cursor.stage] = name
-        self.refresh_step()
+        self._show_choice()
 
     @Slot(object)
     def _choose_overlays(self, keys: frozenset[str]) -> None:
         self._shown_overlays[self._session.cursor.stage] = keys
-        self.refresh_step()
+        self._show_choice()
 
     @Slot(float, float)
     def _choose_range(self, low: float, high: float) -> None:
         buffer = self._grid.buffer()
         if buffer is not None:
             self._own_ranges[buffer.name] = (low, high)
-            self.refresh_step()
+            self._show_choice()
 
     @Slot()
     def _reset_range(self) -> None:
         buffer = self._grid.buffer()
         if buffer is not None:
             self._own_ranges.pop(buffer.name, None)
-            self.refresh_step()
+            self._show_choice()
 
     @Slot(bool)
     def _keep_fitting(self, is_kept: bool) -> None:
         if is_kept:
             self._own_ranges.clear()
+        self._show_choice()
+
+    def _show_choice(self) -> None:
         self.refresh_step()
+        self.look_changed.emit()

@@ -58,7 +58,7 @@ class StepOpening(QObject):
         opening, other = ready.request.opening, ready.request.other
         self._page.timeline.show_playing(False)
         self._session.open(ready.document, ready.trace)
-        self._page.stepping.forget_places()
+        self._page.stepping.set_places()
         self._session.set_stage(opening.stage, 0)
         if opening.pixel is not None and self._session.has_pixel(opening.pixel):
             self._go_to_pixel(opening.stage, opening.pixel, has_other=other is not None)

@@ -2,7 +2,7 @@
 
 from math import isclose
 
-from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
+from PySide6.QtCore import QCoreApplication, Qt, QThread, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -49,6 +49,9 @@ from widgets.timeline.transport import Timeline
 class StepPage(Page):
     """All panes of the stepping page and their presenters."""
 
+    look_changed = Signal()
+    """The user has chosen to see something else: a buffer, an overlay, a view, another B."""
+
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.session = session
@@ -83,6 +86,8 @@ class StepPage(Page):
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.stepping.message_sent.connect(self.message_sent)
+        self.grids.look_changed.connect(self.look_changed)
+        self.comparing.look_changed.connect(self.look_changed)
         for refusal in (
             self.scene.edit_refused,
             self.views.refused,
@@ -144,7 +149,7 @@ class StepPage(Page):
             self._add_view(name, title, widget)
         self._add_view("compare", "A | B", self.compare_view)
         self.view_bar.currentChanged.connect(self._show_view)
-        self._views_by_hand: dict[str, str] = {}
+        self.views_by_hand: dict[str, str] = {}
         self._viewed_stage = self.session.cursor.stage
         self.view_bar.tabBarClicked.connect(self._choose_view)
         self.session.cursor_changed.connect(self._follow_stage)
@@ -286,8 +291,9 @@ class StepPage(Page):
     def _choose_view(self, index: int) -> None:
         """Show a main view, and again whenever the stage is entered: the user's wish."""
         if index >= 0:
-            self._views_by_hand[self.session.cursor.stage] = self.view_bar.tabData(index)
+            self.views_by_hand[self.session.cursor.stage] = self.view_bar.tabData(index)
             self.view_bar.setCurrentIndex(index)
+            self.look_changed.emit()
 
     @Slot()
     def _follow_stage(self) -> None:
@@ -301,7 +307,7 @@ class StepPage(Page):
     def show_own_view(self) -> None:
         """Show the stage at hand in the view that was chosen for it, or else in its own."""
         stage = self.session.cursor.stage
-        self.show_view(self._views_by_hand.get(stage, stage_of(stage).view))
+        self.show_view(self.views_by_hand.get(stage, stage_of(stage).view))
 
     def view_names(self) -> list[str]:
         """Return the names of the main views."""
@@ -349,6 +355,12 @@ class StepPage(Page):
     @Slot(int)
     def _choose_event(self, index: int) -> None:
         self.stepping.event_kind = self.event_box.itemData(index)
+
+    def choose_event(self, name: str) -> None:
+        """Choose the kind of event that N runs to."""
+        if name in EVENT_TITLES:
+            self.event_box.setCurrentIndex(self.event_box.findData(name))
+            self.stepping.event_kind = name
 
     def settle(self) -> None:
         """Wait until everything that is drawn a moment later (formulas, the 3D view) is there."""

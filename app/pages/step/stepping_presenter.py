@@ -1,11 +1,13 @@
 """Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks."""
 
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.files.state_models import Bookmark, Breakpoints
+from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.chapters import chapters_of
 from app.session.session import Session
 from core import STAGES
@@ -42,14 +44,6 @@ LAST_STEP = "The picture is finished. Press Home for the start of this stage, 1 
 FIRST_STEP = "Nothing comes before this. Press Right for the first step."
 
 
-@dataclass(frozen=True)
-class Bookmark:
-    """A remembered step."""
-
-    stage: str
-    position: int
-
-
 def nearest(positions: Integers, position: int, direction: int) -> int | None:
     """Return the nearest of rising positions after (1) or before (-1) a position, ``None`` where there is none."""
     found = positions[positions > position] if direction > 0 else positions[positions < position]
@@ -65,6 +59,8 @@ class SteppingPresenter(QObject):
     """The last message no longer holds: the cursor or the pin has moved."""
     condition_changed = Signal(str)
     """The condition of a breakpoint, empty: none."""
+    places_changed = Signal()
+    """There are other bookmarks or breakpoints, or a bookmark has another note."""
 
     def __init__(self, session: Session, timeline: Timeline, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -74,7 +70,9 @@ class SteppingPresenter(QObject):
         self.pixel_breakpoints: set[tuple[int, int]] = set()
         self.line_breakpoints: set[tuple[str, int]] = set()
         """Name of the listing's function and line."""
-        self.bookmarks: list[Bookmark] = []
+        self.bookmarks = Bookmarks(session, self)
+        self.bookmarks.message_sent.connect(self.tell)
+        self.bookmarks.bookmarks_changed.connect(self._show_places)
         self._condition: Condition | None = None
         self._told = ""
         session.document_changed.connect(self.refresh_run)
@@ -94,6 +92,7 @@ class SteppingPresenter(QObject):
         self._stage = ""
         self.refresh_run()
 
+    @Slot(str)
     def tell(self, text: str) -> None:
         """Say something that holds until the cursor or the pin moves."""
         self._told = text
@@ -150,7 +149,7 @@ class SteppingPresenter(QObject):
         if self._session.pin is not None:
             marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
         marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
-        here = [mark.position - 1 for mark in self.bookmarks if mark.stage == trace.stage]
+        here = [mark.position - 1 for mark in self.bookmarks.marks if mark.stage == trace.stage]
         marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
         place, last = STAGES.index(trace.stage), len(STAGES) - 1
         self._timeline.show_run(TimelineRun(trace.steps.count, marks, place > 0, place < last))
@@ -265,7 +264,7 @@ class SteppingPresenter(QObject):
             self.tell("Pin a pixel first: click it.")
             return
         self.pixel_breakpoints ^= {self._session.pin}
-        self.refresh_marks()
+        self._show_places()
 
     @property
     def condition(self) -> str:
@@ -284,13 +283,13 @@ class SteppingPresenter(QObject):
         if condition is not None:
             condition.holds(self._session.stage_trace)
         self._condition = condition
-        self.refresh_marks()
+        self._show_places()
         self.condition_changed.emit(self.condition)
 
     def toggle_line_breakpoint(self, function: str, line: int) -> None:
         """Set or take away a breakpoint on a line of a listing."""
         self.line_breakpoints ^= {(function, line)}
-        self.refresh_marks()
+        self._show_places()
 
     def run_to_line(self, function: str, line: int) -> None:
         """Go to the next step of a line of a listing."""
@@ -333,33 +332,27 @@ class SteppingPresenter(QObject):
                 found.append(steps.starts[:-1][rows] + place + 1)
         return np.unique(np.concatenate(found))
 
-    def forget_places(self) -> None:
-        """Take away the bookmarks and pixel breakpoints of another scene."""
-        self.bookmarks.clear()
-        self.pixel_breakpoints.clear()
-        self.refresh_marks()
+    # Bookmarks and breakpoints.
 
-    def set_bookmarks(self, bookmarks: list[Bookmark]) -> None:
-        """Restore the bookmarks."""
-        self.bookmarks = bookmarks
+    @Slot()
+    def _show_places(self) -> None:
+        """Show bookmarks and breakpoints that have changed."""
         self.refresh_marks()
+        self.places_changed.emit()
 
-    def toggle_bookmark(self) -> None:
-        """Remember this step, or forget it."""
-        cursor = self._session.cursor
-        mark = Bookmark(cursor.stage, cursor.position)
-        if mark in self.bookmarks:
-            self.bookmarks.remove(mark)
-        elif len(self.bookmarks) >= 10:
-            self.tell("All ten bookmarks are set. Remove one first.")
-        else:
-            self.bookmarks.append(mark)
-        self.refresh_marks()
+    def breakpoints(self) -> Breakpoints:
+        """Return all breakpoints."""
+        return Breakpoints(
+            pixels=sorted(self.pixel_breakpoints),
+            lines=sorted(self.line_breakpoints),
+            condition=self.condition,
+        )
 
-    def go_to_bookmark(self, index: int) -> None:
-        """Go to a bookmark by its number from 0."""
-        if index >= len(self.bookmarks):
-            self.tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
-            return
-        mark = self.bookmarks[index]
-        self._session.set_stage(mark.stage, mark.position)
+    def set_places(self, bookmarks: Iterable[Bookmark] = (), breakpoints: Breakpoints | None = None) -> None:
+        """Have these bookmarks and breakpoints, those of another scene, and no others."""
+        breakpoints = breakpoints or Breakpoints()
+        self.pixel_breakpoints = set(breakpoints.pixels)
+        self.line_breakpoints = set(breakpoints.lines)
+        self._condition = parse_condition(breakpoints.condition) if breakpoints.condition else None
+        self.bookmarks.set_marks(bookmarks)
+        self.condition_changed.emit(self.condition)

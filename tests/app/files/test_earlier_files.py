@@ -1,4 +1,4 @@
-"""Files that version 0.1.0 wrote before its rooms were rearranged open with all that they held."""
+"""Files of earlier versions of the program open with all that they held."""
 
 import json
 from dataclasses import asdict
@@ -8,13 +8,16 @@ import pytest
 
 from app.files.atlas_files import load_atlas
 from app.files.state_files import load_state
+from app.files.state_models import Breakpoints, Look
 from app.files.study_files import load_study
 from core.pipeline import render
 
 EARLIER = Path(__file__).parent / "earlier"
 
 
-@pytest.mark.parametrize(("name", "triangles"), [("edited-cube", 12), ("typed-clip", 2)])
+@pytest.mark.parametrize(
+    ("name", "triangles"), [("edited-cube", 12), ("typed-clip", 2), ("marked-torus", 4096)]
+)
 def test_a_state_opens_and_draws(name: str, triangles: int) -> None:
     written = json.loads((EARLIER / f"{name}.rasterscope").read_text(encoding="utf-8"))
     state, warnings = load_state(EARLIER / f"{name}.rasterscope")
@@ -23,6 +26,17 @@ def test_a_state_opens_and_draws(name: str, triangles: int) -> None:
     frame = render(state.document.scene, state.document.settings)
     assert frame.statistics["transform"].incoming == triangles
     assert (frame.primitive >= 0).any()
+
+
+def test_version_1_keeps_step_pin_bookmarks_and_view() -> None:
+    state, _ = load_state(EARLIER / "marked-torus.rasterscope")
+    assert (state.stage, state.position, state.level, state.pin) == ("depth", 7, 4, (247, 253))
+    assert [(mark.stage, mark.position, mark.note) for mark in state.bookmarks] == [
+        ("raster", 40, ""),
+        ("depth", 7, ""),
+    ]
+    assert state.look == Look(view="compare")
+    assert state.breakpoints == Breakpoints()
 
 
 def test_a_study_opens() -> None:

@@ -66,6 +66,16 @@ def test_an_edit_is_saved_while_the_window_is_open(autosaved: MainWindow, qtbot:
     assert reopen().message is None
 
 
+def test_a_bookmark_is_saved_even_where_nothing_else_was_done(window: MainWindow, qtbot: QtBot) -> None:
+    window.memory.autosave.begin(None, window.session.document)
+    window.page.stepping.bookmarks.describe("why")
+    qtbot.waitUntil(lambda: any(path.title for path in states()), timeout=20000)
+    (path,) = (each.path for each in states())
+    state = open_any(str(path)).state
+    assert state is not None
+    assert [mark.note for mark in state.bookmarks] == ["why"]
+
+
 def test_a_mesh_that_did_not_change_is_not_written_again(autosaved: MainWindow, qtbot: QtBot) -> None:
     sphere = built_in_scene("sphere")
     autosaved.session.open(with_moved_vertex(open_document(sphere.make(), "Sphere")))

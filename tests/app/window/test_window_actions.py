@@ -34,7 +34,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         page.grid.view(),
         page.prediction.isVisible(),
         frozenset(page.stepping.pixel_breakpoints),
-        tuple(page.stepping.bookmarks),
+        tuple(page.stepping.bookmarks.marks),
         window.overlays.ask_bar.isVisible(),
         window.overlays.key_help.isVisible(),
         window.isVisible(),
@@ -53,7 +53,7 @@ def prepare(window: MainWindow, name: str) -> None:
     if name.startswith("bookmark_"):
         for k in range(10):
             session.go_to(40 * k + 4)
-            page.stepping.toggle_bookmark()
+            page.stepping.bookmarks.toggle()
         session.go_to(4000)
     elif name in ("visited_back", "visited_forward"):
         session.set_stage("depth")
@@ -91,7 +91,7 @@ def put_back(window: MainWindow, document: Document) -> None:
     if current_theme().name != "light":
         window.appearance.set_theme("light")
     window.page.show_view("pixels")
-    window.page.stepping.set_bookmarks([])
+    window.page.stepping.set_places()
     window.session.open(document)
     window.session.set_level(Level.OPERATION)
     window.session.set_stage("raster", 4000)

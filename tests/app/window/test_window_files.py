@@ -6,15 +6,21 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
 from app.window.reopening import reopen
 from core.records.steps import Level
 from core.scene import Scene
+from lessons.scenes import built_in_scene
 from tests.app.files.mesh_writing import write_image
+from widgets.grid.view import GridView
+from widgets.space.orbit import Orbit
 
 TETRAHEDRON = """
 v 0 0 0
@@ -131,22 +137,69 @@ def test_a_state_opens_where_it_was_left(window: MainWindow, qtbot: QtBot, tmp_p
     session.set_level(Level.OPERATION)
     session.step(1)
     session.set_pin((30, 20))
-    window.page.stepping.toggle_bookmark()
+    window.page.stepping.bookmarks.toggle()
     window.page.show_view("clip")
     path = tmp_path / "here.rasterscope"
     window.files.save_to(str(path))
     color, cursor = session.trace.source.picture.color, session.cursor
     window.files.open_path("cube")
     qtbot.waitUntil(lambda: session.document.title == "Cube", timeout=20000)
-    assert window.page.stepping.bookmarks == []
+    assert window.page.stepping.bookmarks.marks == []
     window.page.show_view("pixels")
     window.files.open_path(str(path))
     qtbot.waitUntil(lambda: session.document.settings.fill == "scanline", timeout=20000)
     assert session.cursor == cursor
     assert session.pin == (30, 20)
     assert window.page.current_view() == "clip"
-    assert [mark.position for mark in window.page.stepping.bookmarks] == [cursor.position]
+    assert [mark.position for mark in window.page.stepping.bookmarks.marks] == [cursor.position]
     assert np.array_equal(session.trace.source.picture.color, color)
+
+
+def test_a_state_keeps_everything_that_was_chosen(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    page, session = window.page, window.session
+    page.next_view()
+    session.set_stage("depth", 30)
+    session.set_pin((30, 20))
+    page.stepping.toggle_pixel_breakpoint()
+    page.stepping.toggle_line_breakpoint("cover", 3)
+    page.stepping.set_condition("column == 30")
+    page.stepping.bookmarks.describe("the first tie")
+    page.strip.buffer_chosen.emit("primitive")
+    page.legend.overlays_changed.emit(frozenset({"nan"}))
+    page.ranges.range_changed.emit(0.25, 0.75)
+    page.grid.set_view(GridView(0.25, 0.75, 3.0))
+    page.comparing.set_differences({"coverage": "float32"})
+    page.comparing.set_buffer("depth")
+    page.choose_event("tie")
+    page.show_view("clip")
+    page.views.look_from({"clip": Orbit(1.0, 0.5, (0.0, 0.0, 0.0), 2.0)})
+    path = tmp_path / "here.rasterscope"
+    window.files.save_to(str(path))
+    kept = window.files.state()
+    assert all((kept.look.views, kept.look.orbits, kept.look.grid.overlays, kept.look.grid.ranges))
+    again = MainWindow(open_document(built_in_scene("cube").make(), "Cube"))
+    qtbot.addWidget(again)
+    again.files.show_opened(open_any(str(path)))
+    found = again.files.state()
+    assert (found.look, found.breakpoints, found.bookmarks) == (kept.look, kept.breakpoints, kept.bookmarks)
+    assert again.page.stepping.bookmarks.text(0).endswith(": the first tie")
+
+
+def test_a_bookmark_takes_a_note_by_key(window: MainWindow) -> None:
+    QTest.keyClick(
+        window, Qt.Key.Key_B, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    )
+    QTest.keyClicks(window.overlays.ask_bar.field, "look here")
+    QTest.keyClick(window.overlays.ask_bar.field, Qt.Key.Key_Return)
+    (mark,) = window.page.stepping.bookmarks.marks
+    assert mark.note == "look here"
+    assert [action.text() for action in window.menus.bookmark_menu.actions()] == [
+        "Raster, step 4,000: look here"
+    ]
+    window.session.set_stage("depth", 0)
+    QTest.keyClick(window, Qt.Key.Key_1, Qt.KeyboardModifier.ControlModifier)
+    assert window.session.cursor.stage == "raster"
+    assert window.statusBar().currentMessage() == "Bookmark 1: look here"
 
 
 def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) -> None:

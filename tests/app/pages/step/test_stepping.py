@@ -120,13 +120,13 @@ def test_without_a_breakpoint_the_run_goes_to_the_end(window: MainWindow) -> Non
 def test_bookmarks(window: MainWindow) -> None:
     session, stepping = window.session, window.page.stepping
     here = session.cursor
-    stepping.toggle_bookmark()
+    stepping.bookmarks.toggle()
     assert Mark.BOOKMARK in window.page.timeline.bar.run().marks
     session.set_stage("depth")
-    stepping.go_to_bookmark(0)
+    stepping.bookmarks.go_to(0)
     assert session.cursor == here
-    stepping.toggle_bookmark()
-    stepping.go_to_bookmark(0)
+    stepping.bookmarks.toggle()
+    stepping.bookmarks.go_to(0)
     assert "not set" in window.statusBar().currentMessage()
 
 

@@ -1,0 +1,29 @@
+"""How the Step page shows the run, as a state file keeps it."""
+
+from app.files.state_models import Look, OrbitRecord
+from app.pages.step.page import StepPage
+from widgets.space.orbit import Orbit
+
+
+def look_of(page: StepPage) -> Look:
+    """Return how the page shows the run."""
+    return Look(
+        view=page.current_view(),
+        views=dict(page.views_by_hand),
+        grid=page.grids.look(),
+        orbits={name: OrbitRecord(**vars(orbit)) for name, orbit in page.views.chosen_orbits().items()},
+        other=dict(page.comparing.differences),
+        other_buffer=page.comparing.buffer,
+        event=page.stepping.event_kind,
+    )
+
+
+def show_look(page: StepPage, look: Look) -> None:
+    """Show the run as it was shown."""
+    page.views_by_hand = dict(look.views)
+    page.comparing.set_buffer(look.other_buffer)
+    page.comparing.set_differences(look.other)
+    page.choose_event(look.event)
+    page.grids.show_look(look.grid)
+    page.views.look_from({name: Orbit(**dict(orbit)) for name, orbit in look.orbits.items()})
+    page.show_view(look.view)
