@@ -66,6 +66,9 @@ def mark_color(mark: Mark, theme: Theme) -> str:
         Mark.DEPTH_FAILED: theme.rejected,
         Mark.NAN: theme.nan_dark,
         Mark.DIFFERENCE: theme.rejected,
+        Mark.RIGHT: "#3ccb9c",
+        Mark.MISSING: theme.tie,
+        Mark.EXTRA: theme.rejected,
     }
     return colors[mark]
 

@@ -193,12 +193,12 @@ class GridCanvas:
         painter.fillRect(placement.cells_rect(0, 0, placement.columns, placement.rows), QColor(theme.canvas))
         if self._buffer is not None and visible[0] < visible[2] and visible[1] < visible[3]:
             self._paint_cells(painter, placement, self._buffer, theme, visible)
+            if self._hidden is not None:
+                paint_hidden(painter, placement, self._hidden, theme)
             if self._geometry is not None and outlines is not None:
                 outlines.paint_others(painter, placement, area, self._geometry, theme)
             elif self._geometry is not None:
                 paint_outlines(painter, outline_lines(placement, self._geometry), theme)
-            if self._hidden is not None:
-                paint_hidden(painter, placement, self._hidden, theme)
         painter.restore()
 
     def _paint_cells(

@@ -33,6 +33,12 @@ class Mark(Enum):
     """A fine checker."""
     DIFFERENCE = "difference"
     """A filled corner."""
+    RIGHT = "right"
+    """A tick."""
+    MISSING = "missing"
+    """A hollow square."""
+    EXTRA = "extra"
+    """A large cross."""
 
 
 EDGE_MARKS = (Mark.EDGE_0, Mark.EDGE_1, Mark.EDGE_2)

@@ -33,6 +33,9 @@ _FORMS = {
     Mark.DEPTH_FAILED: "A cross",
     Mark.NAN: "A fine checker",
     Mark.DIFFERENCE: "A filled corner",
+    Mark.RIGHT: "A tick",
+    Mark.MISSING: "A hollow square",
+    Mark.EXTRA: "A large cross",
 }
 
 

@@ -26,6 +26,13 @@ from widgets.grid.view import GridPlacement
 
 _GLYPH_CELL = 6.0
 """Side of a cell from which glyphs have their form; below it they are dots."""
+_STROKES = {
+    Mark.DEPTH_FAILED: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
+    Mark.RIGHT: (((-1, 0.1), (-0.3, 0.8), (1, -0.8)),),
+    Mark.MISSING: (((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)),),
+    Mark.EXTRA: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
+}
+"""Glyphs drawn as lines: the corners of each, x to the right and y down, 1 is the glyph's reach."""
 _COUNT_CELL = 18.0
 """Side of a cell from which counts are written as numbers."""
 
@@ -136,11 +143,19 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     if cell < _GLYPH_CELL:
+        # A mark that has to be told from its neighbours keeps a form: full, hollow or half.
+        cells = [placement.cells_rect(*pixel) for pixel in _visible(painter, placement, overlay.mask)]
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(color)
-        painter.drawRects(
-            [placement.cells_rect(*pixel) for pixel in _visible(painter, placement, overlay.mask)]
-        )
+        if overlay.mark is Mark.MISSING:
+            painter.setPen(QPen(color, 1.0))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRects([rect.adjusted(0.5, 0.5, -0.5, -0.5) for rect in cells])
+        elif overlay.mark is Mark.EXTRA:
+            for rect in cells:
+                painter.drawPolygon(QPolygonF([rect.bottomLeft(), rect.topRight(), rect.bottomRight()]))
+        else:
+            painter.drawRects(cells)
         painter.restore()
         return
     width = min(max(cell * 0.09, 1.2), 2.5)
@@ -156,16 +171,17 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
             for pen in (outer, inner):
                 painter.setPen(pen)
                 painter.drawEllipse(middle, size, size)
-        elif overlay.mark is Mark.DEPTH_FAILED:
-            place = _glyph_place(rect)
-            reach = size * 0.55
-            cross = [
-                QLineF(place + QPointF(-reach, -reach), place + QPointF(reach, reach)),
-                QLineF(place + QPointF(-reach, reach), place + QPointF(reach, -reach)),
+        elif overlay.mark in _STROKES:
+            place = _glyph_place(rect) if overlay.mark is Mark.DEPTH_FAILED else middle
+            reach = size * (0.55 if overlay.mark is Mark.DEPTH_FAILED else 0.9)
+            lines = [
+                QPolygonF([place + QPointF(reach * x, reach * y) for x, y in stroke])
+                for stroke in _STROKES[overlay.mark]
             ]
             for pen in (outer, inner):
                 painter.setPen(pen)
-                painter.drawLines(cross)
+                for line in lines:
+                    painter.drawPolyline(line)
         else:
             painter.setPen(QPen(halo, 1.0))
             painter.setBrush(color)

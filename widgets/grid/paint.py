@@ -188,14 +188,19 @@ def paint_hidden(
     cell = placement.cell
     painter.save()
     painter.setFont(text_font(theme, int(min(max(cell * 0.5, 9), 2 * theme.text_px))))
-    inset = 1.0 if cell >= LINE_CELL else 0.0
+    line = QColor(theme.grid_line)
     rects = [
         placement.cells_rect(column + column0, row + row0)
         for row, column in zip(rows.tolist(), columns.tolist(), strict=True)
     ]
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(theme.hidden))
-    painter.drawRects([rect.adjusted(inset, 0, 0, -inset) for rect in rects])
+    painter.drawRects(rects)
+    if cell >= LINE_CELL:
+        # Lines of its own: through those of the grid the colour below them would be seen.
+        for rect in rects:
+            painter.fillRect(QRectF(rect.left(), rect.top(), 1.0, rect.height()), line)
+            painter.fillRect(QRectF(rect.left(), rect.bottom() - 1.0, rect.width(), 1.0), line)
     if cell >= 14:
         painter.setPen(QColor(theme.text))
         for rect in rects:

@@ -1,10 +1,11 @@
 """Predict, then reveal: a question about the next step, an answer, and the verdict beside it."""
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
@@ -45,8 +46,7 @@ class PredictionView(QWidget):
         self.next_button.setToolTip("Ask about the next step")
         self.next_button.clicked.connect(self.next_requested)
         self.choice_buttons: tuple[QPushButton, ...] = ()
-        self._choice_row = QHBoxLayout()
-        self._choice_row.setSpacing(8)
+        self._choices = column_layout(spacing=4)
         self.hint = text_label("Click the pixels in the grid.", self, role="muted")
         self._icon = QLabel(self)
         self.verdict = text_label("", self, name="Verdict", wraps=True)
@@ -83,30 +83,27 @@ class PredictionView(QWidget):
         self.count.setText(f"{right} of {asked} right" if asked else "")
 
     def _arrange(self) -> None:
-        answer = QHBoxLayout()
-        answer.setSpacing(8)
+        answer, going, result = (row_layout(spacing=8) for _ in range(3))
         answer.addWidget(self.field)
         answer.addWidget(self.check_button)
-        answer.addLayout(self._choice_row)
-        answer.addWidget(self.hint)
-        answer.addWidget(self.reveal_button)
-        answer.addWidget(self.next_button)
         answer.addStretch(1)
-        answer.addWidget(self.count)
-        result = QHBoxLayout()
-        result.setSpacing(8)
+        going.addWidget(self.next_button)
+        going.addWidget(self.reveal_button)
+        going.addStretch(1)
+        going.addWidget(self.count)
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.verdict, 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(12, 8, 12, 8)
-        layout.setSpacing(8)
+        layout = column_layout(self, 8, margins=(12, 8, 12, 8))
         layout.addWidget(self.question)
         layout.addLayout(answer)
+        layout.addLayout(self._choices)
+        layout.addWidget(self.hint)
         layout.addLayout(result)
+        layout.addLayout(going)
 
     def _show_choices(self, choices: tuple[str, ...]) -> None:
         for button in self.choice_buttons:
-            self._choice_row.removeWidget(button)
+            self._choices.removeWidget(button)
             button.hide()
             button.deleteLater()
         buttons = []
@@ -114,7 +111,7 @@ class PredictionView(QWidget):
             button = QPushButton(text, self)
             button.setToolTip(f"Answer: {text}")
             button.clicked.connect(self._answer_choice)
-            self._choice_row.addWidget(button)
+            self._choices.addWidget(button)
             buttons.append(button)
         self.choice_buttons = tuple(buttons)
 

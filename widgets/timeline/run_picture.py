@@ -34,6 +34,8 @@ class TimelineRun:
     """Whether a step back from the start leads to another run."""
     has_after: bool = False
     """Whether a step from the end leads on to another run."""
+    is_open: bool = False
+    """Whether more steps follow that are not shown yet."""
 
     def lanes(self) -> tuple[Mark, ...]:
         """Return the outcomes that get a lane, top down."""

@@ -110,7 +110,7 @@ class Timeline(QWidget):
         self._count = run.count
         self._position = min(self._position, run.count)
         self._fit_position_box()
-        self.count_label.setText(f"/ {run.count:,}")
+        self.count_label.setText("/ ?" if run.is_open else f"/ {run.count:,}")
         self.bar.show_run(run)
         self._update_state()
 

@@ -68,11 +68,13 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
         state, is_inserted, reason = _state_and_reason(stage, current, count, trace.source.settings.coverage)
         if stage == "raster" and outgoing and not count.incoming:
             reason = reason or COMPUTED
-        if is_whole and stage in ("interpolate", "shade") and outgoing > count.outgoing:
+        if is_whole and not is_predicting and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         share = count.seconds / whole_seconds if whole_seconds > 0 else 0.0
         words, short = (_counted(stage, incoming, outgoing, is_predicting, form) for form in (0, 1))
-        duration = f"{count.seconds * 1000:.1f} ms, {100 * share:.0f} % of all stages"
+        duration = (
+            "" if is_predicting else f"{count.seconds * 1000:.1f} ms, {100 * share:.0f} % of all stages"
+        )
         key = str((index + 1) % 10) if index < 10 else ""
         chapters.append(
             Chapter(stage_of(stage).short_title, key, words, short, duration, state, is_inserted, reason)

@@ -16,6 +16,7 @@ from app.pages.step.grid_records import (
     sample_dots,
     span_overlay,
 )
+from app.pages.step.guesses import Guesses
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Session
 from core.records.arrays import Integers
@@ -82,6 +83,7 @@ class GridPresenter(QObject):
         ranges.range_changed.connect(self._choose_range)
         ranges.range_reset.connect(self._reset_range)
         ranges.fitting_changed.connect(self._keep_fitting)
+        self._guesses: Guesses | None = None
         self._focus = 0
         self._stepped_to = session.cursor
         self._geometry = geometry_of(session.document, session.trace, 0)
@@ -93,6 +95,7 @@ class GridPresenter(QObject):
     def refresh_run(self) -> None:
         """Show another run: outlines, rulers, buffers."""
         session = self._session
+        self._guesses = None
         self._grid.set_pixel_center(session.document.settings.pixel_center)
         if self._focus < session.document.triangle_count:
             # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
@@ -106,23 +109,28 @@ class GridPresenter(QObject):
         """Show the state after the step just done."""
         session = self._session
         row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-        if row >= 0 and session.cursor != self._stepped_to:
-            self._focus_on(int(session.stage_trace.triangle[row]))
+        if session.cursor != self._stepped_to:
+            self._guesses = None
+            if row >= 0:
+                self._focus_on(int(session.stage_trace.triangle[row]))
         self._stepped_to = session.cursor
         stage = session.cursor.stage
         buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
         self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
         names = [buffer.name for buffer in buffers]
-        chosen = self._chosen.get(stage, names[0])
+        guesses = self._guesses
+        chosen = self._chosen.get(stage, names[0]) if guesses is None else "coverage"
         main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
         self._strip.show_chosen(main.name)
-        self._grid.show_buffer(main)
-        self._grid.show_hidden(None)
+        self._grid.show_buffer(main if guesses is None else guesses.buffer(main))
+        self._grid.show_hidden(None if guesses is None else guesses.hidden)
         stage_trace, at = session.stage_trace, session.cursor.position
         self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
         self._ranges.show_buffer(main)
-        overlays = self._overlays()
+        overlays = self._overlays() if guesses is None else guesses.overlays()
         shown = self._shown_overlays.get(stage, frozenset({"nan"}))
+        if guesses is not None:
+            shown = frozenset(overlay.key for overlay in overlays)
         self._legend.show_overlays(overlays, shown)
         self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
         pixels = self._step_pixels()
@@ -156,6 +164,11 @@ class GridPresenter(QObject):
         view = GridView(*look.middle, look.zoom)
         self._grid.set_view(view)
         self._strip.set_view(view)
+        self.refresh_step()
+
+    def show_guesses(self, guesses: Guesses | None) -> None:
+        """Show pixels that are held for covered, and cover up the others; ``None``: show the state of the step."""
+        self._guesses = guesses
         self.refresh_step()
 
     def _stepped_triangle(self) -> int:
@@ -192,7 +205,8 @@ class GridPresenter(QObject):
         trace, position = session.stage_trace, session.cursor.position
         found: list[Overlay] = []
         blocks = block_overlay(trace, session.trace, position)
-        if blocks is not None:
+        # An accepted block tells which pixels are covered.
+        if blocks is not None and not (session.is_predicting and trace.stage == "raster"):
             found.append(blocks)
         found += mask_overlays(trace, session.trace.source.raster, position)
         spans = span_overlay(trace, session.trace.source.raster, position)
@@ -227,7 +241,9 @@ class GridPresenter(QObject):
         return found
 
     def _ranged(self, buffer: GridBuffer) -> GridBuffer:
-        if self._ranges.keeps_fitting() and buffer.name not in self._own_ranges:
+        # The range of a whole run tells values that are still to be predicted.
+        is_fitted = self._ranges.keeps_fitting() or self._session.is_predicting
+        if is_fitted and buffer.name not in self._own_ranges:
             return replace(buffer, range=None)
         chosen = self._own_ranges.get(buffer.name)
         return replace(buffer, range=chosen) if chosen else buffer
@@ -256,6 +272,9 @@ class GridPresenter(QObject):
     def _pin(self, column: int, row: int) -> None:
         pixel = self._global(column, row)
         self._session.set_pin(pixel)
+        if self._session.is_predicting:
+            # The triangle that a pixel shows in the end is not known yet.
+            return
         self._focus_on(int(self._session.trace.source.picture.primitive[row, column]))
 
     @Slot(str)

@@ -81,7 +81,7 @@ class StepPage(Page):
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.views = StageViews(session, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
-        self.predicting = PredictionPresenter(session, self.prediction, self.grid, self)
+        self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
@@ -157,8 +157,6 @@ class StepPage(Page):
         layout = column_layout(top, 4)
         layout.addWidget(self.view_bar)
         layout.addWidget(self.view_stack, 1)
-        layout.addWidget(self.prediction)
-        self.prediction.hide()
         self.rows = QSplitter(Qt.Orientation.Vertical, self)
         self.rows.setMinimumWidth(320)
         self.rows.addWidget(top)
@@ -206,7 +204,13 @@ class StepPage(Page):
         self._owed_growth = 1.0
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._fit_step_pane()
-        return self.inspector_rows
+        column = QWidget(self)
+        questions_first = column_layout(column, 8)
+        # Here, and not below the grid, which keeps its place while it is asked about.
+        questions_first.addWidget(self.prediction)
+        questions_first.addWidget(self.inspector_rows, 1)
+        self.prediction.hide()
+        return column
 
     @Slot()
     def _follow_theme(self) -> None:

@@ -142,18 +142,20 @@ class SteppingPresenter(QObject):
         trace = self._session.stage_trace
         starts = trace.steps.starts
         marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
-        if self._session.is_predicting:
-            # What lies ahead would tell the answer.
-            done = self._session.cursor.position
-            marks = {mark: places[places < done] for mark, places in marks.items()}
         if self._session.pin is not None:
             marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
         marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
         here = [mark.position - 1 for mark in self.bookmarks.marks if mark.stage == trace.stage]
         marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
         place, last = STAGES.index(trace.stage), len(STAGES) - 1
-        self._timeline.show_run(TimelineRun(trace.steps.count, marks, place > 0, place < last))
-        self._timeline.show_position(self._session.cursor.position)
+        count, position = trace.steps.count, self._session.cursor.position
+        has_more = self._session.is_predicting and position < count
+        if has_more:
+            # What lies ahead would tell the answer, also by how much it is.
+            count = position
+            marks = {mark: places[places < position] for mark, places in marks.items()}
+        self._timeline.show_run(TimelineRun(count, marks, place > 0, place < last or has_more, has_more))
+        self._timeline.show_position(position)
 
     def show_chapters(self) -> None:
         """Show what every stage took in, gave out, and which part of the time it took."""

@@ -27,8 +27,8 @@ from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given
 from core.raster.edges.edge_functions import is_inside
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
+from core.records.arrays import Flags
 from core.records.words import counted, joined
-from core.trace import StageTrace
 
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
@@ -44,15 +44,14 @@ def coverage_reveal(column: int, row: int, is_covered: bool) -> str:
     return f"({column}, {row}) is {'covered' if is_covered else 'not covered'}."
 
 
-def covered_pixels(trace: StageTrace) -> set[tuple[int, int]]:
-    """Return column and row of every pixel that is covered when the stage is done: the right answer."""
-    return {(column, row) for column, row in trace.pixel[trace.marks["covered"]].tolist()}
-
-
-def coverage_result(found: set[tuple[int, int]], covered: set[tuple[int, int]]) -> str:
-    """Return how the clicked pixels compare with the covered ones."""
-    wrong = counted(len(found - covered), "wrong click")
-    return f"{len(found & covered)} of {counted(len(covered), 'covered pixel')} found, {wrong}."
+def coverage_result(clicked: Flags, covered: Flags) -> str:
+    """Return how the clicked pixels, (H, W) bool, compare with the covered ones, (H, W) bool."""
+    right, extra, missing = (
+        int(np.count_nonzero(pixels))
+        for pixels in (clicked & covered, clicked & ~covered, covered & ~clicked)
+    )
+    count = counted(int(np.count_nonzero(covered)), "covered pixel")
+    return f"{right} of {count} right (tick), {extra} extra (cross), {missing} missing (square)."
 
 
 def covered(step: StepValues) -> Asked:

@@ -87,7 +87,7 @@ def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow) -> Non
             row = session.stage_trace.steps.rows_done(session.cursor.position)
             if row < session.stage_trace.steps.row_count:
                 asked = question(session.stage_trace, row)
-                assert (asked is None) == ("nothing to predict" in view.question.text())
+                assert (asked is None) == ("needs no prediction" in view.question.text())
         session.go_to(session.stage_trace.steps.count)
         assert view.question.text().startswith("This stage is done.")
 
