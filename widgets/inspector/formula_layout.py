@@ -1,14 +1,16 @@
 """Where the cells of a formula stand, numbers under symbols, lines broken at relations; how it is drawn."""
 
 import re
+from collections import OrderedDict
 from dataclasses import dataclass
+from functools import lru_cache
 
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontMetricsF, QGuiApplication, QPainter
 
 from core.explain.latex import color_vertices, is_operator, may_begin_line, plain_text, split_cells, vertex_of
 from core.explain.records import Formula
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import Theme, current_theme
 from widgets.inspector.typesetter import Typesetter, typesetter_font
 
 _NUMBER = re.compile(r"^\(?[-\u2212]?\d+(?:\.\d*)?\)?$")
@@ -20,6 +22,8 @@ SPACE = r"\quad"
 """What stands between two equations of one row."""
 SHRINK = 0.85
 """A formula shrinks by this much before it wraps."""
+KEPT_LAYOUTS = 256
+"""Formulas that are kept laid out, at their widths: one is asked for many times a step, and comes again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +72,10 @@ class FormulaSetter:
         self._size = size
         self._number_font = QFont(_mathematics_family())
         self._number_font.setPixelSize(round(size))
+        self._number_metrics = QFontMetricsF(self._number_font)
+        self._text_metrics = QFontMetricsF(text_font)
+        self._layouts: OrderedDict[tuple[Formula, int, Theme], tuple[Line, ...]] = OrderedDict()
+        """Of formulas all of whose cells were typeset, the last used at the end."""
 
     def cells_needed(self, formula: Formula | None) -> list[tuple[str, str]]:
         """Return what the typesetter must set: LaTeX with colours, and the colour of the rest."""
@@ -88,6 +96,20 @@ class FormulaSetter:
 
     def layout(self, formula: Formula | None, width: int) -> tuple[Line, ...]:
         """Break a formula into lines for a view of `width` logical pixels."""
+        if formula is None:
+            return ()
+        key = formula, width, current_theme()
+        if key in self._layouts:
+            self._layouts.move_to_end(key)
+            return self._layouts[key]
+        lines = self._layout(formula, width)
+        if all(map(self.is_ready, self.cells_needed(formula))):
+            self._layouts[key] = lines
+            if len(self._layouts) > KEPT_LAYOUTS:
+                self._layouts.popitem(last=False)
+        return lines
+
+    def _layout(self, formula: Formula, width: int) -> tuple[Line, ...]:
         rows = cell_rows(formula)
         if not rows:
             return ()
@@ -145,9 +167,8 @@ class FormulaSetter:
         size = self._size
         if _is_quick(latex):
             fraction = _FRACTION.match(latex)
-            metrics = QFontMetricsF(self._number_font)
             widths = [
-                metrics.horizontalAdvance(_minus(text))
+                self._number_metrics.horizontalAdvance(_minus(text))
                 for text in (fraction.groups() if fraction else [latex])
             ]
             if fraction:
@@ -156,7 +177,7 @@ class FormulaSetter:
         cell = self._typesetter.cached(latex, color, size)
         if cell is not None and cell.renderer is not None:
             return cell.box
-        metrics = QFontMetricsF(self._text_font)
+        metrics = self._text_metrics
         width = metrics.horizontalAdvance(plain_text(latex)) + 2.0
         return QRectF(0.0, -metrics.ascent(), width, metrics.height())
 
@@ -189,7 +210,7 @@ class FormulaSetter:
             painter.drawText(QPointF(piece.left, baseline), _minus(piece.latex))
             return
         size = self._size
-        metrics = QFontMetricsF(self._number_font)
+        metrics = self._number_metrics
         middle = piece.left + piece.width / 2
         for text, shift in zip(fraction.groups(), (-0.64, 0.64), strict=True):
             left = middle - metrics.horizontalAdvance(_minus(text)) / 2
@@ -223,9 +244,11 @@ def extent(lines: tuple[Line, ...]) -> tuple[float, float]:
 
 def cell_rows(formula: Formula | None) -> list[list[tuple[str, str]]]:
     """Return one or two rows of cells: LaTeX with colours, and the colour of the rest."""
-    if formula is None:
-        return []
-    theme = current_theme()
+    return [] if formula is None else _themed_rows(formula, current_theme())
+
+
+@lru_cache(KEPT_LAYOUTS)
+def _themed_rows(formula: Formula, theme: Theme) -> list[list[tuple[str, str]]]:
     vertex_colors = theme.vertex_text
     symbols, numbers = _aligned_cells(formula)
     rows = [[(color_vertices(cell, vertex_colors), theme.text) for cell in symbols]]
@@ -249,6 +272,7 @@ def _aligned_cells(formula: Formula) -> tuple[tuple[str, ...], tuple[str, ...]]:
     return symbols, numbers
 
 
+@lru_cache(4096)
 def _is_quick(latex: str) -> bool:
     """Return whether a cell is a number or a fraction of two: these change at every step and are drawn here."""
     return bool(_NUMBER.match(latex) or _FRACTION.match(latex))

@@ -20,7 +20,7 @@ from core.explain.latex import plain_text, without_macros
 from core.explain.records import Formula
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_layout import MARGIN, FormulaSetter, Line, extent
-from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded
+from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter
 
 __all__ = ["Formula", "FormulaView"]
 
@@ -37,6 +37,10 @@ class FormulaView(QWidget):
     """Size of a formula relative to the widget's text."""
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
+    TURN_SECONDS = 0.008
+    """Typesetting at a time that follows later."""
+    LOADING_SECONDS = 0.02
+    """Time between two looks whether the typesetter is loaded."""
     WIDTH_SHARES = (1.2, 1.5, 2.0)
     """Widths, as shares of the view's, for which lines are broken too where they would shrink at its own."""
     HURRY_SECONDS = 0.05
@@ -49,6 +53,7 @@ class FormulaView(QWidget):
         self._hint = "The formula of each step appears here."
         self._shown_at = -math.inf
         self._lines: tuple[Line, ...] = ()
+        self._kept_setter: tuple[str, float, FormulaSetter] | None = None
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
         self._catch_up_timer.timeout.connect(self._catch_up)
@@ -75,6 +80,24 @@ class FormulaView(QWidget):
         self._formula = formula
         self._rebuild()
         self._shown_at = time.perf_counter()
+
+    def can_prepare(self) -> bool:
+        """Return whether the typesetter is loaded."""
+        return is_typesetter_loaded()
+
+    def prepare(self, formula: Formula | None) -> bool:
+        """Typeset one cell of a formula that may be shown soon; return whether all were typeset already.
+
+        The first call loads the typesetter off the GUI thread; until it `can_prepare`, nothing is typeset.
+        """
+        load_typesetter()
+        if not self.can_prepare():
+            return False
+        setter = self._setter()
+        cell = next((cell for cell in setter.cells_needed(formula) if not setter.is_ready(cell)), None)
+        if cell is not None:
+            setter.typeset(cell)
+        return cell is None
 
     @Slot(str)
     def show_hint(self, text: str) -> None:
@@ -183,7 +206,10 @@ class FormulaView(QWidget):
         return round(self.fontInfo().pixelSize() * self.POINT_SIZE_FACTOR, 1)
 
     def _setter(self) -> FormulaSetter:
-        return FormulaSetter(self._typesetter, self.font(), self._size())
+        font, size = self.font(), self._size()
+        if self._kept_setter is None or self._kept_setter[:2] != (font.key(), size):
+            self._kept_setter = font.key(), size, FormulaSetter(self._typesetter, font, size)
+        return self._kept_setter[2]
 
     @Slot()
     def _rebuild(self) -> None:
@@ -192,8 +218,14 @@ class FormulaView(QWidget):
 
     @Slot()
     def _catch_up(self) -> None:
-        self._typeset_within(self.BUDGET_SECONDS, is_catching_up=True)
-        self._refresh()
+        """Typeset what is missing, a little at a time, and show it at the end: it is laid out and painted once."""
+        if not is_typesetter_loaded():
+            load_typesetter()
+            self._catch_up_timer.start(round(1000 * self.LOADING_SECONDS))
+            return
+        self._typeset_within(self.TURN_SECONDS, is_catching_up=True)
+        if self.is_complete():
+            self._refresh()
 
     def _refresh(self) -> None:
         self._lines = self._best_lines()

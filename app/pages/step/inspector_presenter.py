@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QLabel
 
+from app.pages.step.formulas_ahead import FormulasAhead
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.session import Session
@@ -50,6 +51,7 @@ class InspectorPresenter(QObject):
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
         self._folded = set(STAGES)
+        self._ahead = FormulasAhead(session, formula_view, self)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)

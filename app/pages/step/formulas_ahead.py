@@ -1,0 +1,58 @@
+"""Formulas typeset before they are shown: those of the next steps, while the user looks at this one."""
+
+from PySide6.QtCore import QObject, QTimer, Slot
+
+from app.session.session import Session
+from core.explain import formula
+from widgets.inspector.formula_view import Formula, FormulaView
+
+QUIET_MS = 20
+"""Time after a step, in milliseconds, from which the user is taken to look at it."""
+FIRST_MS = 300
+"""The same for a window that opens: first it is painted."""
+STEPS_AHEAD = 3
+
+
+class FormulasAhead(QObject):
+    """Typesets the formulas around the session's cursor, one cell whenever the event loop is free."""
+
+    def __init__(self, session: Session, view: FormulaView, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._view = session, view
+        self._positions = [1]
+        """What is still to be prepared, the nearest first: when the window opens, the first step."""
+        self._formula: Formula | None = None
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._prepare)
+        session.cursor_changed.connect(self.begin)
+        session.document_changed.connect(self.begin)
+        self._timer.start(FIRST_MS)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether something is left to be prepared."""
+        return self._timer.isActive()
+
+    @Slot()
+    def begin(self) -> None:
+        """Look ahead from where the cursor is now, as soon as the user pauses."""
+        steps, cursor = self._session.stage_trace.steps, self._session.cursor
+        ahead = [cursor.position]
+        for _ in range(STEPS_AHEAD):
+            ahead.append(steps.forward(ahead[-1], cursor.level))
+        self._positions = list(dict.fromkeys([*ahead[1:], steps.back(cursor.position, cursor.level)]))
+        self._formula = None
+        self._timer.start(QUIET_MS)
+
+    @Slot()
+    def _prepare(self) -> None:
+        """Explain one step, or typeset one cell of its formula."""
+        if self._formula is None:
+            if not self._positions:
+                return
+            explanation = self._session.stage_trace.explain(self._positions.pop(0))
+            self._formula = None if explanation is None else formula(explanation)
+        elif self._view.prepare(self._formula):
+            self._formula = None
+        self._timer.start(0 if self._view.can_prepare() else QUIET_MS)

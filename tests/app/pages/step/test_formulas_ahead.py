@@ -1,0 +1,28 @@
+"""Formulas of the next steps are typeset while the user looks at this one."""
+
+from pytestqt.qtbot import QtBot
+
+from app.pages.step.formulas_ahead import STEPS_AHEAD, FormulasAhead
+from app.session.document import open_document
+from app.session.session import Session
+from core.explain import formula
+from core.records.steps import Level
+from lessons.scenes import built_in_scene
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.typesetter import Typesetter
+
+
+def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
+    session = Session(open_document(built_in_scene("shared-edge").make(), ""))
+    view = FormulaView(typesetter=Typesetter())
+    qtbot.addWidget(view)
+    ahead = FormulasAhead(session, view)
+    session.set_stage("edges", 0)
+    session.set_level(Level.OPERATION)
+    qtbot.waitUntil(lambda: not ahead.is_working, timeout=10000)
+    for _ in range(STEPS_AHEAD):
+        session.step(1)
+        explanation = session.explanation
+        assert explanation is not None
+        view.show_formula(formula(explanation))
+        assert view.is_complete()
