@@ -113,7 +113,7 @@ class ResultPage(WorkPage):
         self.entries, self.readout = FamilyList(self), Readout("Figures", self)
         self.shown_text = ElidedLabel(self)
         self.shown_text.setProperty("role", "muted")
-        self.shown_text.setAccessibleName(f"What the {words.view} show")
+        self.shown_text.setAccessibleDescription(f"What the {words.view} show")
         self.export_button = self._button("Export…", words.export_tip, self.ask_export)
         self.copy_button = self._button("Copy", words.copy_tip, self.copy)
 

@@ -28,6 +28,7 @@ from app.window.overlays import Overlays
 from app.window.preferences import Preferences
 from app.window.remembering import Remembering
 from core.scene import ClipScene
+from widgets.basics.accessible import announce, install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 BY_SIGNAL = 128
@@ -45,6 +46,7 @@ class MainWindow(QMainWindow):
 
     def __init__(self, document: Document, preferences: Preferences | None = None) -> None:
         super().__init__()
+        install_roles()
         self.session = Session(document, self)
         self.messages = MessageBar(self)
         self.pages = Pages(PAGE_KINDS, self.session, self.messages, self)
@@ -163,6 +165,7 @@ class MainWindow(QMainWindow):
         text = sentence_case(text)
         if kind is MessageKind.INFORMATION and not details:
             self.statusBar().showMessage(text, HINT_MILLISECONDS)
+            announce(self.statusBar(), text)
         else:
             self.messages.show_message(Message(kind, text, details))
 

@@ -5,6 +5,7 @@ from functools import lru_cache
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
+    QAccessible,
     QColor,
     QFontMetrics,
     QKeyEvent,
@@ -34,6 +35,8 @@ _SMALLEST_CELL = 16
 
 class AtlasCanvas(QWidget):
     """Paints all maps; reports which cell is pointed at, chosen and opened."""
+
+    spoken_role = QAccessible.Role.Canvas
 
     cell_hovered = Signal(object)
     """A `CellPlace`."""

@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
+from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import set_role, text_label
 
@@ -48,6 +49,7 @@ class AskBar(QWidget):
         self._name, self._hint = name, hint
         self.label.setText(label)
         self.field.setAccessibleName(label)
+        self.field.setAccessibleDescription(hint)
         self.field.setText(text)
         self.field.selectAll()
         self._forget_problem()
@@ -58,6 +60,7 @@ class AskBar(QWidget):
         """Say what is wrong with the answer; the question stays open."""
         self.hint.setText(text)
         set_role(self.hint, "bad")
+        announce(self, text, is_urgent=True)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Close on Escape."""

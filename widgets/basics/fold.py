@@ -22,7 +22,6 @@ class Fold(QWidget):
         self.button.setFont(font)
         self.text = text_label("", self, wraps=True)
         self.text.setTextFormat(Qt.TextFormat.RichText)
-        self.text.setAccessibleName(title)
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.text.setContentsMargins(8, 0, 8, 8)
         layout = column_layout(self, 0)

@@ -1,7 +1,7 @@
 """Labels: text that is cut to its width, text that scrolls, and a role that the style sheet knows."""
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QTextDocumentFragment
 from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QWidget
 
 
@@ -14,13 +14,13 @@ def text_label(
     wraps: bool = False,
     is_selectable: bool = False,
 ) -> QLabel:
-    """Return a text: its role in the style sheet, its name for who does not see it, and what may be done with it."""
+    """Return a text: its role in the style sheet, what it is for who hears it, and what may be done with it."""
     label = QLabel(text, parent) if parent is not None else QLabel(text)
     label.setWordWrap(wraps)
     if role:
         label.setProperty("role", role)
     if name:
-        label.setAccessibleName(name)
+        label.setAccessibleDescription(name)  # A name would be read instead of the text.
     if is_selectable:
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label
@@ -64,7 +64,6 @@ class Readout(QScrollArea):
         self.label.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         self.label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.label.setContentsMargins(8, 8, 8, 8)
-        self.label.setAccessibleName(name)
         self.setAccessibleName(name)
         self.setWidget(self.label)
         self.setWidgetResizable(True)
@@ -80,6 +79,10 @@ class Readout(QScrollArea):
     def text(self) -> str:
         """Return the rich text that is shown."""
         return self.label.text()
+
+    def spoken_description(self) -> str:
+        """Return the text for a screen reader: it has come to the pane, not to the label in it."""
+        return QTextDocumentFragment.fromHtml(self.text()).toPlainText()
 
 
 def set_role(widget: QWidget, role: str) -> None:

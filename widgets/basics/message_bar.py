@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.labels import text_label
 from widgets.basics.marks import Mark, mark_pixmap
@@ -114,6 +115,8 @@ class MessageBar(QWidget):
         self.setAccessibleName(f"{message.kind.value.value}: {message.text}")
         self._follow_theme()
         self.show()
+        spoken = f"{message.kind.value.value.capitalize()}: {message.text}"
+        announce(self, spoken, is_urgent=message.kind is not MessageKind.INFORMATION)
 
     @Slot(object)
     def show_progress(self, progress: Progress | None) -> None:

@@ -3,14 +3,16 @@
 from math import hypot
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtGui import QAccessible, QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
+from widgets.basics.accessible import announce
 from widgets.basics.drawn_text import LabelPlaces, paint_empty
 from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, faded, text_font
 from widgets.charts.canvas import ChartCanvas
 from widgets.charts.records import ChartEmpty, ChartMark, ChartPicture
+from widgets.charts.scale import axis_text
 from widgets.charts.series_marks import series_color
 
 _NEAR = 18.0
@@ -32,6 +34,8 @@ _ADDS = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 class Chart(ChartCanvas):
     """Shows series of points and reports which one the user points at and chooses."""
+
+    spoken_role = QAccessible.Role.Chart
 
     series_hovered = Signal(str)
     """Key of the series under the pointer, or gone to by an arrow key."""
@@ -73,6 +77,22 @@ class Chart(ChartCanvas):
         if (key, index) != (self._pointed, self._index):
             self._pointed, self._index = key, index
             self.viewport().update()
+
+    def spoken_description(self) -> str:
+        """Return what a screen reader says of the point that is pointed at, or of the chart."""
+        picture = self.picture
+        if picture is None:
+            return self._empty.text
+        axes = picture.x_axis, picture.y_axis
+        for series in picture.series:
+            if series.key == self._pointed:
+                at = float(series.x[self._index]), float(series.y[self._index])
+                texts = (
+                    f"{axis.label} {axis_text(value, axis.unit)}"
+                    for axis, value in zip(axes, at, strict=True)
+                )
+                return f"{series.title}: {', '.join(texts)}"
+        return f"{len(picture.series)} series. Across: {axes[0].label}. Up: {axes[1].label}."
 
     def show_marks(self, marks: ChartMark) -> None:
         """Mark the chosen series with letters."""
@@ -130,6 +150,8 @@ class Chart(ChartCanvas):
             return
         is_another = key != self._pointed
         self.show_pointed(key, index)
+        if key:
+            announce(self, self.spoken_description())
         if not key:
             self.series_left.emit()
             return

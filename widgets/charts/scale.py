@@ -67,7 +67,7 @@ class ChartScale:
     def ticks(self, low: float, high: float, unit: str) -> list[tuple[float, str]]:
         """Return positions between ``low`` and ``high`` that are labelled, with their labels."""
         low, high = max(low, self.low), min(high, self.high)
-        marks = [(self.low - self.band / 2, _text(0.0, unit))] * self.has_zero
+        marks = [(self.low - self.band / 2, axis_text(0.0, unit))] * self.has_zero
         marks += [(self.high + self.band / 2, "∞")] * self.has_infinite
         if high <= low:
             return marks
@@ -76,7 +76,7 @@ class ChartScale:
         for decade in range(max(floor(low), _LEAST), min(ceil(high), _MOST) + 1):
             for step in steps if decade % stride == 0 else ():
                 if low <= decade + log10(step) <= high:
-                    marks.append((decade + log10(step), _text(step * 10.0**decade, unit)))
+                    marks.append((decade + log10(step), axis_text(step * 10.0**decade, unit)))
         return marks
 
 
@@ -101,7 +101,7 @@ def time_text(seconds: float, digits: int = 4) -> str:
     return f"{number_text(seconds / size, digits)} {name}"
 
 
-def _text(value: float, unit: str) -> str:
+def axis_text(value: float, unit: str) -> str:
     """Write a value at an axis: units other than seconds stand in its title."""
     if unit == "s":
         return "0" if value == 0 else time_text(value)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QRegion
+from PySide6.QtGui import QAccessible, QColor, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.basics.key_claim import FocusRing
@@ -23,6 +23,8 @@ from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 
 class GridDisplay(QWidget):
     """The showing half of a :class:`~widgets.grid.pixel_grid.PixelGrid`; slots paint only what changed."""
+
+    spoken_role = QAccessible.Role.Canvas
 
     def __init__(self, parent: QWidget | None = None, compact: bool = False) -> None:
         """Make an empty grid; a ``compact`` one is a thumbnail without rulers, handles and keyboard focus."""
@@ -113,8 +115,6 @@ class GridDisplay(QWidget):
         """Mark (column, row) as the pinned pixel."""
         if pixel != self._pin:
             before, self._pin = self._pin, pixel
-            text = "" if pixel is None else f"Pinned pixel {pixel[0]}, {pixel[1]}: {self.value_text(pixel)}"
-            self.setAccessibleDescription(text)
             self._update_marks(before, pixel)
 
     def show_step(self, pixels: NDArray[np.integer] | None) -> None:
@@ -185,6 +185,12 @@ class GridDisplay(QWidget):
         if buffer is None or not (0 <= column < buffer.columns and 0 <= row < buffer.rows):
             return ""
         return "?" if hidden is not None and hidden[row, column] else buffer.text_at(column, row, digits)
+
+    def spoken_description(self) -> str:
+        """Return what a screen reader says of the pixels that are pinned and pointed at."""
+        marked = (("Pinned pixel", self._pin), ("Pixel under the pointer", self._hover))
+        texts = [f"{what} {at[0]}, {at[1]}: {self.value_text(at)}" for what, at in marked if at is not None]
+        return "; ".join(texts)
 
     def paint_to(self, painter: QPainter) -> None:
         """Paint the grid as it is seen, but as vectors, for an SVG or PDF of the widget's size."""

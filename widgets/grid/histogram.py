@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtGui import QAccessible, QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.basics.colormaps import colormap_table
@@ -21,6 +21,8 @@ class Histogram(QWidget):
 
     The horizontal axis runs over all finite values and the range, with a little room at both sides.
     """
+
+    spoken_role = QAccessible.Role.Chart
 
     range_dragged = Signal(float, float)
     """Low and high while the user drags a handle; low <= high."""

@@ -5,6 +5,7 @@ import time
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import (
+    QAccessible,
     QAction,
     QColor,
     QGuiApplication,
@@ -18,6 +19,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.explain.latex import plain_text, without_macros
 from core.explain.records import Formula
+from core.explain.spoken import spoken
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_layout import MARGIN, FormulaSetter, Line, extent
 from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter
@@ -29,6 +31,8 @@ _SHARED = Typesetter()
 
 class FormulaView(QWidget):
     """Shows a `Formula`; wraps at relations, shrinks what still does not fit, never holds up a step."""
+
+    spoken_role = QAccessible.Role.Equation
 
     formula_copied = Signal(str)
     """The user has copied the formula; the argument says as what (``latex`` or ``png``)."""
@@ -109,6 +113,14 @@ class FormulaView(QWidget):
     def is_complete(self) -> bool:
         """Whether everything shown is typeset (nothing waits for the event loop)."""
         return not self._catch_up_timer.isActive()
+
+    def spoken(self) -> str:
+        """Return the formula in words; empty: there is none."""
+        return "" if self._formula is None else spoken(self._formula)
+
+    def spoken_description(self) -> str:
+        """Return what a screen reader says of the pane."""
+        return self.spoken() or self._hint
 
     def to_image(self, scale: float = 4.0) -> QImage:
         """Return the formula alone on a clear ground, `scale` device pixels to a logical pixel."""
@@ -253,9 +265,7 @@ class FormulaView(QWidget):
     def _describe(self) -> None:
         if self._formula is None:
             self.setToolTip("")
-            self.setAccessibleDescription("")
             return
         lines = [plain_text(line) for line in (self._formula.symbolic, self._formula.substituted) if line]
         notes = [f"Shown as plain text: {problem}" for problem in self._setter().problems(self._formula)]
-        self.setAccessibleDescription("; ".join(lines))
         self.setToolTip("\n".join(lines + notes))

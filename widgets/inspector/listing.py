@@ -144,7 +144,7 @@ class ListingView(QPlainTextEdit):
     @Slot(object)
     def show_listing(self, listing: ListingText | None) -> None:
         """Show a function; the present line and the breakpoints are cleared."""
-        self._line = None
+        self.show_line(None)
         self._breakpoints = frozenset()
         self._title = listing.title if listing else ""
         self.setPlainText(listing.source.rstrip("\n") if listing else "")
@@ -159,7 +159,8 @@ class ListingView(QPlainTextEdit):
             return
         self._line = line
         self._mark_line()
-        self.setAccessibleDescription(f"Line {line} has just run" if line else "")
+        code = self.document().findBlockByNumber(line - 1).text().strip() if line else ""
+        self.setAccessibleDescription(f"Line {line} has just run: {code}" if line else "")
         self._bring_line_into_view()
 
     def _bring_line_into_view(self) -> None:

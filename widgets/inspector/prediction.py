@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
+from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
@@ -76,6 +77,7 @@ class PredictionView(QWidget):
         self._verdict = verdict
         self._show_controls()
         self._follow_theme()
+        announce(self, self.verdict.text())
 
     @Slot(int, int)
     def show_count(self, right: int, asked: int) -> None:

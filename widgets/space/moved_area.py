@@ -1,7 +1,7 @@
 """A pane with a drawing over its caption, which the pointer and the keyboard move and magnify."""
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.basics.drawn_text import caption_height, paint_caption, paint_empty
@@ -20,6 +20,8 @@ _KEYS = (*_ARROWS, Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus, Qt.Key.K
 
 class MovedArea(QWidget):
     """Paints what a subclass draws, its caption and the focus ring, and tells it what wheel and keys ask for."""
+
+    spoken_role = QAccessible.Role.Canvas
 
     wheel_factor = 1.2
     """How much larger a notch of the wheel, or plus, makes everything."""

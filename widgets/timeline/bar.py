@@ -20,16 +20,21 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QToolTip, QWidget
 
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.timeline.run_picture import RunView, TimelineRun, flag_height, lane_height, ruler_height
 
 _SMALLEST_SPAN = 8.0
+_LARGEST_VALUE = 2**31 - 1
+"""The last position that a slider can have."""
 
 
-class TimelineBar(QWidget):
-    """Paints a `TimelineRun`; wheel zooms, click jumps, drag scrubs, Shift+wheel moves the view."""
+class TimelineBar(QAbstractSlider):
+    """Paints a `TimelineRun`; wheel zooms, click jumps, drag scrubs, Shift+wheel moves the view.
+
+    A screen reader reads and sets its position as that of any slider.
+    """
 
     position_requested = Signal(int)
     """The user wants this position (0 to count)."""
@@ -45,6 +50,7 @@ class TimelineBar(QWidget):
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Timeline")
+        self.valueChanged.connect(self._request_position)
         theme_notifier().theme_changed.connect(self._forget_picture)
 
     @Slot(object)
@@ -55,6 +61,7 @@ class TimelineBar(QWidget):
         self._position = min(self._position, run.count)
         if not is_same_length:
             self._first, self._last = 0.0, float(max(run.count, 1))
+        self.setMaximum(min(run.count, _LARGEST_VALUE))
         self._describe()
         self.updateGeometry()
         self._forget_picture()
@@ -70,6 +77,7 @@ class TimelineBar(QWidget):
         span = self._last - self._first
         if not self._first <= position <= self._last:
             self._show_stretch(position - span * 0.1, position + span * 0.9)
+        self.setValue(min(position, _LARGEST_VALUE))
         self._describe()
         self.update()
 
@@ -181,11 +189,9 @@ class TimelineBar(QWidget):
         elif key == Qt.Key.Key_Minus:
             self.zoom(2.0)
         elif key in targets:
-            target = min(max(targets[key], 0), self._run.count)
-            if target != self._position:
-                self.position_requested.emit(target)
+            self._request_position(min(max(targets[key], 0), self._run.count))
         else:
-            super().keyPressEvent(event)
+            event.ignore()
 
     def event(self, event: QEvent) -> bool:
         """Tell which step is under the mouse and what happened there."""
@@ -195,9 +201,12 @@ class TimelineBar(QWidget):
         return super().event(event)
 
     def _request(self, x: float) -> None:
-        target = self.position_at(x)
-        if self._run.count and target != self._position:
-            self.position_requested.emit(target)
+        self._request_position(self.position_at(x))
+
+    @Slot(int)
+    def _request_position(self, position: int) -> None:
+        if self._run.count and position != self._position:
+            self.position_requested.emit(position)
 
     def _tip_at(self, x: float, y: float) -> str:
         lane_number = int((y - flag_height()) // lane_height())

@@ -134,7 +134,10 @@ class Timeline(QWidget):
     def show_level_names(self, names: Mapping[Level, str]) -> None:
         """Name the levels as the stage has them (``Clip plane``, ``Row``); missing ones keep theirs."""
         for level, button in self.level_buttons.items():
-            button.setText(names.get(level, _LEVEL_NAMES[level]))
+            name = names.get(level, _LEVEL_NAMES[level])
+            button.setText(name)
+            button.setAccessibleName(f"Step by {name.lower()}")
+            button.setToolTip(f"Step by {name.lower()} (Up: larger steps, Down: smaller)")
 
     @Slot(float)
     def show_speed(self, speed: float) -> None:

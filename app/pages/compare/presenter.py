@@ -211,8 +211,6 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         point = self.point(self._pointed) or self.point(self._chosen)
         path = self.result.path if self.result is not None and not self.is_partial else ""
         self._readout.show_text(study_text(study, path) if point is None else point_text(study, point))
-        for chart in self._charts:
-            chart.setAccessibleDescription("" if point is None else point.title)
 
     # Choosing.
 

@@ -36,6 +36,7 @@ from core.study.stability.stress import axes_at
 from widgets.atlas.records import UNKNOWN, CellPlace
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView
+from widgets.basics.accessible import announce
 from widgets.basics.labels import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
@@ -203,7 +204,9 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         self._readout.show_text(text)
         outcome = "not run yet" if kind == UNKNOWN else WORDS[Outcome(kind)]
         where = place_sentence(self.info, values_at(self.info, place))
-        self._maps.canvas.setAccessibleDescription(f"{title}, {where}: {outcome}")
+        spoken = f"{title}, {where}: {outcome}"
+        self._maps.canvas.setAccessibleDescription(spoken)
+        announce(self._maps.canvas, spoken)
 
     def is_shown(self, place: CellPlace) -> bool:
         """Return whether the maps that are shown have such a cell."""

@@ -21,6 +21,7 @@ from app.pages.step.ab_presenter import ComparePresenter
 from app.pages.step.actions import step_handlers
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_presenter import InspectorPresenter
+from app.pages.step.narrator import StepNarrator
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
@@ -82,6 +83,7 @@ class StepPage(Page):
         self.views = StageViews(session, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
+        self.narrator = StepNarrator(session, self.sentence, self.formula, self.listing, self.grid, self)
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
@@ -176,7 +178,7 @@ class StepPage(Page):
         self.sentence.setProperty("role", "sentence")
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.sentence.setAccessibleName("What the step did")
+        self.sentence.setAccessibleDescription("What the step did")
         self.step_pane = QWidget(self)
         layout = column_layout(self.step_pane, 4)
         layout.addWidget(self.card)

@@ -257,7 +257,7 @@ def test_names_for_those_who_do_not_see(grid: PixelGrid) -> None:
     grid.show_buffer(GridBuffer("depth", np.full((16, 24), 0.5), title="depth z"))
     grid.show_pin((2, 3))
     assert "depth z" in grid.accessibleName()
-    assert grid.accessibleDescription() == "Pinned pixel 2, 3: 0.5"
+    assert grid.spoken_description() == "Pinned pixel 2, 3: 0.5"
 
 
 def test_an_empty_grid_says_so(qtbot) -> None:

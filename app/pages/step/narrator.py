@@ -1,0 +1,61 @@
+"""What is said after a step: its sentence, the line of the algorithm, the formula, and the value at the pixel."""
+
+from PySide6.QtCore import QObject, QTimer, Slot
+from PySide6.QtGui import QAccessible
+from PySide6.QtWidgets import QLabel
+
+from app.session.session import Session
+from core.stages.declared import stage_of
+from widgets.basics.accessible import announce
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.listing import ListingView
+
+REST_MILLISECONDS = 150
+"""Steps that follow each other faster than this are not said: only the one that is reached."""
+
+
+class StepNarrator(QObject):
+    """Has a screen reader say what stands in the inspector now, and the value of the pinned or pointed pixel."""
+
+    def __init__(
+        self,
+        session: Session,
+        sentence: QLabel,
+        formula: FormulaView,
+        listing: ListingView,
+        grid: PixelGrid,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._sentence = session, sentence
+        self._formula, self._listing, self._grid = formula, listing, grid
+        self._said = ("", "", "")
+        """Stage, step and value that were said last."""
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(REST_MILLISECONDS)
+        self._rest.timeout.connect(self._say)
+        for changed in (
+            session.document_changed,
+            session.cursor_changed,
+            session.pin_changed,
+            session.hover_changed,
+        ):
+            changed.connect(self._owe)
+
+    @Slot()
+    def _owe(self) -> None:
+        if QAccessible.isActive():
+            self._rest.start()
+
+    @Slot()
+    def _say(self) -> None:
+        """Say what differs from what was said last."""
+        stage = f"Stage {stage_of(self._session.cursor.stage).short_title}"
+        texts = (self._sentence.text(), self._listing.accessibleDescription())
+        step = ". ".join(text.rstrip(".") for text in (*texts, self._formula.spoken()) if text)
+        now = (stage, step, self._grid.spoken_description())
+        new = [text for text, before in zip(now, self._said, strict=True) if text and text != before]
+        self._said = now
+        announce(self._sentence, ". ".join(new), is_urgent=step in new)

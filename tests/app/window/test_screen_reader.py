@@ -1,0 +1,115 @@
+"""What a screen reader hears: names that hold the text, roles, descriptions that are current, announcements."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QAccessible, QAccessibleAnnouncementEvent, QAccessibleEvent, QTextDocumentFragment
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.window.main_window import MainWindow
+from widgets.basics.message_bar import MessageKind
+
+PAGES = ("step", "compare", "stability", "plan")
+Heard = list[tuple[str, str]]
+
+
+@pytest.fixture
+def heard(monkeypatch: pytest.MonkeyPatch) -> Iterator[Heard]:
+    """Return the announcements from now on: politeness and text; a screen reader is running."""
+    texts: Heard = []
+
+    def hear(event: QAccessibleEvent) -> None:
+        if isinstance(event, QAccessibleAnnouncementEvent):
+            texts.append((event.politeness().name, event.message()))
+
+    monkeypatch.setattr(QAccessible, "updateAccessibility", staticmethod(hear))
+    QAccessible.setActive(True)
+    yield texts
+    QAccessible.setActive(False)
+
+
+def visible_widgets(window: MainWindow, page: str) -> list[QWidget]:
+    """Return what can be seen of a window that shows a page."""
+    window.run_action(f"page_{page}")
+    QApplication.processEvents()
+    return [widget for widget in window.findChildren(QWidget) if widget.isVisible()]
+
+
+def spoken_name(widget: QWidget) -> str:
+    """Return the name that a screen reader reads."""
+    return QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Name)
+
+
+def description(widget: QWidget) -> str:
+    """Return what a screen reader reads after the name."""
+    return QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Description)
+
+
+def test_names_hold_the_text_and_views_have_roles(window: MainWindow) -> None:
+    """Of all pages: no text is replaced by a name, and nothing that has a name or takes the keyboard is a filler."""
+    window.session.set_pin((20, 20))
+    silent, fillers = [], []
+    for page in PAGES:
+        for widget in visible_widgets(window, page):
+            name = spoken_name(widget)
+            if isinstance(widget, QLabel | QAbstractButton):
+                text = QTextDocumentFragment.fromHtml(widget.text().replace("&", "")).toPlainText()
+                words = " ".join(re.findall(r"\w{2,}", text)).lower()
+                if words not in " ".join(re.findall(r"\w{2,}", name)).lower():
+                    silent.append((page, name, text))
+            takes_keys = widget.focusPolicy() & Qt.FocusPolicy.TabFocus and widget.focusProxy() is None
+            role = QAccessible.queryAccessibleInterface(widget).role()
+            is_inside = isinstance(widget.parent(), QWidget) and widget.parent().focusProxy() is widget
+            if (widget.accessibleName() or takes_keys) and role == QAccessible.Role.Client:
+                fillers.append((page, type(widget).__name__, name))
+            if takes_keys and not name and not is_inside:
+                silent.append((page, type(widget).__name__, "no name"))
+    assert silent == []
+    assert fillers == []
+
+
+def test_every_step_is_announced(window: MainWindow, heard: Heard, qtbot: QtBot) -> None:
+    """After a step one hears its sentence, the line of the algorithm and the formula in words."""
+    window.run_action("step_forward")
+    qtbot.waitUntil(lambda: bool(heard))
+    (_, text), page = heard[-1], window.page
+    assert page.sentence.text() in text
+    assert description(page.formula) in text
+    assert "=" not in description(page.formula).replace(" = ", "")
+    assert "Line " in text
+    assert "Line " in description(page.listing)
+
+
+def test_what_is_shown_of_the_pin_is_current(window: MainWindow, heard: Heard, qtbot: QtBot) -> None:
+    """The description of the grid has the value after the step, and moving the pin says the value there."""
+    window.session.set_stage("raster", 0)
+    window.session.set_pin((20, 20))
+    assert description(window.page.grid) == "Pinned pixel 20, 20: –"
+    window.session.set_stage("raster", window.session.stage_trace.steps.count)
+    assert description(window.page.grid) == "Pinned pixel 20, 20: 1"
+    heard.clear()
+    window.run_action("pin_right")
+    qtbot.waitUntil(lambda: any("Pinned pixel 21, 20: 1" in text for _, text in heard))
+
+
+def test_messages_are_announced(window: MainWindow, heard: Heard) -> None:
+    """A warning interrupts; a hint does not."""
+    window.tell("nothing covers this pixel")
+    window.tell("the file ends too early.", MessageKind.WARNING)
+    assert heard == [
+        ("Polite", "Nothing covers this pixel"),
+        ("Assertive", "Warning: The file ends too early."),
+    ]
+
+
+def test_the_timeline_is_a_slider(window: MainWindow) -> None:
+    """A screen reader reads its position and can set it."""
+    QApplication.sendPostedEvents(window, QEvent.Type.LayoutRequest)
+    value = QAccessible.queryAccessibleInterface(window.page.timeline.bar).valueInterface()
+    assert (value.currentValue(), value.minimumValue()) == (4000, 0)
+    assert value.maximumValue() == window.session.stage_trace.steps.count
+    value.setCurrentValue(17)
+    assert window.session.cursor.position == 17
