@@ -4,7 +4,9 @@ import argparse
 import re
 import sys
 from collections.abc import Iterable
+from contextlib import ExitStack
 from dataclasses import replace
+from time import monotonic
 
 import numpy as np
 
@@ -14,10 +16,11 @@ from app.cli.arguments import (
     chosen_settings,
     open_file,
     overflow_reported,
+    progress_line,
     size_from_text,
 )
-from app.cli.commands import UsageError
-from app.cli.trace_tables import arrays, csv_lines, json_lines, text_lines
+from app.cli.commands import PROGRAM, UsageError
+from app.cli.trace_tables import arrays, table_parts
 from app.files.file_writing import check_writable, whole_file
 from app.files.open_any import Opened
 from app.session.document import Document, focus_on
@@ -44,6 +47,13 @@ examples:
 
 MOST_TRIANGLES = 100_000
 """Triangles, or vertices, that a trace may have: each takes up to 5 KB."""
+SPOKEN = ("text", "json")
+"""Formats with a sentence and a formula for every operation."""
+MANY_ROWS = 200_000
+"""Rows from which it is said how long these take."""
+ROWS_A_MINUTE = 50_000
+PAUSE = 0.2
+"""Seconds between two reports of progress."""
 LONGEST_TRACE = 5_000_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
 
@@ -109,12 +119,17 @@ def run(options: argparse.Namespace) -> int:
         with whole_file(options.output) as file:
             np.savez(file, **arrays(stage))  # type: ignore[arg-type]
         return 0
-    header = header_of(traced, opened.document)
-    if options.format == "csv":
-        lines = csv_lines(stage)
-    else:
-        lines = text_lines(stage, header) if options.format == "text" else json_lines(stage, header)
-    write_lines(lines, options.output)
+    if options.format in SPOKEN and stage.steps.row_count > MANY_ROWS:
+        print(
+            f"{PROGRAM}: {stage.steps.row_count:,} rows with sentences and formulas take about a minute for each "
+            f"{ROWS_A_MINUTE:,}; csv and npz take seconds",
+            file=sys.stderr,
+        )
+    write_parts(
+        table_parts(stage, header_of(traced, opened.document), options.format),
+        stage.steps.row_count,
+        options.output,
+    )
     return 0
 
 
@@ -199,12 +214,18 @@ def header_of(traced: Trace, document: Document) -> dict[str, object]:
     }
 
 
-def write_lines(lines: Iterable[str], path: str | None) -> None:
-    """Write lines into a file, or on the standard output."""
-    if path is None:
-        for line in lines:
-            sys.stdout.write(line + "\n")
-        return
-    with whole_file(path) as file:
-        for line in lines:
-            file.write(line.encode() + b"\n")
+def write_parts(parts: Iterable[tuple[int, str]], row_count: int, path: str | None) -> None:
+    """Write pieces of text, each with the rows done, into a file or on the standard output, and show progress."""
+    is_seen = path is None and sys.stdout is not None and sys.stdout.isatty()
+    with ExitStack() as stack:
+        report = None if is_seen else stack.enter_context(progress_line())
+        file = None if path is None else stack.enter_context(whole_file(path))
+        reported = monotonic()
+        for rows, text in parts:
+            if file is None:
+                sys.stdout.write(text)
+            else:
+                file.write(text.encode())
+            if report is not None and monotonic() - reported > PAUSE:
+                reported = monotonic()
+                report(rows / row_count, f"Writing row {rows:,} of {row_count:,}")

@@ -3,7 +3,8 @@
 import csv
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 from io import StringIO
 from typing import Any
 
@@ -12,10 +13,34 @@ from numpy.typing import NDArray
 
 from core.explain import account
 from core.explain.latex import plain_text, without_macros
+from core.records.arrays import Flags
 from core.trace import Explanation, StageTrace
 from core.trace.symbols import symbols_of
 
 Header = dict[str, Any]
+BATCH = 4096
+"""Rows of a CSV table that are written together."""
+
+
+def table_parts(stage: StageTrace, header: Header, form: str) -> Iterator[tuple[int, str]]:
+    """Yield the pieces of a trace as a text, each with the rows that are written with it and those before.
+
+    Parameters
+    ----------
+    stage : StageTrace
+    header : dict
+        What was traced, values that JSON has.
+    form : str
+        ``text``, ``json`` or ``csv``.
+    """
+    if form == "csv":
+        yield from csv_parts(stage)
+        return
+    head, row_text, end = text_rows(stage, header) if form == "text" else json_rows(stage, header)
+    yield 0, head
+    for row in range(stage.steps.row_count):
+        yield row + 1, row_text(row)
+    yield stage.steps.row_count, end
 
 
 def explanations(stage: StageTrace, row: int) -> Iterator[tuple[int, Explanation]]:
@@ -27,31 +52,35 @@ def explanations(stage: StageTrace, row: int) -> Iterator[tuple[int, Explanation
         yield position, explanation
 
 
-def text_lines(stage: StageTrace, header: Header) -> Iterator[str]:
-    """Yield the trace for reading: every row, the sentence of each of its operations, and the formula below it."""
-    yield f"{header['scene']}, stage {stage.stage}{f', {stage.method}' if stage.method else ''}"
-    for row in range(stage.steps.row_count):
+def text_rows(stage: StageTrace, header: Header) -> tuple[str, Callable[[int], str], str]:
+    """Return the trace for reading: its beginning, what writes a row, and its end.
+
+    A row has the sentence of each of its operations, and the formula below it.
+    """
+
+    def row_text(row: int) -> str:
         triangle, pixel = int(stage.triangle[row]), pixel_of(stage, row)
         about = [f"triangle {triangle}"] if triangle >= 0 else []
         about += [f"pixel {pixel}"] if pixel is not None else []
-        yield ""
-        yield f"Row {row}, {', '.join([stage.kind_of(row), *about])}"
+        lines = ["", f"Row {row}, {', '.join([stage.kind_of(row), *about])}"]
         for position, explanation in explanations(stage, row):
             sentence, made = account(explanation, triangle, pixel)
-            yield f"{position:>6}  {sentence}"
+            lines.append(f"{position:>6}  {sentence}")
             if made is not None:
-                lines = (line for line in (made.symbolic, made.substituted) if line)
-                yield from (f"          {plain_text(line)}" for line in lines)
+                formulas = (line for line in (made.symbolic, made.substituted) if line)
+                lines += [f"          {readable(line)}" for line in formulas]
+        return "\n".join([*lines, ""])
+
+    readable = lru_cache(plain_text)
+    return (
+        f"{header['scene']}, stage {stage.stage}{f', {stage.method}' if stage.method else ''}\n",
+        row_text,
+        "",
+    )
 
 
-def json_lines(stage: StageTrace, header: Header) -> Iterator[str]:
-    """Yield the lines of a JSON object: what was traced, then every row on a line of its own.
-
-    Parameters
-    ----------
-    stage : StageTrace
-    header : dict
-        What was traced, values that JSON has.
+def json_rows(stage: StageTrace, header: Header) -> tuple[str, Callable[[int], str], str]:
+    """Return a JSON object: what was traced, what writes a row on a line of its own, and its end.
 
     Notes
     -----
@@ -68,15 +97,13 @@ def json_lines(stage: StageTrace, header: Header) -> Iterator[str]:
         "triangle_ends": steps.triangle_ends.tolist(),
         "group_ends": steps.group_ends.tolist(),
     }
-    yield "{"
-    for name, value in known.items():
-        yield f" {json.dumps(name)}: {json.dumps(value, allow_nan=False)},"
-    yield ' "rows": ['
-    for row in range(steps.row_count):
+
+    def row_text(row: int) -> str:
         text = json.dumps(row_record(stage, row), allow_nan=False)
-        yield f"  {text}{',' if row + 1 < steps.row_count else ''}"
-    yield " ]"
-    yield "}"
+        return f"  {text}{',' if row + 1 < steps.row_count else ''}\n"
+
+    fields = [f" {json.dumps(name)}: {json.dumps(value, allow_nan=False)}," for name, value in known.items()]
+    return "\n".join(["{", *fields, ' "rows": [', ""]), row_text, " ]\n}\n"
 
 
 def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
@@ -114,25 +141,28 @@ def row_record(stage: StageTrace, row: int) -> dict[str, Any]:
     }
 
 
-def csv_lines(stage: StageTrace) -> Iterator[str]:
-    """Yield the lines of a CSV table, names first: a line for each row, a column for each element of an array."""
+def csv_parts(stage: StageTrace) -> Iterator[tuple[int, str]]:
+    """Yield a CSV table, names first: a line for each row, a column for each element of an array."""
     names, parts = ["row_number", "row_kind", "row_triangle", "pixel_column", "pixel_row"], []
     symbols = symbols_of(stage)
     for name, column in stage.columns.items():
-        flat = column.reshape(len(column), math.prod(column.shape[1:]))
         names += column_names(symbols.get(name, name), column.shape[1:])
-        parts.append(flat)
+        parts += list(column.reshape(len(column), math.prod(column.shape[1:])).T)
     names += [f"is_{mark.replace('-', '_')}" for mark in stage.marks]
-    yield csv_line(names)
-    for row in range(stage.steps.row_count):
-        pixel = pixel_of(stage, row)
-        triangle = int(stage.triangle[row])
-        values: list[Any] = [row, stage.kind_of(row), triangle if triangle >= 0 else ""]
-        values += pixel if pixel is not None else ("", "")
-        for part in parts:
-            values += [csv_value(value) for value in part[row].tolist()]
-        values += [int(flags[row]) for flags in stage.marks.values()]
-        yield csv_line(values)
+    parts += list(stage.marks.values())
+    yield 0, csv_text([names])
+    kinds = np.array(stage.steps.kinds)
+    for first in range(0, stage.steps.row_count, BATCH):
+        rows = slice(first, min(first + BATCH, stage.steps.row_count))
+        triangle, pixel = stage.triangle[rows], stage.pixel[rows]
+        columns = [
+            list(range(rows.start, rows.stop)),
+            kinds[stage.steps.kind[rows]].tolist(),
+            csv_cells(triangle, triangle >= 0),
+            *(csv_cells(pixel[:, axis], np.all(pixel >= 0, axis=1)) for axis in (0, 1)),
+            *(csv_cells(part[rows]) for part in parts),
+        ]
+        yield rows.stop, csv_text(zip(*columns, strict=True))
 
 
 def column_names(name: str, shape: tuple[int, ...]) -> list[str]:
@@ -184,15 +214,20 @@ def plain(value: Any) -> Any:
     return value
 
 
-def csv_value(value: Any) -> Any:
-    """Return a value as CSV has it: flags as 0 and 1, no value as an empty cell."""
-    if isinstance(value, bool):
-        return int(value)
-    return "" if isinstance(value, float) and math.isnan(value) else value
+def csv_cells(column: NDArray[Any], is_known: Flags | None = None) -> list[Any]:
+    """Return values (R,) as CSV has them: flags as 0 and 1, no value (NaN, or not ``is_known``) as an empty cell."""
+    if column.dtype.kind == "b":
+        column = column.astype(np.int8)
+    found: list[Any] = column.tolist()
+    if is_known is None:
+        is_known = ~np.isnan(column) if column.dtype.kind == "f" else np.ones(len(column), bool)
+    for row in np.flatnonzero(~is_known).tolist():
+        found[row] = ""
+    return found
 
 
-def csv_line(values: Sequence[Any]) -> str:
-    """Return a line of CSV without its end."""
+def csv_text(rows: Iterable[Iterable[Any]]) -> str:
+    """Return lines of CSV."""
     text = StringIO(newline="")
-    csv.writer(text, lineterminator="").writerow(values)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue()

@@ -219,12 +219,14 @@ def work_out(term: Term, leaf: Leaf = in_full) -> tuple[Number, Fraction]:
 
 
 def _size(value: Number) -> Fraction:
+    if isinstance(value, Fraction):
+        return abs(value)
     return abs(Fraction(value)) if math.isfinite(value) else Fraction(0)
 
 
 def _apply(name: str, values: Sequence[Number]) -> Number:
     """Return the result of an operation; that of undefined ones is NaN."""
-    if not all(map(math.isfinite, values)):
+    if not all(isinstance(value, Fraction) or math.isfinite(value) for value in values):
         values = [float(value) for value in values]
     try:
         return _OPERATIONS[name](*values)

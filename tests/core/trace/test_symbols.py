@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from app.cli.trace_tables import arrays, csv_lines, row_record
+from app.cli.trace_tables import arrays, csv_parts, row_record
 from app.pages.step.grid_records import buffers_of
 from core import Settings
 from core.explain import variables
@@ -58,7 +58,11 @@ def test_bresenham_is_exported_by_its_symbols() -> None:
     found = drawn_lines("bresenham")
     wanted = {"D", "x", "y", "dx", "dy"}
     assert wanted <= set(variable_names(found))
-    for names in (next(csv_lines(found)).split(","), row_record(found, 1)["columns"], arrays(found)):
+    for names in (
+        next(csv_parts(found))[1].strip().split(","),
+        row_record(found, 1)["columns"],
+        arrays(found),
+    ):
         assert wanted <= set(names)
         assert not {"decision", "column", "row"} & set(names)
 
@@ -66,7 +70,11 @@ def test_bresenham_is_exported_by_its_symbols() -> None:
 def test_edge_functions_are_exported_as_e0() -> None:
     found = rare_trace("grid-ties", Settings(fill="brute-force")).stage("raster")
     assert symbols_of(found) == {f"value_{k}": f"E{k}" for k in range(3)}
-    for names in (next(csv_lines(found)).split(","), row_record(found, 1)["columns"], arrays(found)):
+    for names in (
+        next(csv_parts(found))[1].strip().split(","),
+        row_record(found, 1)["columns"],
+        arrays(found),
+    ):
         assert {"E0", "E1", "E2"} <= set(names)
         assert "value_0" not in names
 

@@ -1,0 +1,69 @@
+"""A trace is written in pieces: with progress, the same for every size of piece, and never as half a file."""
+
+import io
+import json
+import sys
+
+import pytest
+
+from app.cli import trace, trace_tables
+from tests.app.cli.cli_runs import run_program
+
+TRACED = ("trace", "shared-edge", "--triangle", "1", "--stage", "raster", "--size", "16x12")
+
+
+class Terminal(io.StringIO):
+    """A stream that counts as a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_the_size_of_a_batch_does_not_show(monkeypatch):
+    whole = run_program(*TRACED, "--format", "csv").stdout
+    monkeypatch.setattr(trace_tables, "BATCH", 7)
+    assert run_program(*TRACED, "--format", "csv").stdout == whole
+    assert len(whole.splitlines()) > 20
+
+
+@pytest.mark.parametrize("form", ["csv", "text", "json"])
+def test_an_interrupt_leaves_the_earlier_file_whole(monkeypatch, tmp_path, form):
+    path = tmp_path / "a.txt"
+    path.write_text("earlier")
+    monkeypatch.setattr(trace_tables, "BATCH", 7)
+    written = []
+
+    def parts(*arguments):
+        for done in trace_tables.table_parts(*arguments):
+            if len(written) == 5:
+                raise KeyboardInterrupt
+            written.append(done)
+            yield done
+
+    monkeypatch.setattr(trace, "table_parts", parts)
+    run = run_program(*TRACED, "--format", form, "-o", path)
+    assert (run.returncode, run.stdout, run.stderr) == (130, "", "")
+    assert [found.name for found in tmp_path.iterdir()] == ["a.txt"]
+    assert path.read_text() == "earlier"
+
+
+def test_progress_is_shown_on_a_terminal_only(monkeypatch, tmp_path):
+    monkeypatch.setattr(trace, "PAUSE", 0)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    trace.write_parts([(0, "names\n"), (50, "1\n"), (100, "2\n")], 100, str(tmp_path / "a.csv"))
+    assert "\r\x1b[KWriting row 50 of 100 50 %" in sys.stderr.getvalue()
+    assert sys.stderr.getvalue().endswith("\r\x1b[K")
+    assert (tmp_path / "a.csv").read_text() == "names\n1\n2\n"
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    trace.write_parts([(50, "1\n")], 100, str(tmp_path / "a.csv"))
+    assert sys.stderr.getvalue() == ""
+
+
+def test_many_rows_with_sentences_are_announced(monkeypatch):
+    monkeypatch.setattr(trace, "MANY_ROWS", 10)
+    run = run_program(*TRACED, "--format", "json")
+    (line,) = run.stderr.splitlines()
+    assert line.startswith("rasterscope: ")
+    assert line.endswith("csv and npz take seconds")
+    assert len(json.loads(run.stdout)["rows"]) > 10
+    assert run_program(*TRACED, "--format", "csv").stderr == ""
