@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QByteArray, Qt, Signal, Slot
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.session.session import Session
@@ -116,9 +117,14 @@ class Pages(QWidget):
     """Name of the page that is shown now."""
 
     def __init__(
-        self, kinds: tuple[PageKind, ...], session: Session, shared: QWidget, parent: QWidget | None = None
+        self,
+        kinds: tuple[PageKind, ...],
+        session: Session,
+        hints: QWidget,
+        messages: QWidget,
+        parent: QWidget | None = None,
     ) -> None:
-        """Show the first of ``kinds``, with ``shared`` (the messages) between the bar and the pages."""
+        """Show the first of ``kinds``, with hints beside the bar; messages float over both: they move no page."""
         super().__init__(parent)
         self._kinds, self._session = kinds, session
         self._made: dict[str, Page] = {}
@@ -135,13 +141,32 @@ class Pages(QWidget):
             self.bar.setTabToolTip(index, kind.tip)
         row = row_layout(margins=(8, 0, 8, 0))
         row.addWidget(self.bar)
-        row.addStretch(1)
+        row.addWidget(hints, 1)
         layout = column_layout(self, 0)
         layout.addLayout(row)
-        layout.addWidget(shared)
         layout.addWidget(self._stack, 1)
+        self._messages = messages
+        messages.setParent(self)
+        messages.installEventFilter(self)
         self._show_index(0)
         self.bar.currentChanged.connect(self._show_index)
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Give a message as much height as it needs, when it comes and while it grows."""
+        if watched is self._messages and event.type() in (QEvent.Type.Show, QEvent.Type.LayoutRequest):
+            self._place_messages()
+        return False
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the messages inside."""
+        super().resizeEvent(event)
+        self._place_messages()
+
+    def _place_messages(self) -> None:
+        left = self.bar.geometry().right() + 12
+        width = max(self.width() - left - 8, 1)
+        self._messages.setGeometry(left, 0, width, self._messages.heightForWidth(width))
+        self._messages.raise_()
 
     @property
     def current(self) -> Page:

@@ -9,14 +9,14 @@ from types import TracebackType
 
 from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QStatusBar, QWidget
 
 from app.background.workers import ending_within
 from app.files.file_desk import READ_OUTSIDE, FileActions
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
-from app.pages.step.page import StepPage
+from app.pages.step.page import PANES, StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
@@ -49,7 +49,8 @@ class MainWindow(QMainWindow):
         install_roles()
         self.session = Session(document, self)
         self.messages = MessageBar(self)
-        self.pages = Pages(PAGE_KINDS, self.session, self.messages, self)
+        self._hints = QStatusBar(self)
+        self.pages = Pages(PAGE_KINDS, self.session, self._hints, self.messages, self)
         step_page = self.pages.page("step")
         assert isinstance(step_page, StepPage)
         self.page = step_page
@@ -71,6 +72,7 @@ class MainWindow(QMainWindow):
         self._connect()
         self._take_page(self.page)
         self._show_page("step")
+        self._show_panes()
         self._show_document()
 
     # Layout.
@@ -80,8 +82,12 @@ class MainWindow(QMainWindow):
         self.messages.clear()
         self.pointed = QLabel(self)
         self.pointed.setContentsMargins(0, 0, 8, 0)
-        self.statusBar().addPermanentWidget(self.pointed)
-        self.statusBar().setSizeGripEnabled(False)
+        self._hints.addPermanentWidget(self.pointed)
+        self._hints.setSizeGripEnabled(False)
+
+    def statusBar(self) -> QStatusBar:
+        """Return the bar of hints; it stands beside the names of the pages, for the picture needs the room below."""
+        return self._hints
 
     def _connect(self) -> None:
         session, page, menus = self.session, self.page, self.menus
@@ -96,8 +102,9 @@ class MainWindow(QMainWindow):
         page.timeline.speed_changed.connect(self.memory.remember_speed)
         page.stepping.message_ended.connect(self._end_hint)
         page.stepping.bookmarks.bookmarks_changed.connect(self._show_bookmarks)
+        page.panes_changed.connect(self._show_panes)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
-        page.view_bar.currentChanged.connect(self._show_view)
+        page.main_area.view_changed.connect(self._show_view)
         menus.action_chosen.connect(self.run_action)
         menus.scene_chosen.connect(self.open_path)
         menus.recent_chosen.connect(self.open_path)
@@ -263,6 +270,12 @@ class MainWindow(QMainWindow):
     @Slot()
     def _show_view(self) -> None:
         self.menus.show_checked("compare", self.page.current_view() == "compare")
+
+    @Slot()
+    def _show_panes(self) -> None:
+        shown = self.page.shown_panes()
+        for name in PANES:
+            self.menus.show_checked(f"pane_{name}", name in shown)
 
     @Slot()
     def _show_document(self) -> None:

@@ -35,6 +35,8 @@ class Preferences(BaseModel):
     """Place and size of the window, as Qt saves them, in base 64."""
     layout: dict[str, Base64] = {}
     """Sizes of panes by name, as Qt saves them, in base 64."""
+    shown_panes: list[str] = ["inspector"]
+    """Panes of the Step page that are shown; the others are folded away."""
     folded_cards: list[str] = list(STAGES)
     """Stages whose card is folded."""
     page: str = "step"

@@ -34,6 +34,7 @@ class Remembering(QObject):
         window.restoreGeometry(QByteArray.fromBase64(self.preferences.geometry.encode()))
         for page in window.pages.made:
             self.restore_page(page)
+        window.page.show_panes(self.preferences.shown_panes)
         window.page.inspector.set_folded(self.preferences.folded_cards)
         window.page.settings_panel.show_more(self.preferences.shows_all_methods)
         window.page.timeline.show_speed(self.preferences.speed)
@@ -97,6 +98,7 @@ class Remembering(QObject):
                 "layout": layout,
                 "page": window.pages.current_name,
                 "shows_all_methods": window.page.settings_panel.more_button.isChecked(),
+                "shown_panes": window.page.shown_panes(),
                 "folded_cards": window.page.inspector.folded(),
                 "level": int(window.session.cursor.level),
             }

@@ -114,6 +114,8 @@ QLabel[role="strong"] { font-weight: 600; }
 QLabel[role="bad"] { color: $bad; }
 QLabel[role="good"] { color: $good; }
 QWidget[role="panel"] { background: $panel; border-radius: 4px; }
+QWidget[role="floating"] { background: $raised; border: 1px solid $outline; border-radius: 4px; }
+QWidget[role="floating"] QLabel { border: none; background: transparent; }
 QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 """)
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
-from PySide6.QtGui import QAction, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QAction, QResizeEvent, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import (
     QLabel,
     QMenu,
@@ -97,6 +97,8 @@ class BufferStrip(QWidget):
     """Column, row and global position of a right click in any of the grids."""
     view_changed = Signal(object)
     """The new :class:`~widgets.grid.view.GridView` after the user zoomed or panned; all grids followed."""
+    strip_shown = Signal()
+    """The strip has come into sight: what it shows may be of an earlier step."""
     hidden_changed = Signal(object)
     """Names of the buffers that are hidden, a frozenset of str, after the user changed them."""
 
@@ -140,6 +142,11 @@ class BufferStrip(QWidget):
         whole.addWidget(self._more, 0, Qt.AlignmentFlag.AlignTop)
         theme_notifier().theme_changed.connect(self._take_font)
         self._take_font()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Ask for what is true now."""
+        super().showEvent(event)
+        self.strip_shown.emit()
 
     def show_buffers(self, buffers: tuple[GridBuffer, ...] | list[GridBuffer]) -> None:
         """Show buffers in this order; tiles of names that stay are kept and paint only what changed."""

@@ -188,6 +188,11 @@ class ListingView(QPlainTextEdit):
             block = block.next()
         return None
 
+    def height_of(self, lines: int) -> int:
+        """Return the height in which so many lines are seen whole."""
+        around = self.height() - self.viewport().height() if self.isVisible() else 0
+        return round(lines * self.fontMetrics().lineSpacing() + 2 * self.document().documentMargin()) + around
+
     def margin_width(self) -> int:
         """Room for a mark and the largest line number."""
         digits = max(2, len(str(self.blockCount())))

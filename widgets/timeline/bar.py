@@ -28,6 +28,8 @@ from widgets.timeline.run_picture import RunView, TimelineRun, flag_height, lane
 _SMALLEST_SPAN = 8.0
 _LARGEST_VALUE = 2**31 - 1
 """The last position that a slider can have."""
+LANES_AT_MOST = 4
+"""Most kinds of outcomes that one stage has."""
 
 
 class TimelineBar(QAbstractSlider):
@@ -114,8 +116,8 @@ class TimelineBar(QAbstractSlider):
         self._show_stretch(anchor - share * span, anchor + (1.0 - share) * span)
 
     def sizeHint(self) -> QSize:
-        """Room for the flags, the lanes in use and the ruler."""
-        return QSize(400, flag_height() + lane_height() * max(2, len(self._run.lanes())) + ruler_height())
+        """Room for the flags, the lanes of any stage and the ruler: a step that begins a lane must move nothing."""
+        return QSize(400, flag_height() + lane_height() * LANES_AT_MOST + ruler_height())
 
     def minimumSizeHint(self) -> QSize:
         """As tall as wanted, but narrow."""

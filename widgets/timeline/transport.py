@@ -230,7 +230,7 @@ class Timeline(QWidget):
         row.addWidget(self.count_label)
         row.addSpacing(12)
         row.addWidget(self.speed_box)
-        layout = column_layout(self, 4, margins=(8, 4, 8, 4))
+        layout = column_layout(self, 4, margins=(4, 0, 0, 0))
         layout.addLayout(row)
         chapters = column_layout(spacing=0)
         chapters.addWidget(self.chapters)

@@ -17,17 +17,15 @@ from app.pages.step.grid_records import (
     span_overlay,
 )
 from app.pages.step.guesses import Guesses
+from app.pages.step.main_area import MainArea
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Session
 from core.records.arrays import Integers
 from core.records.steps import Level
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.buffer_strip import BufferStrip
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Overlay
 from widgets.grid.overlay_legend import OverlayLegend
-from widgets.grid.pixel_grid import PixelGrid
-from widgets.grid.range_control import RangeControl
 from widgets.grid.view import GridView
 
 HIGHLIGHT_LIMIT = 4096
@@ -53,15 +51,14 @@ class GridPresenter(QObject):
     def __init__(
         self,
         session: Session,
-        grid: PixelGrid,
-        strip: BufferStrip,
+        area: MainArea,
         legend: OverlayLegend,
-        ranges: RangeControl,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session = session
-        self._grid, self._strip, self._legend, self._ranges = grid, strip, legend, ranges
+        self._area, self._legend, self._ranges = area, legend, area.ranges
+        self._grid, self._strip = grid, strip = area.grid, area.strip
         self._chosen: dict[str, str] = {}
         self._own_ranges: dict[str, tuple[float, float]] = {}
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
@@ -79,10 +76,12 @@ class GridPresenter(QObject):
         grid.view_changed.connect(strip.set_view)
         strip.view_changed.connect(grid.set_view)
         strip.buffer_chosen.connect(self._choose_buffer)
+        strip.strip_shown.connect(self.refresh_step)
+        area.buffer_choice.buffer_chosen.connect(self._choose_buffer)
         legend.overlays_changed.connect(self._choose_overlays)
-        ranges.range_changed.connect(self._choose_range)
-        ranges.range_reset.connect(self._reset_range)
-        ranges.fitting_changed.connect(self._keep_fitting)
+        area.ranges.range_changed.connect(self._choose_range)
+        area.ranges.range_reset.connect(self._reset_range)
+        area.ranges.fitting_changed.connect(self._keep_fitting)
         self._guesses: Guesses | None = None
         self._focus = 0
         self._stepped_to = session.cursor
@@ -116,17 +115,17 @@ class GridPresenter(QObject):
         self._stepped_to = session.cursor
         stage = session.cursor.stage
         buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
-        self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
         names = [buffer.name for buffer in buffers]
         guesses = self._guesses
         chosen = self._chosen.get(stage, names[0]) if guesses is None else "coverage"
         main = self._ranged(buffers[names.index(chosen) if chosen in names else 0])
-        self._strip.show_chosen(main.name)
-        self._grid.show_buffer(main if guesses is None else guesses.buffer(main))
+        self._area.show_buffers(buffers, main, main if guesses is None else guesses.buffer(main))
+        if self._strip.isVisible():
+            self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
+            self._strip.show_chosen(main.name)
         self._grid.show_hidden(None if guesses is None else guesses.hidden)
         stage_trace, at = session.stage_trace, session.cursor.position
         self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
-        self._ranges.show_buffer(main)
         overlays = self._overlays() if guesses is None else guesses.overlays()
         shown = self._shown_overlays.get(stage, frozenset({"nan"}))
         if guesses is not None:

@@ -9,7 +9,7 @@ def look_of(page: StepPage) -> Look:
     """Return how the page shows the run."""
     return Look(
         view=page.current_view(),
-        views=dict(page.views_by_hand),
+        views=dict(page.main_area.views_by_hand),
         grid=page.grids.look(),
         orbits={name: OrbitRecord(**vars(orbit)) for name, orbit in page.views.chosen_orbits().items()},
         other=dict(page.comparing.differences),
@@ -20,7 +20,7 @@ def look_of(page: StepPage) -> Look:
 
 def show_look(page: StepPage, look: Look) -> None:
     """Show the run as it was shown."""
-    page.views_by_hand = dict(look.views)
+    page.main_area.views_by_hand = dict(look.views)
     page.comparing.set_buffer(look.other_buffer)
     page.comparing.set_differences(look.other)
     page.choose_event(look.event)

@@ -204,6 +204,7 @@ def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(
 
 
 def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.toggle_pane("scene")
     window.resize(1000, 700)
     qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
     before = window.page.columns.sizes()

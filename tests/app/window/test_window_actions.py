@@ -33,6 +33,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         page.current_view(),
         page.grid.view(),
         page.prediction.isVisible(),
+        tuple(page.shown_panes()),
         frozenset(page.stepping.pixel_breakpoints),
         tuple(page.stepping.bookmarks.marks),
         window.overlays.ask_bar.isVisible(),

@@ -157,7 +157,7 @@ def test_a_state_opens_where_it_was_left(window: MainWindow, qtbot: QtBot, tmp_p
 
 def test_a_state_keeps_everything_that_was_chosen(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     page, session = window.page, window.session
-    page.next_view()
+    page.main_area.next_view()
     session.set_stage("depth", 30)
     session.set_pin((30, 20))
     page.stepping.toggle_pixel_breakpoint()

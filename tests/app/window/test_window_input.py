@@ -73,6 +73,8 @@ def test_a_click_pins_and_shows_the_history(window: MainWindow, qtbot: QtBot) ->
 
 
 def test_hovering_one_grid_reads_in_all(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.toggle_pane("thumbnails")
+    qtbot.wait(1)
     tile = window.page.strip.tile("edge 0")
     QTest.mouseMove(tile.grid, tile.grid.placement().cells_rect(12, 13).center().toPoint())
     assert window.session.hover == (12, 13)

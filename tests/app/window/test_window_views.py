@@ -161,9 +161,8 @@ def test_fitting_to_the_triangle_magnifies_it_in_the_3d_view_that_is_shown(windo
 
 def test_every_method_fits_into_the_left_column(window: MainWindow, qtbot: QtBot) -> None:
     """A family's title is not so long that the choices beside it are cut off or must be scrolled."""
-    tabs = window.page.left_tabs
-    tabs.setCurrentIndex(1)
+    window.page.toggle_pane("methods")
     qtbot.waitUntil(window.page.settings_panel.isVisible)
-    area = tabs.currentWidget()
+    area = window.page.side_panes.currentWidget()
     assert isinstance(area, QScrollArea)
     assert area.horizontalScrollBar().maximum() == 0

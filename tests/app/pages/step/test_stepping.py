@@ -230,7 +230,7 @@ def test_a_stage_is_entered_at_its_start_in_the_view_that_shows_it(window: MainW
         assert (session.cursor.stage, session.cursor.position) == (stage, 0)
         assert page.current_view() == stage_of(stage).view
     window.run_action("stage_2")
-    page.view_bar.tabBarClicked.emit(page.view_names().index("pyramid"))
+    page.main_area.view_bar.tabBarClicked.emit(page.view_names().index("pyramid"))
     window.run_action("stage_5")
     assert page.current_view() == "pixels"
     window.run_action("stage_2")
@@ -268,6 +268,7 @@ def test_half_planes_are_the_values_that_pixels_are_tested_with(window: MainWind
 
 
 def test_the_marked_step_is_outlined_in_all_grids(window: MainWindow) -> None:
+    window.page.toggle_pane("thumbnails")
     session = window.session
     session.set_level(Level.PIXEL)
     session.go_to(0)

@@ -1,0 +1,90 @@
+"""The inspector's column: the step in words, formula, listing and variables, and the pixel's history."""
+
+from PySide6.QtCore import Qt, Slot
+from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QSplitter, QTabWidget, QWidget
+
+from app.session.session import Session
+from widgets.basics.controls import column_layout
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.inspector.formula_view import FormulaView
+from widgets.inspector.history_view import PixelHistory
+from widgets.inspector.listing import ListingView
+from widgets.inspector.prediction import PredictionView
+from widgets.inspector.variables import VariablesView
+from widgets.timeline.stage_card import StageCardView
+
+DETAIL_LINES = 7
+"""Least height of variables and history, in lines."""
+
+
+class InspectorColumn(QScrollArea):
+    """Everything about the step just done, one below the other; it scrolls where the window is low.
+
+    What it says changes its own parts only: the column keeps its width, and so the picture its place.
+    """
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
+        self.variables, self.history = VariablesView(self), PixelHistory(self)
+        self.prediction = PredictionView(self)
+        self.prediction.hide()
+        self.sentence = QLabel(self)
+        self.sentence.setWordWrap(True)
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.sentence.setProperty("role", "sentence")
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        self.sentence.setAccessibleDescription("What the step did")
+        self._step_pane = QWidget(self)
+        layout = column_layout(self._step_pane, 4)
+        for widget in (self.sentence, self.formula):
+            layout.addWidget(widget)
+        layout.addStretch(1)
+        self.detail_tabs = QTabWidget(self)
+        self.detail_tabs.setDocumentMode(True)
+        self.detail_tabs.tabBar().setDrawBase(False)
+        self.detail_tabs.addTab(self.variables, "Variables")
+        self.detail_tabs.addTab(self.history, "Pixel history")
+        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        for part in (self.listing, self.detail_tabs):
+            self.rows.addWidget(part)
+        self.rows.setChildrenCollapsible(False)
+        self.rows.setStretchFactor(1, 1)
+        content = QWidget(self)
+        parts = column_layout(content, 4)
+        for pane in (self.card, self.prediction, self._step_pane):
+            parts.addWidget(pane)
+        parts.addWidget(self.rows, 1)
+        self.setWidget(content)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        session.pin_changed.connect(self._show_history)
+        theme_notifier().theme_changed.connect(self.fit)
+        self.fit()
+
+    @Slot()
+    def fit(self) -> None:
+        """Keep room for three lines of the sentence, two of the formula and ten of the listing, in any type."""
+        line = round(1.25 * current_theme().text_px)
+        self.sentence.setMinimumHeight(3 * line)
+        for widget, height in (
+            (self._step_pane, 3 * line + 4 * line + 4),
+            (self.listing, self.listing.height_of(10)),
+            (self.detail_tabs, DETAIL_LINES * (line + 6)),
+        ):
+            if widget.minimumHeight() != height:
+                widget.setMinimumHeight(height)
+
+    @Slot()
+    def _show_history(self) -> None:
+        """Bring the history of a pixel forward when one is pinned."""
+        if self._session.pin is not None and not self._session.is_predicting:
+            self.detail_tabs.setCurrentWidget(self.history)
+
+    def show_prediction(self, is_shown: bool) -> None:
+        """Ask in place of telling: above the sentence."""
+        self.prediction.setVisible(is_shown)

@@ -1,0 +1,173 @@
+"""The middle of the Step page: the row of views and buffers, the view that is shown, and the thumbnails."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QEvent, Qt, Signal, Slot
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QToolButton, QWidget
+
+from app.session.session import Session
+from app.views.stage_views import StageViews
+from core.stages.declared import stage_of
+from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer_choice import BufferChoice
+from widgets.grid.buffer_strip import BufferStrip
+from widgets.grid.compare_view import CompareView
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.range_button import RangeButton
+from widgets.grid.range_control import RangeControl
+
+
+class MainArea(QWidget):
+    """As much room as there is for one view; a stage that is entered is shown in the view chosen for it."""
+
+    view_changed = Signal(str)
+    """Name of the main view that is shown now."""
+    view_chosen = Signal()
+    """The user has chosen a main view."""
+    thumbnails_toggled = Signal()
+    """The user wants the strip of thumbnails shown or folded away."""
+
+    def __init__(self, session: Session, views: StageViews, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session, self._views = session, views
+        self.grid, self.strip = PixelGrid(self), BufferStrip(self)
+        self.compare_view = CompareView(self)
+        self.ranges, self.buffer_choice = RangeControl(self), BufferChoice(self)
+        self.range_button = RangeButton(self.ranges, self)
+        self.thumbnails_button = self._thumbnails_button()
+        self.view_bar = QTabBar(self)
+        self.view_bar.setDrawBase(False)
+        self.view_bar.setExpanding(False)
+        self.view_bar.setAccessibleName("Main view")
+        self.view_stack = QStackedWidget(self)
+        self._add_view("pixels", "Pixels", self.grid)
+        for name, title, widget in views.widgets:
+            self._add_view(name, title, widget)
+        self._add_view("compare", "A | B", self.compare_view)
+        self.views_by_hand: dict[str, str] = {}
+        self._viewed_stage = session.cursor.stage
+        self._lay_out()
+        self.view_bar.currentChanged.connect(self._show_view)
+        self.view_bar.tabBarClicked.connect(self._choose_view)
+        session.cursor_changed.connect(self._follow_stage)
+
+    def _lay_out(self) -> None:
+        row = row_layout(spacing=4)
+        row.addWidget(self.view_bar, 1)
+        for widget in (self.range_button, self.buffer_choice, self.thumbnails_button):
+            row.addWidget(widget)
+        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows.addWidget(self.view_stack)
+        self.rows.addWidget(self.strip)
+        self.rows.setStretchFactor(0, 1)
+        self.rows.setChildrenCollapsible(False)
+        self.rows.setSizes([430, 150])
+        layout = column_layout(self, 4)
+        layout.addLayout(row)
+        layout.addWidget(self.rows, 1)
+        self.setMinimumWidth(160)
+        self.strip.hide()
+        # Over the view, not beside it: what is opened must not move the pixel under the pointer.
+        self.ranges.setProperty("role", "floating")
+        self.ranges.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.ranges.hide()
+        self.ranges.installEventFilter(self)
+
+    def _thumbnails_button(self) -> QToolButton:
+        button = flat_button("▦", "Thumbnails of all buffers", "Thumbnails of all buffers (T)", self)
+        button.setCheckable(True)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        button.clicked.connect(self.thumbnails_toggled)
+        return button
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Put the control of the range below its button when it opens."""
+        if watched is self.ranges and event.type() == QEvent.Type.Show:
+            self._place_ranges()
+        return False
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the control of the range inside."""
+        super().resizeEvent(event)
+        self._place_ranges()
+
+    def _place_ranges(self) -> None:
+        size = self.ranges.sizeHint()
+        width = min(max(size.width(), 420), self.width() - 8)
+        self.ranges.setGeometry(self.width() - width - 4, self.rows.y() + 4, width, size.height())
+        self.ranges.raise_()
+
+    def show_buffers(self, buffers: Sequence[GridBuffer], main: GridBuffer, drawn: GridBuffer) -> None:
+        """Offer the buffers of the stage at hand, the ``main`` one chosen; what is ``drawn`` may hide parts of it."""
+        self.buffer_choice.show_buffers(buffers, main.name)
+        self.range_button.show_buffer(main)
+        self.grid.show_buffer(drawn)
+        self.show_thumbnails(self.thumbnails_button.isChecked())
+
+    def show_thumbnails(self, is_shown: bool) -> None:
+        """Show or fold the strip of thumbnails; a stage of one buffer has none."""
+        self.thumbnails_button.setChecked(is_shown)
+        has_choice = self.buffer_choice.count() > 1
+        self.thumbnails_button.setEnabled(has_choice)
+        self.strip.setVisible(is_shown and has_choice)
+
+    # Views.
+
+    def _add_view(self, name: str, title: str, widget: QWidget) -> None:
+        index = self.view_bar.addTab(title)
+        self.view_bar.setTabData(index, name)
+        self.view_stack.addWidget(widget)
+
+    def view_names(self) -> list[str]:
+        """Return the names of the main views."""
+        return [self.view_bar.tabData(index) for index in range(self.view_bar.count())]
+
+    def current_view(self) -> str:
+        """Return the name of the main view that is shown."""
+        return str(self.view_bar.tabData(self.view_bar.currentIndex()))
+
+    def shown(self) -> QWidget:
+        """Return the widget of the main view: of A | B the three pictures, without what is around."""
+        widget = self.view_stack.currentWidget()
+        return self.compare_view.figure if widget is self.compare_view or widget is None else widget
+
+    def show_view(self, name: str) -> None:
+        """Show a main view by its name."""
+        if name in self.view_names():
+            self.view_bar.setCurrentIndex(self.view_names().index(name))
+
+    def show_own_view(self) -> None:
+        """Show the stage at hand in the view that was chosen for it, or else in its own."""
+        stage = self._session.cursor.stage
+        self.show_view(self.views_by_hand.get(stage, stage_of(stage).view))
+
+    def next_view(self) -> None:
+        """Show the next main view, as the user."""
+        self._choose_view((self.view_bar.currentIndex() + 1) % self.view_bar.count())
+
+    @Slot(int)
+    def _show_view(self, index: int) -> None:
+        self.view_stack.setCurrentIndex(index)
+        name = self.current_view()
+        if name in {view[0] for view in self._views.widgets}:
+            self._views.show(name)
+        self.view_changed.emit(name)
+
+    @Slot(int)
+    def _choose_view(self, index: int) -> None:
+        """Show a main view, and again whenever the stage is entered: the user's wish."""
+        if index >= 0:
+            self.views_by_hand[self._session.cursor.stage] = self.view_bar.tabData(index)
+            self.view_bar.setCurrentIndex(index)
+            self.view_chosen.emit()
+
+    @Slot()
+    def _follow_stage(self) -> None:
+        """Show a stage that is entered in the view that was chosen for it, or else in its own; A | B stays."""
+        stage = self._session.cursor.stage
+        if stage != self._viewed_stage:
+            self._viewed_stage = stage
+            if self.current_view() != "compare":
+                self.show_own_view()
