@@ -43,6 +43,7 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Files",
     "Pages",
 )
+HELP = "Help"
 MEASURING = "Measuring"
 EXPERIMENTS = "Experiments"
 MAPS = "Maps"
@@ -125,7 +126,11 @@ ACTIONS: tuple[KeyAction, ...] = (
         "View",
         is_checkable=True,
     ),
-    KeyAction("show_keys", ("?", "F1"), "All keys", VIEWING, "Help"),
+    KeyAction("help", ("F1",), "Help on what is pointed at", HELP, "Help"),
+    KeyAction("help_guide", (), "Five-minute guide", HELP, "Help"),
+    KeyAction("help_glossary", (), "Glossary", HELP, "Help"),
+    KeyAction("help_methods", (), "Methods: sources, limits, listings", HELP, "Help"),
+    KeyAction("show_keys", ("?",), "All keys", HELP, "Help"),
     KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
     *_on(

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QStatusBar, QWi
 
 from app.background.workers import ending_within
 from app.files.file_desk import READ_OUTSIDE, FileActions
+from app.help.pane import HelpPane
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
@@ -63,6 +64,7 @@ class MainWindow(QMainWindow):
         self.appearance = Appearance(self)
         self.edits = DocumentEdits(self.session, self)
         self.overlays = Overlays(self.page, self.pages, self)
+        self.help = HelpPane(self)
         self.files = FileActions(self.page, self.pages, self.messages, self)
         self.memory = Remembering(self, preferences or Preferences())
         self.menus.show_recent(self.memory.preferences.recent_files)
@@ -149,6 +151,10 @@ class MainWindow(QMainWindow):
             "predict": self.toggle_predict,
             "toggle_theme": self.appearance.toggle_theme,
             "presenter": self.toggle_presenter,
+            "help": self.help.toggle,
+            "help_guide": lambda: self.help.show_page("guide"),
+            "help_glossary": lambda: self.help.show_page("glossary"),
+            "help_methods": lambda: self.help.show_page("methods"),
             "show_keys": self.overlays.toggle_keys,
             "undo": self.session.undo,
             "redo": self.session.redo,
@@ -217,7 +223,7 @@ class MainWindow(QMainWindow):
 
     def dismiss(self) -> None:
         """Close what is open on top, stop what runs, or else take the pin away."""
-        if self.overlays.close_top():
+        if self.overlays.close_top() or self.help.dismiss():
             return
         if self.files.progress.is_busy:
             self.files.progress.cancel()

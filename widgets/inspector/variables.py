@@ -77,6 +77,8 @@ class VariablesView(QTreeWidget):
     """The user has copied the selected variables; the argument is the text."""
     origin_requested = Signal(object)
     """The user asks where the value of this `Variable` comes from."""
+    meaning_requested = Signal(str, str)
+    """The user asks what a variable is: its name, and its meaning in a sentence."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -114,8 +116,10 @@ class VariablesView(QTreeWidget):
         origin.setShortcut(QKeySequence(Qt.Key.Key_Return))
         origin.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         origin.triggered.connect(self._ask_for_current)
+        meaning = QAction("What is this?", self)
+        meaning.triggered.connect(self._ask_for_meaning)
         self.itemClicked.connect(self._click)
-        self.addActions([origin, copy, self._fraction_action])
+        self.addActions([meaning, origin, copy, self._fraction_action])
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
@@ -155,6 +159,13 @@ class VariablesView(QTreeWidget):
     @Slot()
     def _ask_for_current(self) -> None:
         self._ask_for(self.currentItem())
+
+    @Slot()
+    def _ask_for_meaning(self) -> None:
+        item = self.currentItem()
+        if item is not None:
+            variable = self._variables[self.indexOfTopLevelItem(item.parent() or item)]
+            self.meaning_requested.emit(variable.name, variable.meaning)
 
     @Slot(QTreeWidgetItem, int)
     def _click(self, item: QTreeWidgetItem, column: int) -> None:

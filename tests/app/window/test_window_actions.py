@@ -38,6 +38,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         tuple(page.stepping.bookmarks.marks),
         window.overlays.ask_bar.isVisible(),
         window.overlays.key_help.isVisible(),
+        window.help.is_visible(),
         window.isVisible(),
         window.isFullScreen(),
         current_theme().name,

@@ -1,0 +1,1 @@
+"""Help: the guide, the glossary and the reference pages of the methods, beside the window's pages."""

@@ -1,0 +1,138 @@
+"""The pages of Help by their addresses: home, guide, glossary, terms, methods, and what a search finds."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from html import escape
+
+from app.help.markup import HelpPage, bullets, link, linked
+from app.help.places import occurrences
+from app.help.reference import family_page, method_page, methods_page
+from app.window.keys import ACTIONS, key_text
+from core.methods import table
+from core.settings import FAMILIES
+from lessons.glossary import Term, find_terms, glossary
+from lessons.guide import guide
+
+MOST_PLACES = 40
+"""Places of a term that its page lists."""
+
+
+def home_page() -> HelpPage:
+    """Return the first page: what there is, and how to come to a term."""
+    rows = (
+        f"{link('help:guide', 'Five-minute guide')}: one scene from its vertices to its bytes.",
+        f"{link('help:glossary', 'Glossary')}: {len(glossary())} terms in plain English.",
+        f"{link('help:methods', 'Methods')}: source, limits and listing of all {len(tuple(table))}.",
+        f"{link('do:action/show_keys', 'Keys')}: everything that a key does on this page.",
+    )
+    hint = (
+        "Underlined words in a stage card open their entry. In Variables, the context menu asks “What is this?”. In "
+        f"Methods, the button i explains a method. {_keys_of('help')} explains what has the keyboard, or what the "
+        "mouse points at."
+    )
+    return HelpPage("Help", f"{bullets(rows)}<p>{escape(hint)}</p>")
+
+
+def guide_page() -> HelpPage:
+    """Return the guide, one step after the other."""
+    parts, seen = [], set[str]()
+    for number, step in enumerate(guide(), start=1):
+        text = re.sub(r"\{(\w+)\}", lambda found: _keys_of(found[1]), step.text)
+        runs = " · ".join(link(address, label) for label, address in step.links.items())
+        parts.append(f"<h2>{number}. {escape(step.title)}</h2><p>{linked(text, seen)}</p><p>▸ {runs}</p>")
+    return HelpPage("Five-minute guide", "".join(parts))
+
+
+def _keys_of(action: str) -> str:
+    """Return the first key of an action."""
+    entry = next(entry for entry in ACTIONS if entry.name == action)
+    return key_text(entry).partition(", ")[0]
+
+
+def glossary_page() -> HelpPage:
+    """Return all terms."""
+    return HelpPage("Glossary", _entries(glossary().values()))
+
+
+def term_page(key: str) -> HelpPage:
+    """Return one term, with the places on screen where it occurs."""
+    term = glossary()[key]
+    others = [form for form in term.also if form.lower() not in term.name.lower()]
+    also = f"<p>Also: {escape(', '.join(others))}.</p>" if others else ""
+    shown = occurrences().get(key, ())
+    rows = [link(place.address, place.label) for place in shown[:MOST_PLACES]]
+    places = f"<h2>On screen</h2>{bullets(rows)}" if rows else ""
+    more = f"<p>and {len(shown) - MOST_PLACES} more.</p>" if len(shown) > MOST_PLACES else ""
+    return HelpPage(_capital(term.name), f"<p>{linked(term.text, {key})}</p>{also}{places}{more}")
+
+
+def variable_page(name: str, meaning: str) -> HelpPage:
+    """Return what a variable of the stepper is, with the terms in its meaning."""
+    found = dict.fromkeys(term for _, _, term in find_terms(f"{name} {meaning}"))
+    return HelpPage(name, f"<p>{linked(meaning)}</p>{_entries(found)}")
+
+
+def _entries(terms: Iterable[Term]) -> str:
+    """Return terms with their texts."""
+    return "".join(
+        f"<p>{link(f'help:term/{term.key}', term.name)}. {linked(term.text, {term.key})}</p>"
+        for term in terms
+    )
+
+
+def here_page(keys: str) -> HelpPage:
+    """Return several terms, of one text on screen."""
+    return HelpPage("Terms here", _entries(glossary()[key] for key in keys.split(",")))
+
+
+def find_page(query: str) -> HelpPage:
+    """Return what a search finds: terms by name before those by their text, methods, keys."""
+    words = query.lower().split()
+    rows = [row for _, row in sorted(_found(words), key=lambda found: found[0])]
+    return HelpPage(f"Results for “{query}”", bullets(rows) or "<p>Nothing was found.</p>")
+
+
+def _found(words: list[str]) -> Iterator[tuple[int, str]]:
+    """Yield rank and row of everything that holds all words."""
+
+    def holds(text: str) -> bool:
+        return all(word in text.lower() for word in words)
+
+    for term in glossary().values():
+        names = " ".join((term.name, *term.also))
+        if holds(f"{names} {term.text}"):
+            row = f"{link(f'help:term/{term.key}', term.name)}. {escape(term.text)}"
+            yield (0 if holds(term.name) else 1 if holds(names) else 3), row
+    for method in table:
+        family = FAMILIES[method.family].title
+        if holds(f"{family} {method.title} {method.name} {method.source}"):
+            address = f"help:method/{method.family}/{method.name}"
+            yield 2, f"{link(address, f'{family}: {method.title}')}. {escape(method.source)}."
+    for action in ACTIONS:
+        if action.keys and holds(action.title):
+            yield 2, f"{link(f'do:action/{action.name}', action.title)}: {escape(key_text(action))}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+PAGES: Mapping[str, Callable[..., HelpPage]] = {
+    "home": home_page,
+    "guide": guide_page,
+    "glossary": glossary_page,
+    "term": term_page,
+    "here": here_page,
+    "variable": variable_page,
+    "methods": methods_page,
+    "family": family_page,
+    "method": method_page,
+    "find": find_page,
+}
+"""What makes a page, by the first word of its address; the others are arguments."""
+
+
+def page(address: str) -> HelpPage:
+    """Return the page of an address such as ``method/fill/blocks``; a KeyError or ValueError: there is none."""
+    kind, *names = address.split("/", 2 if address.startswith(("method/", "variable/")) else 1)
+    return PAGES[kind](*names)

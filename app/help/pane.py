@@ -1,0 +1,194 @@
+"""Help in the window: a pane at its right side that is made when it is first asked for, and what its links do."""
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QPoint, Qt, Slot
+from PySide6.QtGui import QCursor
+from PySide6.QtWidgets import QApplication, QDockWidget, QTabBar, QWidget
+
+from app.help.markup import linked
+from app.window.keys import ACTIONS
+from core.methods import table
+from core.settings import FIELDS
+from core.stages.declared import STAGES
+from lessons.glossary import find_terms
+
+if TYPE_CHECKING:
+    from app.window.main_window import MainWindow
+    from widgets.help.help_view import HelpView
+
+WIDTH = 400
+"""Pixels of the pane when it is first shown."""
+
+
+class HelpPane(QObject):
+    """Shows the pane, and runs its links in the window."""
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__(window)
+        self.dock: QDockWidget | None = None
+        page = window.page
+        page.card.set_markup(linked)
+        page.card.link_chosen.connect(self._open_link)
+        page.variables.meaning_requested.connect(self._explain_variable)
+        page.settings_panel.reference_requested.connect(self._explain_setting)
+
+    @property
+    def window(self) -> "MainWindow":
+        """The window; not an attribute, since a window in a cycle would not be deleted when it is released."""
+        return self.parent()  # type: ignore[return-value]
+
+    @property
+    def view(self) -> "HelpView":
+        """What is in the pane."""
+        view: HelpView = self._made().widget()  # type: ignore[assignment]
+        return view
+
+    def show_page(self, address: str) -> None:
+        """Show a page by its address, as ``term/depth-buffer``."""
+        self.view.show_page(address)
+        self._made().show()
+
+    def toggle(self) -> None:
+        """Show what the widget with the keyboard or under the pointer is about, or else the contents; or close."""
+        address = address_of(self.window)
+        if self.is_visible() and (not address or self._has_focus()):
+            self.close()
+            return
+        self.show_page(address or "home")
+        self.view.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def is_visible(self) -> bool:
+        """Return whether the pane is shown."""
+        return self.dock is not None and self.dock.isVisible()
+
+    @Slot()
+    def close(self) -> None:
+        """Close the pane; the page has the keyboard again."""
+        if self.dock is not None:
+            self.dock.hide()
+            self.window.pages.current.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def dismiss(self) -> bool:
+        """Close the pane if it has the keyboard; return whether it did."""
+        if not self._has_focus():
+            return False
+        self.close()
+        return True
+
+    def _has_focus(self) -> bool:
+        focus = QApplication.focusWidget()
+        return self.is_visible() and focus is not None and self.view.isAncestorOf(focus)
+
+    def _made(self) -> QDockWidget:
+        if self.dock is None:
+            from app.help.library import (
+                page,
+            )  # All methods and studies come along: not before Help is wanted.
+            from widgets.help.help_view import HelpView
+
+            def body(address: str) -> tuple[str, str]:
+                made = page(address)
+                return made.title, made.html
+
+            view = HelpView(body)
+            view.link_chosen.connect(self.follow)
+            view.closed.connect(self.close)
+            self.dock = QDockWidget("Help", self.window)
+            self.dock.setObjectName("help")
+            self.dock.setFeatures(QDockWidget.DockWidgetFeature.NoDockWidgetFeatures)
+            self.dock.setTitleBarWidget(QWidget(self.dock))  # The view has a row of its own for closing.
+            self.dock.setWidget(view)
+            self.window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.dock)
+            self.dock.show()
+            self.window.resizeDocks(
+                [self.dock], [min(WIDTH, self.window.width() // 2)], Qt.Orientation.Horizontal
+            )
+        return self.dock
+
+    # What is asked for on the page.
+
+    @Slot(str)
+    def _open_link(self, link: str) -> None:
+        self.show_page(link.partition(":")[2])
+
+    @Slot(str, str)
+    def _explain_variable(self, name: str, meaning: str) -> None:
+        self.show_page(f"variable/{name}/{meaning}")
+
+    @Slot(str, str)
+    def _explain_setting(self, name: str, value: str) -> None:
+        is_method = name in table.families
+        self.show_page(f"method/{name}/{value}" if is_method else f"family/{FIELDS[name].taken_by}")
+
+    # Links.
+
+    @Slot(str)
+    def follow(self, link: str) -> None:
+        """Do what a link says, as ``stage/raster``."""
+        kind, *names = link.split("/")
+        self._links()[kind](*names)
+
+    def _links(self) -> Mapping[str, Callable[..., object]]:
+        return {
+            "action": self._act,
+            "stage": lambda name: self._act(f"stage_{STAGES.index(name)}"),
+            "view": self._show_view,
+            "scene": self._open_scene,
+            "use": self._use,
+            "compare": lambda name: self._show_result("compare", name),
+            "stability": lambda name: self._show_result("stability", name),
+        }
+
+    def _act(self, name: str) -> None:
+        """Run an action of the keys, on its page."""
+        entry = next(entry for entry in ACTIONS if entry.name == name)
+        if entry.page:
+            self.window.pages.show_page(entry.page)
+        self.window.run_action(name)
+
+    def _show_view(self, name: str) -> None:
+        self.window.pages.show_page("step")
+        self.window.page.show_view(name)
+
+    def _open_scene(self, name: str) -> None:
+        self.window.pages.show_page("step")
+        self.window.open_path(name)
+
+    def _use(self, family: str, method: str) -> None:
+        self.window.pages.show_page("step")
+        self.window.session.set_setting(family, method)
+
+    def _show_result(self, page: str, name: str) -> None:
+        self.window.pages.show_page(page)
+        self.window.pages.current.results.show_named(name)  # type: ignore[attr-defined]
+
+
+def address_of(window: QWidget) -> str:
+    """Return the page of the terms that the widget under the pointer, or else the one with the keyboard, shows."""
+    pointed = QApplication.widgetAt(QCursor.pos())
+    for widget in (pointed, window.focusWidget()):
+        if widget is not None and window.isAncestorOf(widget):
+            keys = dict.fromkeys(term.key for text in texts_of(widget) for _, _, term in find_terms(text))
+            if keys:
+                return f"term/{next(iter(keys))}" if len(keys) == 1 else f"here/{','.join(keys)}"
+    return ""
+
+
+def texts_of(widget: QWidget) -> list[str]:
+    """Return what a widget says: its text, the tab or choice that is shown, its tip, and its name."""
+    point = widget.mapFromGlobal(QCursor.pos())
+    shown = [_tab_text(widget, point)]
+    for name in ("text", "currentText", "toolTip", "accessibleName"):
+        value = widget.property(name)
+        shown.append(value if isinstance(value, str) else "")
+    return [text for text in shown if text]
+
+
+def _tab_text(widget: QWidget, point: QPoint) -> str:
+    """Return the text of the tab under the pointer; empty: it has no tabs."""
+    if not isinstance(widget, QTabBar):
+        return ""
+    index = widget.tabAt(point)
+    return widget.tabText(index if index >= 0 else widget.currentIndex())

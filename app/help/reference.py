@@ -1,0 +1,150 @@
+"""The reference pages: one for each method and family, made from the table of methods."""
+
+import inspect
+from html import escape
+
+import core  # noqa: F401  (its modules register the methods)
+from app.help.markup import HelpPage, bullets, facts, link, linked, sentence
+from core import Settings, trace
+from core.families import Family
+from core.methods import Method, table
+from core.records.listing import listing
+from core.settings import DEFAULTS, FAMILIES, FIELDS
+from core.stages.declared import DECLARED, stage_of
+from core.study.accuracy.families import study_families
+from core.study.stability import experiments
+from lessons.scenes import make_scene
+
+SHOWN_BY = {
+    "clipping": "near-plane",
+    "texture_filter": "textured-floor",
+    "wrap": "textured-floor",
+    "shading": "cube",
+}
+"""Families to the scene in which their methods do something; ``single-triangle`` for the others."""
+TOGETHER = {
+    "polygon_mode": {"line": "bresenham"},
+    "line_clipping": {"polygon_mode": "wireframe"},
+    "provoking": {"interpolation": "flat"},
+    "resolve_filter": {"antialiasing": "ssaa-4"},
+}
+"""Other settings with which the methods of a family do something."""
+NEEDS = {
+    "positive-w": "all corners in front of the eye (w > 0), which clipping provides",
+    "projected": "corners divided by w",
+    "perspective": "a perspective camera",
+    "float64-edges": "edge functions in float64",
+    "mipmaps": "mipmaps of the texture",
+    "blending": "blending",
+    "rectangle": "a rectangle for each line",
+}
+"""What a method needs, in words."""
+NO_LISTING = "It copies what is known: there is no algorithm to list."
+
+
+def methods_page() -> HelpPage:
+    """Return the list of all families and methods, by stage."""
+    parts = []
+    for stage in DECLARED:
+        names = [name for name, family in FAMILIES.items() if family.stage == stage.name]
+        if names:
+            rows = (f"{_family_link(name)}: {', '.join(map(_method_link, _methods(name)))}" for name in names)
+            parts.append(f"<h2>{escape(stage.short_title)}</h2>{bullets(rows)}")
+    return HelpPage("Methods", "".join(parts))
+
+
+def family_page(name: str) -> HelpPage:
+    """Return the page of a family: what its methods are, and where they are measured."""
+    family = FAMILIES[name]
+    rows = (f"{_method_link(method)}. {linked(sentence(method.exact_for))}" for method in _methods(name))
+    body = facts(
+        (
+            ("Stage", link(f"do:stage/{family.stage}", stage_of(family.stage).title)),
+            ("Setting", f"<code>{name}</code>"),
+            ("Chart", _chart(name)),
+            ("Maps", _maps(name)),
+        )
+    )
+    return HelpPage(family.title, f"{body}<h2>Methods</h2>{bullets(rows)}")
+
+
+def method_page(name: str, method_name: str) -> HelpPage:
+    """Return the page of a method: source, where it is exact and where it breaks, listing, chart and map."""
+    method, family = table.get(name, method_name), FAMILIES[name]
+    needs = ", ".join(NEEDS[need] for need in method.needs)
+    takes = ", ".join(FIELDS[taken].title for taken in method.takes)
+    rows = [
+        ("Family", f"{_family_link(name)}, stage {link(f'do:stage/{family.stage}', _stage_title(family))}"),
+        ("Source", escape(sentence(method.source))),
+        ("Exact for", linked(sentence(method.exact_for))),
+        ("Breaks where", linked(sentence(method.breaks_where)) if method.breaks_where else "Nowhere."),
+        ("Needs", linked(sentence(needs)) if needs else ""),
+        ("Settings", escape(takes)),
+        ("Chart", _chart(name)),
+        ("Map", _maps(name, method_name)),
+        ("Command", f"<code>--set {name}={method_name}</code>"),
+    ]
+    use = f"<p>{link(f'do:use/{name}/{method_name}', 'Use this method')} on the open scene.</p>"
+    about = linked(first_paragraph(method))
+    listings = "".join(f"<pre>{escape(source)}</pre>" for source in listings_of(method))
+    shown = listings or f"<p>{NO_LISTING}</p>"
+    return HelpPage(method.title, f"<p>{about}</p>{use}{facts(rows)}<h2>Listing</h2>{shown}")
+
+
+def first_paragraph(method: Method) -> str:
+    """Return what the rule of a method does, in a sentence: the beginning of its docstring."""
+    text = inspect.getdoc(method.function) or ""
+    return text.partition("\n\n")[0].replace("\n", " ").replace("``", "").replace("`", "")
+
+
+def listings_of(method: Method) -> list[str]:
+    """Return the listings that the stepper shows with a method: its own, or those of its stage in a small scene."""
+    if method.listing is not None:
+        return [listing(method.listing).source]
+    scene = make_scene(SHOWN_BY.get(method.family, "single-triangle"))
+    settings = Settings(**(TOGETHER.get(method.family, {}) | {method.family: method.name}))  # type: ignore[arg-type]
+    width, height = scene.size
+    traced = trace(scene, settings, region=(width // 2, height // 2, 2, 2))
+    stage = traced.stage(FAMILIES[method.family].stage)
+    kinds = {stage.steps.kinds[number] for number in stage.steps.kind.tolist()}
+    found = [each.source for kind, each in stage.listings.items() if kind.partition(".")[0] in kinds]
+    return list(dict.fromkeys(found))
+
+
+def _methods(family: str) -> list[Method]:
+    return [table.get(family, name) for name in table.names(family)]
+
+
+def _stage_title(family: Family) -> str:
+    return stage_of(family.stage).short_title
+
+
+def _family_link(name: str) -> str:
+    return link(f"help:family/{name}", FAMILIES[name].title)
+
+
+def _method_link(method: Method) -> str:
+    default = " (default)" if getattr(DEFAULTS, method.family) == method.name else ""
+    return link(f"help:method/{method.family}/{method.name}", method.title) + default
+
+
+def _chart(family: str) -> str:
+    """Return links to the charts that vary a family."""
+    found = [study for study in study_families() if family in study.varies]
+    return ", ".join(link(f"do:compare/{study.name}", study.title) for study in found)
+
+
+def _maps(family: str, method: str = "") -> str:
+    """Return links to the experiments that run a method, or any of the family."""
+    infos = [
+        experiment.info
+        for experiment in experiments
+        if any(
+            pair == f"{family}={method}" or (not method and pair.startswith(f"{family}="))
+            for choices in experiment.info.methods
+            for pair in choices.split()
+        )
+    ]
+    return (
+        ", ".join(link(f"do:stability/{info.name}", info.title) for info in infos) or "No experiment runs it."
+    )

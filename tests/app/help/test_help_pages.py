@@ -1,0 +1,108 @@
+"""Help: every page can be reached, no link is dead, methods and terms have all that their pages promise."""
+
+import re
+from functools import cache
+
+import pytest
+
+from app.files.open_any import scene_names
+from app.help.library import find_page, guide_page, page
+from app.help.places import occurrences, places
+from app.help.reference import NEEDS, listings_of
+from app.views.stage_views import VIEWS
+from app.window.keys import ACTIONS
+from core.methods import table
+from core.settings import FAMILIES
+from core.stages.declared import STAGES
+from core.study.accuracy.families import study_families
+from core.study.stability import experiments
+from lessons.glossary import find_terms, glossary
+from tests.core.test_methods_are_complete import NEEDS as KNOWN_NEEDS
+
+
+@cache
+def crawled():
+    """Return every page that links lead to from the first one, by address, and what the other links do."""
+    pages, todo, doing = {}, ["home"], set()
+    while todo:
+        address = todo.pop()
+        if address not in pages:
+            pages[address] = page(address)
+            for scheme, rest in re.findall(r'href="(\w+):([^"]+)"', pages[address].html):
+                if scheme == "help":
+                    todo.append(rest)
+                else:
+                    doing.add(rest)
+    return pages, doing
+
+
+def test_every_method_family_and_term_can_be_reached_by_links() -> None:
+    pages, _ = crawled()
+    assert {f"method/{m.family}/{m.name}" for m in table} <= set(pages)
+    assert {f"family/{name}" for name in FAMILIES} <= set(pages)
+    assert {f"term/{key}" for key in glossary()} <= set(pages)
+
+
+def test_no_link_is_dead() -> None:
+    known = {
+        "action": {action.name for action in ACTIONS},
+        "stage": set(STAGES),
+        "view": {view.name for view in VIEWS},
+        "scene": set(scene_names()),
+        "use": {f"{method.family}/{method.name}" for method in table},
+        "compare": {family.name for family in study_families()},
+        "stability": {experiment.info.name for experiment in experiments},
+    }
+    dead = [link for link in crawled()[1] if link.partition("/")[2] not in known[link.partition("/")[0]]]
+    assert dead == []
+
+
+def test_a_reference_page_has_every_field() -> None:
+    assert set(NEEDS) == KNOWN_NEEDS
+    for method in table:
+        html = page(f"method/{method.family}/{method.name}").html
+        for field in ("Family", "Source", "Exact for", "Breaks where", "Chart", "Map", "Command", "Listing"):
+            assert f">{field}</" in html, (method.family, method.name, field)
+        assert "do:compare/" in html, method.family
+
+
+def test_methods_that_compute_something_have_a_listing() -> None:
+    without = {f"{method.family}={method.name}" for method in table if not listings_of(method)}
+    assert without == {
+        "blend=opaque",
+        "clipping=homogeneous",
+        "line_clipping=none",
+        "polygon_mode=wireframe",
+    }
+
+
+def test_places_of_a_term_name_it() -> None:
+    assert len(occurrences()) >= 150
+    texts = {place.label: [] for place in places()}
+    for place in places():
+        texts[place.label].append(place.text)
+    for key, found in occurrences().items():
+        for place in found:
+            named = {term.key for text in texts[place.label] for _, _, term in find_terms(text)}
+            assert key in named, (key, place.label)
+
+
+@pytest.mark.parametrize(
+    ("query", "first"),
+    [
+        ("depth buffer", "help:term/depth-buffer"),
+        ("bresenham", "help:term/bresenham-s-algorithm"),
+        ("wu two", "help:method/line/wu"),
+    ],
+)
+def test_a_search_finds_terms_methods_and_keys(query: str, first: str) -> None:
+    assert re.search(r'href="([^"]+)"', find_page(query).html)[1] == first
+
+
+def test_a_search_for_nothing_known_says_so() -> None:
+    assert "Nothing was found" in find_page("zzz").html
+
+
+def test_the_guide_names_keys_not_actions() -> None:
+    assert "{" not in guide_page().html
+    assert "Ctrl+O" in guide_page().html

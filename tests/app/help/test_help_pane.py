@@ -1,0 +1,87 @@
+"""The pane of Help in a window: keys, links that do something, and words on screen that lead to their entries."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.help import pane
+from app.window.main_window import MainWindow
+
+
+@pytest.fixture(autouse=True)
+def pointer_outside(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Point at no widget, wherever the pointer is."""
+    monkeypatch.setattr(pane.QApplication, "widgetAt", lambda point: None)
+
+
+def test_f1_opens_the_contents_and_escape_closes_them(window: MainWindow) -> None:
+    window.page.grid.setAccessibleName("")
+    window.page.grid.setFocus()
+    assert window.help.dock is None
+    QTest.keyClick(window, Qt.Key.Key_F1)
+    view = window.help.view
+    assert (view.address(), view.search.hasFocus()) == ("home", True)
+    assert "Five-minute guide" in view.browser.toPlainText()
+    QTest.keyClick(view.search, Qt.Key.Key_Escape)
+    assert not window.help.is_visible()
+
+
+def test_f1_explains_what_has_the_keyboard(window: MainWindow) -> None:
+    window.page.timeline.setFocus()
+    window.focusWidget().setProperty("accessibleName", "Edge functions")
+    window.focusWidget().setToolTip("")
+    QTest.keyClick(window, Qt.Key.Key_F1)
+    assert window.help.view.address().endswith("edge-function")
+
+
+def test_typing_finds_and_a_link_shows_the_entry_with_a_way_back(window: MainWindow) -> None:
+    window.help.show_page("guide")
+    view = window.help.view
+    QTest.keyClicks(view.search, "z-fighting")
+    assert "Two surfaces lie closer" in view.browser.toPlainText()
+    view.show_page("term/z-fighting")
+    assert view.browser.documentTitle() == "Z-fighting"
+    view.back_button.click()
+    assert view.address() == "guide"
+
+
+@pytest.mark.parametrize(
+    ("link", "reached"),
+    [
+        ("stage/depth", lambda window: window.session.cursor.stage == "depth"),
+        ("use/fill/scanline", lambda window: window.session.document.settings.fill == "scanline"),
+        ("view/clip", lambda window: window.page.current_view() == "clip"),
+        ("action/page_compare", lambda window: window.pages.current_name == "compare"),
+        ("compare/fill", lambda window: window.pages.current.results.choice.name == "fill"),
+        ("stability/slivers", lambda window: window.pages.current.results.choice.name == "slivers"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_links_do_something_in_the_window(window: MainWindow, link: str, reached) -> None:
+    window.help.follow(link)
+    assert reached(window)
+
+
+def test_the_guide_opens_its_scenes(window: MainWindow, qtbot: QtBot) -> None:
+    window.pages.show_page("compare")
+    window.help.follow("scene/z-fighting")
+    qtbot.waitUntil(lambda: window.session.document.title == "Z-fighting plates")
+    assert window.pages.current_name == "step"
+
+
+def test_a_word_of_the_stage_card_a_variable_and_a_method_lead_to_their_pages(window: MainWindow) -> None:
+    card, view = window.page.card, window.help.view
+    card.show_folded(False)
+    assert '<a style="color' in card.findChild(type(window.page.sentence), "purpose").text()
+    card.link_chosen.emit("help:term/pixel")
+    assert view.address() == "term/pixel"
+    window.page.variables.setCurrentItem(window.page.variables.topLevelItem(0))
+    action = next(a for a in window.page.variables.actions() if a.text() == "What is this?")
+    action.trigger()
+    assert view.address().startswith("variable/")
+    assert window.page.variables.topLevelItem(0).text(0) == view.browser.documentTitle()
+    window.page.settings_panel.reference_requested.emit("shading", "gouraud")
+    assert view.browser.documentTitle() == "Gouraud (per vertex)"
+    window.page.settings_panel.reference_requested.emit("block_size", "8")
+    assert view.address() == "family/fill"
