@@ -21,6 +21,7 @@ from PySide6.QtWidgets import QWidget
 from widgets.atlas.layout import AtlasLayout, AtlasMetrics, lay_out_maps
 from widgets.atlas.records import UNKNOWN, AtlasMap, AtlasRecord, CellKind, CellPlace
 from widgets.basics.drawn_text import paint_empty
+from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
 
 _ARROWS = {
@@ -55,6 +56,7 @@ class AtlasCanvas(QWidget):
         self._room = QSize()
         self._hover: CellPlace | None = None
         self._chosen: CellPlace | None = None
+        self._ring = FocusRing(self)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Maps of outcomes")
@@ -227,11 +229,13 @@ class AtlasCanvas(QWidget):
             record, layout = self._record, self._layout()
             if record is None or layout is None:
                 paint_empty(painter, self.rect(), self._empty, theme)
+                self._ring.paint(painter, self.rect())
                 return
             for each, area in zip(record.maps, layout.areas, strict=True):
                 if area.adjusted(-200, -40, 400, 40).intersects(event.rect()):
                     self._paint_map(painter, record, each, area, layout.cell)
             self._paint_rings(painter, record, layout)
+            self._ring.paint(painter, self.rect())
 
     def _paint_map(
         self, painter: QPainter, record: AtlasRecord, each: AtlasMap, area: QRect, cell: int

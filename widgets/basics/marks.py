@@ -6,7 +6,7 @@ from enum import Enum
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
-from widgets.basics.theme import Theme, current_theme
+from widgets.basics.theme import CLEAR, Theme, contrast, current_theme
 
 
 class Mark(Enum):
@@ -86,14 +86,16 @@ def _covered(painter: QPainter, box: QRectF, theme: Theme) -> None:
     painter.drawRect(_inset(box, 0.14))
 
 
-def _cross(painter: QPainter, box: QRectF, color: str) -> None:
+def _cross(painter: QPainter, box: QRectF, color: str, share: float = 0.2) -> None:
     inner = _inset(box, 0.18)
-    painter.setPen(_pen(color, box, 0.2))
+    painter.setPen(_pen(color, box, share))
     painter.drawLine(inner.topLeft(), inner.bottomRight())
     painter.drawLine(inner.bottomLeft(), inner.topRight())
 
 
 def _rejected(painter: QPainter, box: QRectF, theme: Theme) -> None:
+    if contrast(theme.rejected, theme.canvas) < CLEAR:
+        _cross(painter, box, theme.text, 0.34)
     _cross(painter, box, theme.rejected)
 
 

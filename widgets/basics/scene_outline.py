@@ -86,6 +86,8 @@ class _RowLabel(QLabel):
         is_selected = self._outline.selected_path() == self._row.path
         if is_selected:
             painter.fillRect(self.rect(), QColor(theme.selection))
+            painter.setPen(QColor(theme.text))
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
         if self._row.vertex is not None:
             bar = self.rect().adjusted(0, 3, 0, -3)
             bar.setWidth(4)

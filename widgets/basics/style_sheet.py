@@ -44,7 +44,6 @@ QAbstractSpinBox::up-button:hover, QAbstractSpinBox::down-button:hover { backgro
 QComboBox { combobox-popup: 0; }
 QComboBox QAbstractItemView { background: $panel; border: 1px solid $outline; padding: ${u}px; }
 QComboBox QAbstractItemView::item { min-height: ${control}px; padding: 3px ${u}px; }
-QComboBox QAbstractItemView::item:selected { background: $selection; color: $text; }
 
 QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
     background: $panel; color: $text; border: 1px solid $outline; border-radius: 3px; padding: 3px ${u}px;
@@ -52,6 +51,11 @@ QLineEdit, QAbstractSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser {
 }
 QLineEdit:disabled { color: $outline; }
 QTextBrowser, QTextEdit[readOnly="true"], QPlainTextEdit[readOnly="true"] { border: 1px solid transparent; }
+QTextBrowser:focus, QTextEdit[readOnly="true"]:focus, QPlainTextEdit[readOnly="true"]:focus {
+    border: 2px solid $focus; padding: 2px ${u}px;
+}
+QSlider { border: 2px solid transparent; border-radius: 3px; }
+QSlider:focus { border-color: $focus; }
 
 QCheckBox, QRadioButton { spacing: ${uu}px; padding: 2px; border: 2px solid transparent; border-radius: 3px; }
 QCheckBox:focus, QRadioButton:focus { border-color: $focus; }
@@ -70,14 +74,16 @@ QMenu::indicator { margin-left: ${u}px; }
 
 QAbstractItemView { background: $panel; alternate-background-color: $window; border: none; outline: none; }
 QAbstractItemView:focus { border: 2px solid $focus; }
+QAbstractItemView::item { border: 1px solid transparent; border-width: 1px 0; }
+QAbstractItemView::item:selected { background: $selection; color: $text; border-color: $text; }
 QHeaderView::section { background: $panel; color: $muted_text; border: none; padding: ${u}px; }
 QTableView { gridline-color: $window; }
 
 QMenuBar, QMenu { background: $panel; color: $text; }
-QMenuBar::item { padding: ${u}px ${uu}px; background: transparent; }
-QMenuBar::item:selected, QMenu::item:selected { background: $selection; color: $text; }
+QMenuBar::item { padding: ${u}px ${uu}px; background: transparent; border: 1px solid transparent; }
+QMenuBar::item:selected, QMenu::item:selected { background: $selection; color: $text; border-color: $text; }
 QMenu { border: 1px solid $outline; padding: ${u}px; }
-QMenu::item { padding: ${u}px ${uuuuuu}px; border-radius: 3px; }
+QMenu::item { padding: ${u}px ${uuuuuu}px; border: 1px solid transparent; border-radius: 3px; }
 QMenu::item:disabled { color: $outline; }
 QMenu::separator { height: 1px; background: $selection; margin: ${u}px; }
 

@@ -16,6 +16,8 @@ from PySide6.QtWidgets import QApplication
 
 from core.framebuffer.display import linear_light
 
+CLEAR = 3.0
+"""Contrast that whatever must be seen has with what is beside it (WCAG 2, 1.4.11)."""
 VERTEX_COLORS = ("#0072B2", "#E69F00", "#009E73")
 """Colours of vertices, edges and barycentric weights 0, 1, 2 (Okabe and Ito), for lines, fills and marks."""
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from core.explain.latex import plain_text, without_macros
 from core.explain.records import Formula
 from core.explain.spoken import spoken
+from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_layout import MARGIN, FormulaSetter, Line, extent
 from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter
@@ -61,6 +62,7 @@ class FormulaView(QWidget):
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
         self._catch_up_timer.timeout.connect(self._catch_up)
+        self._ring = FocusRing(self)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Formula")
         self.setProperty("role", "panel")
@@ -193,6 +195,7 @@ class FormulaView(QWidget):
         """Draw the lines, or what the pane is for."""
         del event
         painter = QPainter(self)
+        self._ring.paint(painter, self.rect())
         if self._formula is None:
             painter.setPen(QColor(current_theme().muted_text))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
@@ -202,10 +205,6 @@ class FormulaView(QWidget):
         painter.translate(MARGIN, MARGIN)
         painter.scale(scale, scale)
         self._setter().paint(painter, self._lines)
-        if self.hasFocus():
-            painter.resetTransform()
-            painter.setPen(QColor(current_theme().focus))
-            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _add_action(self, text: str, shortcut: QKeySequence) -> QAction:
         action = QAction(text, self)

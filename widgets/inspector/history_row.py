@@ -37,6 +37,9 @@ class EntryDelegate(QStyledItemDelegate):
             ground = QColor(theme.selection)
         painter.save()
         painter.fillRect(box, ground)
+        if option.state & QStyle.StateFlag.State_Selected:
+            painter.setPen(QColor(theme.text))
+            painter.drawRect(box.adjusted(0, 0, -1, -1))
         if entry.is_current:
             painter.fillRect(QRect(box.left(), box.top(), 4, box.height()), QColor(theme.accent))
         text_height = QFontMetrics(_text_font()).height()

@@ -231,6 +231,10 @@ class ListingView(QPlainTextEdit):
                 painter.setPen(QColor(theme.panel))
                 painter.setBrush(QColor(theme.accent))
                 painter.drawPolygon(QPolygonF(arrow))
+            if self.hasFocus() and not is_current and block == self.textCursor().block():
+                painter.setPen(QColor(theme.focus))
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                painter.drawRect(row.adjusted(2, 0, -3, -1))
             painter.setPen(QColor(theme.text if is_current else theme.muted_text))
             flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(row.adjusted(0, 0, -8, 0), flags, str(line))

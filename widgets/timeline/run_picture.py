@@ -12,7 +12,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QImage, QPainter
 
 from widgets.basics.marks import Mark, draw_mark
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import CLEAR, contrast, current_theme
 
 LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)
 """Outcomes with a lane of their own, top down."""
@@ -127,11 +127,12 @@ class RunView:
         tick = max(1, round(min(step_width, side) * 0.8 * ratio))
         is_painted = np.convolve(is_marked, np.ones(tick, dtype=np.int64))[:columns] > 0
         box = lane.adjusted(0.0, 1.0, 0.0, -1.0)
-        if mark is Mark.TIE:
-            # Yellow alone is too light beside a light ground.
+        color = _lane_color(mark)
+        if contrast(color, theme.canvas) < CLEAR:
+            # Alone it is too much like the ground.
             _paint_columns(painter, is_painted, theme.text, box)
             box.adjust(0.0, 1.5, 0.0, -1.5)
-        _paint_columns(painter, is_painted, _lane_color(mark), box)
+        _paint_columns(painter, is_painted, color, box)
 
     def _paint_flags(self, painter: QPainter) -> None:
         side = flag_height() - 2.0

@@ -241,10 +241,10 @@ COLORS = {
 
 Nothing that fails is green: a map of green cells would be read as one where all is well.
 """
-DARK = {Outcome.HOLE, Outcome.DOUBLE_HIT, Outcome.NOT_A_NUMBER, Outcome.OVERFLOW, Outcome.WRONG_PICTURE}
+DARK = {Outcome.HOLE, Outcome.NOT_A_NUMBER, Outcome.WRONG_PICTURE}
 """Outcomes whose character is white."""
 ON_DARK = {
-    Outcome.RIGHT: ("#2f3940", "#8d979f"),
+    Outcome.RIGHT: ("#2f3940", "#a5adb4"),
     Outcome.HOLE: ("#2f94d1", "#000000"),
     Outcome.DOUBLE_HIT: ("#f07b23", "#000000"),
     Outcome.NOT_A_NUMBER: ("#ffffff", "#000000"),
@@ -263,7 +263,7 @@ def cell_kinds() -> tuple[CellKind, ...]:
             WORDS[outcome],
             "·" if outcome is Outcome.RIGHT else MARKS[outcome],
             (COLORS[outcome], ON_DARK[outcome][0]),
-            ("#ffffff" if outcome in DARK else "#3a4148", ON_DARK[outcome][1]),
+            ("#ffffff" if outcome in DARK else "#000000", ON_DARK[outcome][1]),
         )
         for outcome in Outcome
     )
