@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import NamedTuple
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QAction, QColor, QFont, QGuiApplication, QKeySequence, QPainter, QPaintEvent
@@ -119,6 +120,7 @@ class VariablesView(QTreeWidget):
         meaning = QAction("What is this?", self)
         meaning.triggered.connect(self._ask_for_meaning)
         self.itemClicked.connect(self._click)
+        self.itemExpanded.connect(self._fill)
         self.addActions([meaning, origin, copy, self._fraction_action])
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         theme_notifier().theme_changed.connect(self._follow_theme)
@@ -150,6 +152,8 @@ class VariablesView(QTreeWidget):
         for item in self.selectedItems():
             name, value = item.text(0), item.data(1, Qt.ItemDataRole.UserRole)
             owner = item.parent()
+            if owner is not None and not owner.isExpanded():
+                continue
             lines.append(f"{f'{owner.text(0)}.{name}' if owner else name} = {value}")
         if lines:
             text = "\n".join(lines)
@@ -194,46 +198,50 @@ class VariablesView(QTreeWidget):
                 box, flags, "The variables of each step appear here; changed ones are highlighted."
             )
 
+    @Slot()
     def _fill(self) -> None:
+        """Write what differs from what is written; the parts of a vector once it is open."""
         for row, variable in enumerate(self._variables):
             item = self.topLevelItem(row)
-            if item is None:
-                continue
+            assert item is not None
             self._fill_item(item, variable)
-            if isinstance(variable.now, tuple):
+            if isinstance(variable.now, tuple) and item.isExpanded():
                 was = variable.before if isinstance(variable.before, tuple) else ()
                 for k, part in enumerate(variable.now):
-                    before = was[k] if k < len(was) else None
-                    child = item.child(k)
-                    if child is not None:
-                        self._fill_item(
-                            child, Variable(child.text(0), part, before, "", variable.vertex, variable.digits)
-                        )
+                    child, before = item.child(k), was[k] if k < len(was) else None
+                    assert child is not None
+                    self._fill_item(
+                        child, Variable(child.text(0), part, before, "", variable.vertex, variable.digits)
+                    )
 
     def _fill_item(self, item: QTreeWidgetItem, variable: Variable) -> None:
-        theme = current_theme()
-        is_changed = variable.is_changed()
+        assert isinstance(item, _VariableItem)
+        for column, cell in enumerate(self._cells(variable)):
+            item.show_cell(column, cell, self.font())
+
+    def _cells(self, variable: Variable) -> "tuple[_Cell, _Cell, _Cell]":
+        theme, font, is_changed = current_theme(), self.font().key(), variable.is_changed()
         name_color = theme.text if variable.vertex is None else theme.vertex_text[variable.vertex]
-        item.setForeground(0, QColor(name_color))
-        item.setForeground(1, QColor(theme.accent_text if is_changed else theme.text))
-        item.setForeground(2, QColor(theme.muted_text))
-        for column, value in ((1, variable.now), (2, variable.before)):
-            font = tabular_font(self.font())
-            font.setBold(is_changed and column == 1)
-            item.setFont(column, font)
-            item.setText(column, value_text(value, is_fraction=self._is_fraction, digits=variable.digits))
-            item.setTextAlignment(column, _RIGHT)
-            item.setToolTip(column, f"{variable.name} = {value_text(value, is_full=True)}")
-        item.setToolTip(1, f"{item.toolTip(1)}\nClick: go to the step that made it. Ctrl+[ comes back.")
-        name_font = QFont(self.font())
-        name_font.setBold(is_changed)
-        item.setFont(0, name_font)
-        item.setToolTip(0, variable.meaning or variable.name)
-        item.setData(1, _CHANGED, is_changed)
-        item.setData(1, Qt.ItemDataRole.UserRole, value_text(variable.now, is_full=True).replace("−", "-"))
+        texts, full = (
+            [value_text(value, **how) for value in (variable.now, variable.before)]
+            for how in ({"is_fraction": self._is_fraction, "digits": variable.digits}, {"is_full": True})
+        )
+        tips = [f"{variable.name} = {text}" for text in full]
         state = "changed" if is_changed else "unchanged"
         spoken = f"{variable.name} {value_text(variable.now, digits=variable.digits)}, {state}"
-        item.setData(1, Qt.ItemDataRole.AccessibleTextRole, spoken)
+        return (
+            _Cell(variable.name, name_color, font, is_changed, variable.meaning or variable.name),
+            _Cell(
+                texts[0],
+                theme.accent_text if is_changed else theme.text,
+                font,
+                is_changed,
+                f"{tips[0]}\nClick: go to the step that made it. Ctrl+[ comes back.",
+                full[0].replace("\u2212", "-"),
+                spoken,
+            ),
+            _Cell(texts[1], theme.muted_text, font, False, tips[1]),
+        )
 
     @Slot()
     def _follow_theme(self) -> None:
@@ -244,14 +252,57 @@ class VariablesView(QTreeWidget):
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
+class _Cell(NamedTuple):
+    """What a cell of the table shows."""
+
+    text: str
+    color: str
+    font: str
+    """Key of the table's font."""
+    is_changed: bool
+    """Written in bold."""
+    tip: str
+    copied: str = ""
+    """The value in full."""
+    spoken: str = ""
+
+
+class _VariableItem(QTreeWidgetItem):
+    """A row of the table, which knows what it shows: every setter has the view lay out and paint again."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__([name])
+        self._shown: list[_Cell | None] = [None, None, None]
+        self.setTextAlignment(1, _RIGHT)
+        self.setTextAlignment(2, _RIGHT)
+
+    def show_cell(self, column: int, cell: _Cell, font: QFont) -> None:
+        """Set what differs from what the cell shows."""
+        shown, self._shown[column] = self._shown[column], cell
+        if shown is None or cell.text != shown.text:
+            self.setText(column, cell.text)
+        if shown is None or cell.color != shown.color:
+            self.setForeground(column, QColor(cell.color))
+        if shown is None or (cell.font, cell.is_changed) != (shown.font, shown.is_changed):
+            written = tabular_font(font) if column else QFont(font)
+            written.setBold(cell.is_changed)
+            self.setFont(column, written)
+            self.setData(column, _CHANGED, cell.is_changed)
+        if shown is None or cell.tip != shown.tip:
+            self.setToolTip(column, cell.tip)
+        if cell.spoken and (shown is None or (cell.copied, cell.spoken) != (shown.copied, shown.spoken)):
+            self.setData(column, Qt.ItemDataRole.UserRole, cell.copied)
+            self.setData(column, Qt.ItemDataRole.AccessibleTextRole, cell.spoken)
+
+
 def _shape(variable: Variable) -> tuple[str, int]:
     return variable.name, len(variable.now) if isinstance(variable.now, tuple) else 0
 
 
-def _new_item(variable: Variable) -> QTreeWidgetItem:
-    item = QTreeWidgetItem([variable.name])
+def _new_item(variable: Variable) -> _VariableItem:
+    item = _VariableItem(variable.name)
     if isinstance(variable.now, tuple):
         named = len(variable.now) <= len(_COMPONENTS)
         for k in range(len(variable.now)):
-            item.addChild(QTreeWidgetItem([_COMPONENTS[k] if named else f"[{k}]"]))
+            item.addChild(_VariableItem(_COMPONENTS[k] if named else f"[{k}]"))
     return item

@@ -126,3 +126,35 @@ def test_variables_have_the_digits_of_formulas(value: float) -> None:
     written = latex_text(value)
     assert text == written or "e" in text
     assert ("cdot" in written) == ("e" in text)
+
+
+def test_only_cells_that_differ_are_set_and_laid_out_again(qtbot, view) -> None:
+    still = tuple(Variable(v.name, v.now, v.now, v.meaning, v.vertex) for v in STEP)
+    view.show_variables(still)
+    changed = []
+    view.model().dataChanged.connect(lambda first, last: changed.append((first.row(), first.column())))
+    view.show_variables(tuple(Variable(v.name, v.now, v.now, v.meaning, v.vertex) for v in STEP))
+    assert changed == []
+    view.show_variables((Variable("x", 14, 14), *still[1:]))
+    assert set(changed) == {(0, 1), (0, 2)}
+
+
+def test_a_closed_vector_is_written_when_it_is_opened(view) -> None:
+    view.show_variables(STEP)
+    centre = view.topLevelItem(1)
+    assert centre.child(0).text(1) == ""
+    centre.setExpanded(True)
+    assert [centre.child(k).text(1) for k in range(2)] == ["13.5", "7.5"]
+    centre.setExpanded(False)
+    view.show_variables((STEP[0], Variable("centre", (14.5, 7.5), (13.5, 7.5)), *STEP[2:]))
+    centre.setExpanded(True)
+    assert centre.child(0).text(1) == "14.5"
+    assert centre.child(0).data(1, Qt.ItemDataRole.AccessibleTextRole) == "x 14.5, changed"
+
+
+def test_numbers_of_the_same_text_copy_in_full(view) -> None:
+    view.show_variables((Variable("t", 1 / 3, 0.0),))
+    view.show_variables((Variable("t", 1 / 3 + 1e-9, 0.0),))
+    view.topLevelItem(0).setSelected(True)
+    view.copy_values()
+    assert QGuiApplication.clipboard().text() == f"t = {1 / 3 + 1e-9!r}"
