@@ -41,3 +41,9 @@ def test_the_process_of_the_first_picture_imports_little() -> None:
     imported = imported_by("import app.bench.first_picture")
     assert "app.bench.records" in imported
     assert not {"core", "subprocess", "tempfile", "zipfile"} & imported
+
+
+def test_a_colour_map_comes_without_pyqtgraph() -> None:
+    imported = imported_by("from widgets.basics.colormaps import colormap_table; colormap_table('viridis')")
+    assert "widgets.basics.colormaps" in imported
+    assert "pyqtgraph" not in imported

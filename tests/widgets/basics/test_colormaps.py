@@ -12,6 +12,13 @@ def test_tables_are_read_only_bytes(name: str) -> None:
     assert not table.flags.writeable
 
 
+@pytest.mark.parametrize("name", ["viridis", "cividis"])
+def test_maps_are_those_of_pyqtgraph(name: str) -> None:
+    from pyqtgraph import colormap
+
+    np.testing.assert_array_equal(colormap_table(name), colormap.get(name).getLookupTable(nPts=256))
+
+
 def test_viridis_runs_from_purple_to_yellow() -> None:
     table = colormap_table("viridis")
     assert table[0].tolist() == [68, 1, 84]
