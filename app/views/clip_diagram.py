@@ -42,6 +42,8 @@ class ClipState:
     corner: Floats | None = field(repr=False)
     """(4,) the new corner that the step just done has made."""
     sentence: str = ""
+    is_kept_whole: bool = False
+    """Whether the step just done has let the triangle pass as it is."""
 
 
 def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
@@ -50,9 +52,11 @@ def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     stage = trace.stage("clip")
     before = geometry.vertices.clip[geometry.vertices.corners[triangle]]
     none = np.empty((0, 4))
+    row = -1 if position is None else stage.steps.row_at(position)[0]
+    is_now = row >= 0 and stage.triangle[row] == triangle
 
     def still(polygon: Floats, sentence: str) -> ClipState:
-        return ClipState(triangle, before, polygon, none, -1, None, None, sentence)
+        return ClipState(triangle, before, polygon, none, -1, None, None, sentence, is_now)
 
     kept = np.flatnonzero(geometry.kept.triangle == triangle)
     if not len(kept):
@@ -224,6 +228,8 @@ def _shapes(
     for k in range(3):
         ends = before[[(k + 1) % 3, (k + 2) % 3]]
         strokes.append(Stroke(ends, f"vertex {k}", 2.2 if is_whole else 1.4, "solid" if is_whole else "dash"))
+    if state.is_kept_whole:
+        strokes.append(Stroke(before, "accent", 1.6, "dash", is_closed=True))
     if len(state.polygon):
         polygon = place(state.polygon)
         patches.append(Patch(polygon, "covered", 0.4))

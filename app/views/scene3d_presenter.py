@@ -24,14 +24,17 @@ from app.views.scene_picture import (
     triangle_seen,
 )
 from app.views.scene_worker import SceneWorker
-from app.views.view_space import ViewSpace, make_space, move_corner_to
+from app.views.step_marks import is_scene_lit, step_marks
+from app.views.view_space import ViewSpace, make_space, move_corner_to, with_triangles
 from core.fast_path.workers import BandWorkers
+from core.records.arrays import Integers
 from core.records.words import counted
-from core.scene import Scene
+from core.scene import AnyScene, Scene
+from core.trace.geometry_progress import is_dropped
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.frame_corner import FrameRate
 from widgets.space.orbit import Orbit, fitted
-from widgets.space.scene_view import SceneHandle, ScenePicture, SceneView
+from widgets.space.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
 
 FIGURES_MS = 200
 """Figures change at most this often: faster, nobody could read them."""
@@ -57,6 +60,7 @@ class Scene3dPresenter(QObject):
         self._space: ViewSpace | None = None
         self._document: Document | None = None
         self._drawn: DrawnScene | None = None
+        self._drawn_state = (False, b"")
         self._home = Orbit()
         self._size_name = OWN_SIZE
         self._rate = FrameRate()
@@ -88,6 +92,8 @@ class Scene3dPresenter(QObject):
         document = self._session.document
         if self._document is document and self._space is not None:
             self.refresh_marks()
+            if self._state() != self._drawn_state:
+                self._draw()
             return
         before = self._document
         self._document = document
@@ -97,6 +103,13 @@ class Scene3dPresenter(QObject):
         self._view.set_caption(self._caption())
         self.refresh_marks()
         self._draw()
+
+    def _state(self) -> tuple[bool, bytes]:
+        """Return what of the run the picture depends on: whether it is shaded, and which triangles are dropped."""
+        cursor = self._session.cursor
+        return is_scene_lit(self._session), is_dropped(
+            self._session.trace, cursor.stage, cursor.position
+        ).tobytes()
 
     def look_at_focus(self) -> None:
         """Magnify the triangle in focus, from the present direction."""
@@ -179,18 +192,32 @@ class Scene3dPresenter(QObject):
         if self._space is None:
             return
         thickness = self._view.pixels_per_point() * current_theme().text_px / 13
+        self._drawn_state = self._state()
+        scene, numbers = self._scene_left()
         shot = SceneShot(
             self._space,
-            self._space.scene,
-            None,
+            scene,
+            numbers,
             self._session.document.settings,
             self._view.orbit(),
             self._view.picture_size(),
             self.focus,
             thickness,
             current_theme(),
+            self._drawn_state[0],
         )
         self._worker.start(partial(draw_thinned, shot, self._thinning, self._band_workers, self._backs))
+
+    def _scene_left(self) -> tuple[AnyScene, Integers | None]:
+        """Return the scene without the triangles that are dropped by now, and the numbers of those left."""
+        cursor, trace = self._session.cursor, self._session.trace
+        dropped = is_dropped(trace, cursor.stage, cursor.position)
+        assert self._space is not None
+        scene = self._space.scene
+        if self.focus is not None or not dropped.any() or dropped.all():
+            return scene, None
+        left = trace.source.geometry.assembled.triangle[~dropped]
+        return with_triangles(scene, left), left
 
     @Slot(object)
     def _take_drawn(self, drawn: DrawnScene) -> None:
@@ -215,8 +242,14 @@ class Scene3dPresenter(QObject):
             for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
             if 0 <= x <= 1 and 0 <= y <= 1
         )
-        marks = pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
-        picture = ScenePicture(drawn.pixels, tuple(handles), marks, labels, self._caption(), drawn.sight)
+        marks = [
+            SceneMark(fractions(space, orbit, size, mark.points), mark.ink, mark.label, mark.shape)
+            for mark in step_marks(self._session, space)
+        ]
+        marks += pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
+        picture = ScenePicture(
+            drawn.pixels, tuple(handles), tuple(marks), labels, self._caption(), drawn.sight
+        )
         self._view.show_picture(picture)
 
     # Figures.

@@ -17,7 +17,7 @@ from core.geometry.matrices import transform
 from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Floats, Integers
-from core.scene import AnyScene, Scene
+from core.scene import AnyScene, DirectionalLight, Scene
 from core.trace import scene_triangle_count
 from widgets.basics.theme import Theme, ink_color
 from widgets.space.orbit import Orbit
@@ -50,6 +50,8 @@ class SceneShot:
     thickness: float
     """Pixels of a line of width 1."""
     theme: Theme
+    is_lit: bool = True
+    """Whether the scene's own lights shine: before its fragments are shaded, a lamp at the viewer shows the shape."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,12 +65,15 @@ class DrawnScene:
     sight: ViewDepth
 
 
-def view_settings(scene: AnyScene, settings: Settings, are_backs_hidden: bool = False) -> Settings:
+def view_settings(shot: SceneShot, are_backs_hidden: bool = False) -> Settings:
     """Return the settings of the view: the document's look, every face that may be seen, and what draws fastest."""
+    settings, shading = shot.settings, "unlit"
+    if isinstance(shot.scene, Scene):
+        shading = settings.shading if shot.is_lit else "flat"
     return Settings(
         cull="back" if are_backs_hidden else "none",
         fill="spans",
-        shading=settings.shading if isinstance(scene, Scene) else "unlit",
+        shading=shading,
         texture_filter=settings.texture_filter,
         wrap=settings.wrap,
         depth="fixed-38",
@@ -89,8 +94,8 @@ class Thinning:
             return shot
         if self._thinned is None or self._scene is not shot.scene:
             self._scene, self._thinned = shot.scene, thinned(shot.scene, MOST_TRIANGLES)
-        scene, numbers = self._thinned
-        return replace(shot, scene=scene, numbers=numbers)
+        scene, chosen = self._thinned
+        return replace(shot, scene=scene, numbers=chosen if shot.numbers is None else shot.numbers[chosen])
 
 
 def draw_thinned(shot: SceneShot, thinning: Thinning, workers: BandWorkers, backs: HiddenBacks) -> DrawnScene:
@@ -103,7 +108,7 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     begin = perf_counter()
     viewed, _ = _viewed(shot)
     are_backs_hidden = backs.are_hidden(viewed)
-    settings = view_settings(shot.scene, shot.settings, are_backs_hidden)
+    settings = view_settings(shot, are_backs_hidden)
     width, height = shot.size
     pixels = np.empty((height, width, 4), np.uint8)
     lines = tuple(
@@ -144,7 +149,7 @@ def triangle_seen(shot: SceneShot, column: int, row: int) -> int:
     Only this pixel is drawn, by the same rules as the picture, so a picture need not remember its triangles.
     """
     viewed, pieces = _viewed(shot)
-    settings = view_settings(shot.scene, shot.settings)
+    settings = view_settings(shot)
     raster = make_raster(shot.size, settings.pixel_center, (column, row, 1, 1))
     seen = int(draw(viewed, settings, raster).primitive[0, 0])
     for of_drawn in (pieces, shot.numbers):
@@ -156,8 +161,11 @@ def triangle_seen(shot: SceneShot, column: int, row: int) -> int:
 def _viewed(shot: SceneShot) -> tuple[AnyScene, Integers | None]:
     """Return the scene as the viewing camera sees it, see ``viewed_scene``; its meshes are the same."""
     background = np.append(linear_light(_bytes_of(shot.theme.canvas) / 255), 1.0)
-    camera = viewing_camera(shot.space, shot.orbit)
-    return viewed_scene(shot.space, shot.scene, camera, shot.size, background)
+    camera, scene = viewing_camera(shot.space, shot.orbit), shot.scene
+    if isinstance(scene, Scene) and not shot.is_lit:
+        right, up, back = shot.orbit.axes()
+        scene = replace(scene, lights=(DirectionalLight(0.3 * right - 0.4 * up - back),))
+    return viewed_scene(shot.space, scene, camera, shot.size, background)
 
 
 def _inverse_w(camera: Camera, depth: Floats) -> Floats:

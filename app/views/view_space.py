@@ -18,6 +18,7 @@ from core.geometry.vertex_stage import VertexStage, vertex_normals
 from core.records.arrays import Floats, Integers
 from core.records.primitives import Primitives
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from core.trace import scene_triangle_count
 from widgets.space.orbit import Orbit
 
 FIELD_OF_VIEW = 0.7
@@ -146,22 +147,24 @@ def viewed_scene(
 
 def thinned(scene: AnyScene, limit: int) -> tuple[AnyScene, Integers]:
     """Return a scene with every k-th triangle, at most ``limit``, and their numbers (T',)."""
+    total = scene_triangle_count(scene)
+    chosen = np.arange(0, total, -(-total // limit))
+    return with_triangles(scene, chosen), chosen
+
+
+def with_triangles(scene: AnyScene, chosen: Integers) -> AnyScene:
+    """Return a scene with some of its triangles, (T',) numbers that rise; a mesh without any is left out."""
     if isinstance(scene, ClipScene):
         assert scene.attributes is not None
-        chosen = np.arange(0, len(scene.clip), -(-len(scene.clip) // limit))
-        return replace(
-            scene, clip=scene.clip[chosen], attributes=scene.attributes[chosen], shared=None
-        ), chosen
-    total = sum(len(mesh.triangles) for mesh in scene.meshes)
-    step = -(-total // limit)
-    meshes, numbers, first = [], [], 0
+        return replace(scene, clip=scene.clip[chosen], attributes=scene.attributes[chosen], shared=None)
+    meshes, first = [], 0
     for mesh in scene.meshes:
-        chosen = np.arange((-first) % step, len(mesh.triangles), step)
-        if len(chosen):
-            meshes.append(_mesh_of(mesh, chosen))
-            numbers.append(first + chosen)
-        first += len(mesh.triangles)
-    return replace(scene, meshes=tuple(meshes)), np.concatenate(numbers)
+        end = first + len(mesh.triangles)
+        of_mesh = chosen[(chosen >= first) & (chosen < end)] - first
+        if len(of_mesh):
+            meshes.append(_mesh_of(mesh, of_mesh))
+        first = end
+    return replace(scene, meshes=tuple(meshes))
 
 
 def _mesh_of(mesh: Mesh, chosen: Integers) -> Mesh:

@@ -1,7 +1,5 @@
 """A row of small linked pixel grids: the same pixel in every buffer, with its value under each."""
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import (
@@ -17,6 +15,7 @@ from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.marks import StepMark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay
 from widgets.grid.pixel_grid import PixelGrid
@@ -110,7 +109,7 @@ class BufferStrip(QWidget):
         self._chosen = ""
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
-        self._step: NDArray[np.integer] | None = None
+        self._step = StepMark()
         self._geometry: GridGeometry | None = None
         # Tiles side by side differ by a pixel in width.
         self._outlines = OutlineLayer(most=4)
@@ -184,11 +183,11 @@ class BufferStrip(QWidget):
             tile.grid.show_pin(pixel)
         self._show_values()
 
-    def show_step(self, pixels: NDArray[np.integer] | None) -> None:
-        """Outline the (N, 2) pixels of the step just done in every grid."""
-        self._step = pixels
+    def show_step(self, mark: StepMark) -> None:
+        """Mark the step just done in every grid."""
+        self._step = mark
         for tile in self._tiles.values():
-            tile.grid.show_step(pixels)
+            tile.grid.show_step(mark)
 
     def show_geometry(self, geometry: GridGeometry | None) -> None:
         """Show triangles as thin lines in every grid."""

@@ -13,7 +13,7 @@ from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.canvas import GridCanvas
 from widgets.grid.geometry import GridGeometry, paint_focus
-from widgets.grid.marks import marked_rect, paint_hover, paint_pin, paint_step
+from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay
 from widgets.grid.paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
@@ -36,7 +36,7 @@ class GridDisplay(QWidget):
         self._corner = 0.0
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
-        self._step: NDArray[np.integer] | None = None
+        self._step = StepMark()
         self._ring = FocusRing(self)
         self._vertex: int | None = None
         """The vertex under the pointer or being dragged."""
@@ -68,8 +68,8 @@ class GridDisplay(QWidget):
         """Return the pinned pixel."""
         return self._pin
 
-    def step(self) -> NDArray[np.integer] | None:
-        """Return the (N, 2) pixels of the step just done; None: none."""
+    def step(self) -> StepMark:
+        """Return the mark of the step just done."""
         return self._step
 
     def placement(self) -> GridPlacement:
@@ -117,22 +117,14 @@ class GridDisplay(QWidget):
             before, self._pin = self._pin, pixel
             self._update_marks(before, pixel)
 
-    def show_step(self, pixels: NDArray[np.integer] | None) -> None:
-        """Outline the (N, 2) pixels (column, row) of the step just done; None: none."""
-        if pixels is not None and (pixels.ndim != 2 or pixels.shape[1] != 2):
-            raise ValueError(f"pixels must be (N, 2), got {pixels.shape}")
-        before, self._step = self._step, pixels
-        same = before is pixels or (
-            before is not None and pixels is not None and np.array_equal(before, pixels)
-        )
-        if not same:
+    def show_step(self, mark: StepMark) -> None:
+        """Mark what the step just done was about."""
+        before, self._step = self._step, mark
+        if not before.is_same(mark):
             placement = self.placement()
-            for shown in (before, pixels):
-                if shown is not None and len(shown):
-                    (column0, row0), (column1, row1) = shown.min(axis=0).tolist(), shown.max(axis=0).tolist()
-                    self._update_rect(
-                        placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
-                    )
+            for reach in (before.reach(placement), mark.reach(placement)):
+                if not reach.isNull():
+                    self._update_rect(reach)
 
     def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
         """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
@@ -226,8 +218,7 @@ class GridDisplay(QWidget):
         painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
         if self._geometry is not None:
             self._paint_geometry(painter, placement, self._geometry)
-        if self._step is not None:
-            paint_step(painter, placement, self._step, theme)
+        paint_step_mark(painter, placement, self._step, theme)
         if self._pin is not None and self._is_inside(self._pin):
             paint_pin(painter, placement, self._pin)
         if self._hover is not None and self._is_inside(self._hover):

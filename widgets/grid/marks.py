@@ -1,15 +1,90 @@
 """Marks on single pixels: the one under the pointer, the pinned one, and those of the step just done."""
 
+import itertools
+from dataclasses import dataclass, field
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from widgets.basics.theme import Theme
+from widgets.basics.theme import Theme, faded
+from widgets.grid.line_clip import widget_lines
 from widgets.grid.view import GridPlacement
 
 _LEAST_SIDE = 7.0
 """Marks of smaller cells are drawn around the cell at this size, so that they are found."""
+
+
+@dataclass(frozen=True, eq=False)
+class StepMark:
+    """What the step just done was about, in the columns and rows of a grid."""
+
+    pixels: NDArray[np.integer] = field(default_factory=lambda: np.empty((0, 2), np.int64), repr=False)
+    """(N, 2) columns and rows."""
+    lines: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2, 2)), repr=False)
+    """(L, 2, 2) ends of lines in the window, y up; NaN: none."""
+    points: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)), repr=False)
+    """(P, 2) places in the window."""
+    trail: NDArray[np.integer] = field(default_factory=lambda: np.empty((0, 2), np.int64), repr=False)
+    """(K, 2) pixels that were looked at one after the other, those of the step last."""
+
+    def __post_init__(self) -> None:
+        if self.pixels.ndim != 2 or self.pixels.shape[1] != 2:
+            raise ValueError(f"pixels must be (N, 2), got {self.pixels.shape}")
+
+    def is_same(self, other: "StepMark") -> bool:
+        """Return whether both mark the same."""
+        names = ("pixels", "lines", "points", "trail")
+        return all(
+            np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("lines", "points"))
+            for name in names
+        )
+
+    def reach(self, placement: GridPlacement) -> QRectF:
+        """Return where in the widget something is marked; lines may lie anywhere."""
+        if len(self.lines) or len(self.points):
+            return QRectF(placement.viewport)
+        places = np.concatenate([self.pixels, self.trail])
+        if not len(places):
+            return QRectF()
+        (column0, row0), (column1, row1) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
+        return placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
+
+
+def paint_step_mark(painter: QPainter, placement: GridPlacement, mark: StepMark, theme: Theme) -> None:
+    """Paint the trail below, then the pixels, lines and points of the step in the accent."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    _paint_trail(painter, placement, mark.trail, theme)
+    lines, _ = widget_lines(mark.lines, placement, False)
+    for pen in (_pen(theme.halo(), 5.0), _pen(theme.accent, 3.0)):
+        painter.setPen(pen)
+        painter.drawLines(lines)
+        for x, y in mark.points[np.isfinite(mark.points).all(axis=1)].tolist():
+            painter.drawEllipse(placement.to_widget(x, y), 9.0, 9.0)
+    painter.restore()
+    paint_step(painter, placement, mark.pixels, theme)
+
+
+def _paint_trail(
+    painter: QPainter, placement: GridPlacement, trail: NDArray[np.integer], theme: Theme
+) -> None:
+    """Draw the order of the last pixels: a line that grows stronger, dashed where it jumps, with a head."""
+    centers = [placement.cells_rect(column, row).center() for column, row in trail.tolist()]
+    for k, (start, end) in enumerate(itertools.pairwise(centers)):
+        is_jump = int(np.abs(trail[k + 1] - trail[k]).max()) > 1
+        style = Qt.PenStyle.DotLine if is_jump else Qt.PenStyle.SolidLine
+        strength = 0.25 + 0.75 * (k + 1) / len(centers)
+        for color, width in ((theme.halo(), 3.4), (theme.accent, 1.6)):
+            painter.setPen(QPen(faded(color, strength), width, style))
+            painter.drawLine(start, end)
+    if len(centers) > 1:
+        line = QLineF(centers[-2], centers[-1])
+        side = min(max(0.3 * placement.cell, 4.0), 9.0)
+        painter.setPen(QPen(QColor(theme.accent), 1.6))
+        for turn in (150.0, 210.0):
+            painter.drawLine(QLineF.fromPolar(side, line.angle() + turn).translated(centers[-1]))
 
 
 def paint_step(

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.files.state_models import GridLook
@@ -18,18 +17,18 @@ from app.pages.step.grid_records import (
 )
 from app.pages.step.guesses import Guesses
 from app.pages.step.main_area import MainArea
+from app.pages.step.step_mark import step_mark
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Session
-from core.records.arrays import Integers
-from core.records.steps import Level
+from core import STAGES
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Overlay
 from widgets.grid.overlay_legend import OverlayLegend
 from widgets.grid.view import GridView
 
-HIGHLIGHT_LIMIT = 4096
-"""Pixels of a step that are outlined."""
+OUTLINING = ("transform", "cull")
+"""Stages in which outlines appear and vanish."""
 DEFAULT_OVERLAYS = {
     "edges": frozenset({"edge lines"}),
     "bin": frozenset({"blocks"}),
@@ -85,6 +84,7 @@ class GridPresenter(QObject):
         self._guesses: Guesses | None = None
         self._focus = 0
         self._stepped_to = session.cursor
+        self._outlined_at = ("", 0)
         self._geometry = geometry_of(session.document, session.trace, 0)
         self.refresh_run()
 
@@ -114,6 +114,8 @@ class GridPresenter(QObject):
                 self._focus_on(int(session.stage_trace.triangle[row]))
         self._stepped_to = session.cursor
         stage = session.cursor.stage
+        if self._outlined_at != self._geometry_step():
+            self._show_outlines()
         buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
         names = [buffer.name for buffer in buffers]
         guesses = self._guesses
@@ -132,9 +134,9 @@ class GridPresenter(QObject):
             shown = frozenset(overlay.key for overlay in overlays)
         self._legend.show_overlays(overlays, shown)
         self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
-        pixels = self._step_pixels()
-        self._grid.show_step(pixels)
-        self._strip.show_step(pixels)
+        mark = step_mark(session)
+        self._grid.show_step(mark)
+        self._strip.show_step(mark)
 
     def look(self) -> GridLook:
         """Return what the user has chosen to see."""
@@ -185,8 +187,17 @@ class GridPresenter(QObject):
         """The outlines that are shown, in the columns and rows of the grid."""
         return self._geometry
 
+    def _geometry_step(self) -> tuple[str, int]:
+        """Return the step that outlines depend on: none behind the stages that move corners and drop triangles."""
+        cursor = self._session.cursor
+        if cursor.stage not in OUTLINING:
+            return STAGES[-1], 0
+        return cursor.stage, self._session.stage_trace.steps.rows_done(cursor.position)
+
     def _show_outlines(self) -> None:
-        geometry = geometry_of(self._session.document, self._session.trace, self._focus)
+        session, self._outlined_at = self._session, self._geometry_step()
+        step = session.cursor.stage, session.cursor.position
+        geometry = geometry_of(session.document, session.trace, self._focus, *step)
         self._geometry = geometry
         self._grid.show_geometry(geometry)
         self._strip.show_geometry(geometry)
@@ -213,30 +224,9 @@ class GridPresenter(QObject):
             found.append(spans)
         found += area_overlays(trace, session.trace.source.raster, position)
         found += clip_overlays(trace, session.trace.source.raster, position)
-        lines = edge_overlay(self._geometry)
+        lines = edge_overlay(self._geometry, trace, position)
         if lines is not None:
             found.append(lines)
-        return found
-
-    def _step_pixels(self) -> Integers | None:
-        """Return the pixels of the step just done, in the grid's columns and rows."""
-        session = self._session
-        trace, cursor = session.stage_trace, session.cursor
-        row, _ = trace.steps.row_at(cursor.position)
-        if row < 0 or cursor.level <= Level.TRIANGLE:
-            return None
-        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
-        first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
-        if trace.stage == "bin" and trace.kind_of(row) == "block":
-            values = trace.variables(row)
-            column, line, size = int(values["column"]), int(values["row"]), int(values["size"])
-            columns = np.arange(max(column, first_column), min(column + size, end_column))
-            rows = np.arange(max(line, first_row), min(line + size, end_row))
-            pixels = np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
-        else:
-            pixels = trace.pixel[first : row + 1]
-            pixels = pixels[pixels[:, 0] >= 0][:HIGHLIGHT_LIMIT]
-        found: Integers = pixels - np.array([first_column, first_row])
         return found
 
     def _ranged(self, buffer: GridBuffer) -> GridBuffer:

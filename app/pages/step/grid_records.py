@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.session.document import Document
-from core import Trace
+from core import STAGES, Trace
 from core.explain.stage_texts import depth_text
 from core.framebuffer.display import to_display
 from core.raster.edges.snapping import SUBPIXELS
@@ -15,6 +15,7 @@ from core.records.arrays import Integers
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.edges import half_plane, known_edges
+from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
 from core.trace.symbols import symbols_of
 from widgets.grid.buffer import BufferKind, GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -110,13 +111,17 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     )
 
 
-def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> GridGeometry:
+def geometry_of(
+    document: Document, trace: Trace, focus: int | None = None, stage: str = STAGES[-1], position: int = 0
+) -> GridGeometry:
     """Return the outlines of the traced triangles, in the columns and rows of the grid.
 
     Parameters
     ----------
     focus : int, optional
         The triangle with coloured edges and handles, where the document has none in focus.
+    stage, position : str, int
+        The step: corners that have not reached the window by then have no place, nor have triangles that are dropped.
     """
     source = trace.source
     geometry = source.geometry
@@ -125,7 +130,12 @@ def geometry_of(document: Document, trace: Trace, focus: int | None = None) -> G
     corners = geometry.vertices.corners[triangles].ravel()
     first_column, first_row, _, _ = source.raster.bounds
     origin = np.array([first_column, first_row], float)
-    in_front = geometry.vertices.clip[corners, 3:] > 0
+    chosen = np.isin(geometry.assembled.triangle, triangles)
+    is_placed = spaces_reached(trace, stage, position)[chosen] == WINDOW
+    # The triangle in focus keeps its handles: a drag may bring it back.
+    is_left = ~is_dropped(trace, stage, position)[chosen] | (triangles == wanted)
+    is_placed &= is_left[:, None]
+    in_front = (geometry.vertices.clip[corners, 3:] > 0) & is_placed.reshape(-1, 1)
     window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
@@ -145,13 +155,16 @@ def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
     return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
 
 
-def edge_overlay(geometry: GridGeometry) -> SegmentOverlay | None:
-    """Return the edges of the triangle in focus as whole lines."""
-    if geometry.focus < 0:
+def edge_overlay(geometry: GridGeometry, stage: StageTrace, position: int) -> SegmentOverlay | None:
+    """Return the edges of the triangle in focus that are set up by now as whole lines."""
+    count = 0 if STAGES.index(stage.stage) < STAGES.index("edges") else 3
+    if stage.stage == "edges":
+        count = known_edges(stage.steps.rows_done(position))[1]
+    if geometry.focus < 0 or not count:
         return None
     a, b, c = geometry.vertices[geometry.triangles[geometry.focus]]
-    segments = np.array([[b, c], [c, a], [a, b]])
-    return SegmentOverlay("edge lines", segments, (0, 1, 2), extended=True, title="edge lines")
+    segments = np.array([[b, c], [c, a], [a, b]])[:count]
+    return SegmentOverlay("edge lines", segments, (0, 1, 2)[:count], extended=True, title="edge lines")
 
 
 def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverlay | None:

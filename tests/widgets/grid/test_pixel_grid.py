@@ -15,6 +15,7 @@ from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, color_at, picture
 from widgets.basics.theme import current_theme
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry, handle_part
+from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Mark, MaskOverlay
 from widgets.grid.paint import ruler_labels
 from widgets.grid.pixel_grid import PixelGrid
@@ -132,7 +133,7 @@ def test_marks_change_only_their_surroundings(grid: PixelGrid) -> None:
         assert marked.copy(far) == plain.copy(far)
         show(None)
         assert picture(grid) == plain
-    grid.show_step(np.array([[10, 7], [11, 7]]))
+    grid.show_step(StepMark(np.array([[10, 7], [11, 7]])))
     accent = QColor(current_theme().accent)
     stepped = picture(grid)
     edge = grid.placement().cells_rect(10, 7).topLeft().toPoint() + QPoint(8, 0)
@@ -141,18 +142,18 @@ def test_marks_change_only_their_surroundings(grid: PixelGrid) -> None:
     between = grid.placement().cells_rect(11, 7)
     inside = QPoint(int(between.left()), int(between.center().y()) + 5)
     assert stepped.pixelColor(inside) == plain.pixelColor(inside)
-    grid.show_step(None)
+    grid.show_step(StepMark())
     assert picture(grid) == plain
 
 
 def test_a_step_outside_of_the_raster_does_no_harm(grid: PixelGrid) -> None:
     plain = picture(grid)
-    grid.show_step(np.array([[-5, 3], [400, 2]]))
+    grid.show_step(StepMark(np.array([[-5, 3], [400, 2]])))
     assert picture(grid) == plain
-    grid.show_step(np.zeros((0, 2), np.int64))
+    grid.show_step(StepMark())
     assert picture(grid) == plain
     with pytest.raises(ValueError, match="pixels must be"):
-        grid.show_step(np.zeros(3, np.int64))
+        StepMark(np.zeros(3, np.int64))
 
 
 @pytest.mark.parametrize("zoom", [1.0, 2.5])
@@ -181,7 +182,7 @@ def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoo
             widget.show_geometry(TRIANGLE)
             widget.show_buffer(buffer)
             widget.show_overlays(overlays)
-            widget.show_step(step)
+            widget.show_step(StepMark(step, trail=step + np.array([[-1, 0], [0, 0]])))
         QApplication.processEvents()
         assert picture(grid) == picture(fresh), index
 
@@ -194,7 +195,7 @@ def test_the_same_again_paints_nothing(grid: PixelGrid, qtbot) -> None:
     def show() -> None:
         grid.show_buffer(GridBuffer("z", values.copy()))
         grid.show_overlays([MaskOverlay("c", Mark.COVERED, mask.copy())])
-        grid.show_step(step.copy())
+        grid.show_step(StepMark(step.copy()))
         grid.show_pin((2, 2))
         grid.show_hover((3, 3))
         grid.set_view(GridView(0.5, 0.5, 1.5))

@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, drag, shown_grid, wheel
+from widgets.grid.marks import StepMark
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import FIT, GridView
 
@@ -51,7 +52,7 @@ def test_slots_emit_nothing(grid: PixelGrid, qtbot) -> None:
             grid.show_hover((1, 1))
             grid.show_pin((2, 2))
             grid.show_geometry(TRIANGLE)
-            grid.show_step(np.array([[3, 3]]))
+            grid.show_step(StepMark(np.array([[3, 3]])))
             grid.set_view(GridView(0.3, 0.3, 2.0))
 
 

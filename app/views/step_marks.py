@@ -1,0 +1,116 @@
+"""What the step just done was about, marked in the 3D view: corners as they move on, triangles and how they face."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.session.session import Session
+from app.views.view_space import ViewSpace
+from core.geometry.culling import KEPT, REASONS
+from core.records.arrays import Floats
+from core.stages.declared import GEOMETRY_STAGES, STAGES
+from core.trace.geometry_progress import SPACES, is_dropped, spaces_reached
+
+MOST_MARKS = 400
+"""Corners or arrows that are marked: of more, a part would look like a shape of its own."""
+ARROW = 0.16
+"""Length of an arrow, as a part of the view's radius."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceMark:
+    """A line through points of the space that is shown, with a mark and a name at its last point."""
+
+    points: Floats = field(repr=False)
+    """(N, 3) float64."""
+    ink: str
+    label: str = ""
+    shape: str = "none"
+    """As of ``widgets.space.scene_view.SceneMark``."""
+
+
+def step_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
+    """Return the marks of the step just done, the present item last and in the accent."""
+    stage, position = session.cursor.stage, session.cursor.position
+    if stage == "transform":
+        return _corner_marks(session, space, position)
+    if stage == "cull":
+        return _facing_marks(session, space, position)
+    row, _ = session.stage_trace.steps.row_at(position)
+    if row < 0 or (stage not in GEOMETRY_STAGES and stage != "bin"):
+        return []
+    return [_outline(space, int(session.stage_trace.triangle[row]))]
+
+
+def is_scene_lit(session: Session) -> bool:
+    """Return whether every fragment has its colour, so that the scene's lights are no longer future."""
+    stage = session.cursor.stage
+    if stage != "shade":
+        return STAGES.index(stage) > STAGES.index("shade")
+    return session.cursor.position == session.stage_trace.steps.count
+
+
+def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[SpaceMark]:
+    """Return a dot on every corner that has left its first space, and a ring on the one of the step."""
+    source, trace = session.trace.source, session.stage_trace
+    triangles = source.geometry.assembled.triangle
+    reached = spaces_reached(session.trace, "transform", position)
+    started = reached > spaces_reached(session.trace, "transform", 0)
+    marks = []
+    if started.sum() <= MOST_MARKS:
+        for number in np.flatnonzero(started.any(axis=1)).tolist():
+            corners = space.corners(int(triangles[number]))[started[number]]
+            marks += [SpaceMark(corner[None], "text", shape="disc") for corner in corners]
+    row, _ = trace.steps.row_at(position)
+    if row >= 0:
+        triangle, corner = int(trace.triangle[row]), int(trace.columns["corner"][row])
+        number = int(np.flatnonzero(triangles == triangle)[0])
+        label = f"vertex {trace.columns['vertex'][row]}: {SPACES[reached[number, corner]]} space"
+        marks.append(SpaceMark(space.corners(triangle)[corner][None], "accent", label, "ring"))
+    return marks
+
+
+def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[SpaceMark]:
+    """Return an arrow on every kept triangle, and outline and verdict of the one of the step.
+
+    An arrow stands on the front of a triangle. Its end is a disc where the camera sees the front, else a cross.
+    """
+    source, trace = session.trace.source, session.stage_trace
+    culled, triangles = source.geometry.culled, source.geometry.assembled.triangle
+    row, _ = trace.steps.row_at(position)
+    tested = int(np.searchsorted(trace.steps.triangle_ends, trace.steps.rows_done(position), "right"))
+    current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
+    kept = np.flatnonzero(culled.verdict[: min(tested, len(triangles))] == KEPT)
+    marks = []
+    for number in kept.tolist() if len(kept) <= MOST_MARKS else []:
+        if number != current:
+            marks.append(_arrow(space, int(triangles[number]), float(culled.facing[number]), "text"))
+    if current < 0:
+        return marks
+    triangle, kind = int(triangles[current]), trace.kind_of(row)
+    marks.append(_outline(space, triangle))
+    facing = float(culled.facing[current])
+    side = f"front, area {facing / 2:+.4g}" if facing > 0 else f"back, area {facing / 2:+.4g}"
+    if is_dropped(session.trace, "cull", position)[current]:
+        label = f"triangle {triangle}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
+        marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
+    elif kind in ("facing", "kept", "degenerate"):
+        marks.append(_arrow(space, triangle, facing, "accent", f"triangle {triangle}: {side}"))
+    else:
+        what = "behind the eye?" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane?"
+        label = f"triangle {triangle}: {what}"
+        marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label))
+    return marks
+
+
+def _outline(space: ViewSpace, triangle: int) -> SpaceMark:
+    return SpaceMark(space.corners(triangle)[[0, 1, 2, 0]], "accent")
+
+
+def _arrow(space: ViewSpace, triangle: int, facing: float, ink: str, label: str = "") -> SpaceMark:
+    corners = space.corners(triangle)
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    length = float(np.linalg.norm(normal))
+    foot = corners.mean(axis=0)
+    tip = foot + normal * (ARROW * space.radius / length) if length > 0 else foot
+    return SpaceMark(np.stack([foot, tip]), ink, label, "disc" if facing > 0 else "cross")

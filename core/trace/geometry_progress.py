@@ -1,0 +1,41 @@
+"""Which geometry there is after a step: the spaces that corners have reached, and the triangles that are dropped."""
+
+import numpy as np
+
+from core.geometry.culling import KEPT
+from core.records.arrays import Flags, Integers
+from core.stages.declared import STAGES
+from core.trace import Trace
+
+SPACES = ("object", "world", "camera", "clip", "NDC", "window")
+"""Spaces of a corner, in the order in which it goes through them."""
+CLIP, WINDOW = SPACES.index("clip"), SPACES.index("window")
+
+
+def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
+    """Return (T, 3) int64, the space of `SPACES` that each corner of the assembled triangles is in after a step.
+
+    A scene given in clip space starts there. A row counts when its last operation is done.
+    """
+    count = len(trace.source.geometry.assembled)
+    if stage != STAGES[0]:
+        return np.full((count, 3), WINDOW)
+    first = 0 if trace.source.geometry.vertices.object is not None else CLIP
+    rows = WINDOW - first
+    done = trace.stage(stage).steps.rows_done(position)
+    reached: Integers = first + np.clip(done - rows * np.arange(3 * count), 0, rows)
+    return reached.reshape(count, 3)
+
+
+def is_dropped(trace: Trace, stage: str, position: int) -> Flags:
+    """Return (T,) bool, whether culling has dropped each assembled triangle by now."""
+    geometry = trace.source.geometry
+    if STAGES.index(stage) < STAGES.index("cull"):
+        return np.zeros(len(geometry.assembled), bool)
+    dropped: Flags = geometry.culled.verdict != KEPT
+    if stage == "cull":
+        steps = trace.stage(stage).steps
+        # A triangle has its verdict when its last row is done; the first end is 0 where there are no rows.
+        done = int(np.searchsorted(steps.triangle_ends, steps.rows_done(position), "right"))
+        dropped = dropped & (np.arange(len(dropped)) < done)
+    return dropped
