@@ -22,8 +22,9 @@ from app.cli.arguments import (
 from app.cli.commands import PROGRAM, UsageError
 from app.cli.trace_tables import arrays, table_parts
 from app.files.file_writing import check_writable, whole_file
+from app.files.memory import check_free
 from app.files.open_any import Opened
-from app.session.document import Document, focus_on
+from app.session.document import MOST_TRIANGLES, Document, focus_on
 from core import STAGES, Trace, trace
 from core.raster.binning import bound
 from core.raster.fills.traits import fill_traits
@@ -45,8 +46,8 @@ examples:
   rasterscope trace cube --triangle 3 --stage raster --size 24x16 --set fill=blocks --format npz -o fill.npz
 """
 
-MOST_TRIANGLES = 100_000
-"""Triangles, or vertices, that a trace may have: each takes up to 5 KB."""
+TRIANGLE_BYTES, TEST_BYTES = 5_000, 700
+"""Bytes that a triangle, and a pixel test, takes in the trace of one stage (measured)."""
 SPOKEN = ("text", "json")
 """Formats with a sentence and a formula for every operation."""
 MANY_ROWS = 200_000
@@ -178,6 +179,7 @@ def check_count(traced: Trace) -> None:
             f"the trace would have {count:,} triangles or vertices, and at most {MOST_TRIANGLES:,} fit: "
             "choose one --triangle"
         )
+    check_free(count * TRIANGLE_BYTES, f"a trace of {count:,} triangles or vertices")
 
 
 def check_length(traced: Trace, options: argparse.Namespace) -> None:
@@ -198,6 +200,7 @@ def check_length(traced: Trace, options: argparse.Namespace) -> None:
             f"the trace would have {tests:,} pixel tests, and at most {LONGEST_TRACE:,} fit: "
             f"choose {', or '.join(ways)}"
         )
+    check_free(tests * TEST_BYTES, f"a trace of {tests:,} pixel tests")
 
 
 def header_of(traced: Trace, document: Document) -> dict[str, object]:

@@ -1,16 +1,18 @@
 """Opening whatever a user names: a built-in scene, a mesh file or a state file."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from app.files.file_names import shown_name
+from app.files.memory import MemoryBoundError
 from app.files.mesh_files import MeshFileError, open_mesh
 from app.files.mesh_formats import Report
 from app.files.mesh_sources import remember_file
 from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
-from app.session.document import Document, open_document
+from app.session.document import Document, check_drawing, open_document, shortened
+from core.scene import AnyScene
 from lessons.scenes import built_in_scene, scene_names
 
 
@@ -68,9 +70,22 @@ def open_any(
     path = path.absolute()
     if path.suffix.lower() == EXTENSION:
         state, warnings = load_state(path, progress, is_cancelled, allows_outside)
-        return Opened(state.document, warnings, state, str(path))
+        check_memory(path, state.document.scene)
+        document, why = shortened(state.document)
+        if why:
+            state, warnings = replace(state, document=document), (*warnings, why)
+        return Opened(document, warnings, state, str(path))
     opened = open_mesh(target, progress, is_cancelled, allows_outside=allows_outside)
+    check_memory(path, opened.scene)
     remember_file(path, opened.scene.meshes, allows_outside)
     return Opened(
         open_document(opened.scene, shown_name(path.stem), str(path)), opened.warnings, None, str(path)
     )
+
+
+def check_memory(path: Path, scene: AnyScene) -> None:
+    """Raise MeshFileError for a file whose scene may not fit into the memory that is free."""
+    try:
+        check_drawing(scene)
+    except MemoryBoundError as problem:
+        raise MeshFileError(f"{path.name} is too large: {problem}") from problem

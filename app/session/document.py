@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from app.files.memory import check_free
 from core import STAGES, Settings, Trace, trace
 from core.raster.fills.traits import fill_traits
 from core.records.arrays import Floats
@@ -21,6 +22,14 @@ TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
 LONGEST_RUN = 1_500_000
 """Pixel tests that a trace may have: each keeps all its numbers."""
+MOST_TRIANGLES = 100_000
+"""Triangles, or vertices, that a trace may have."""
+TRACED_TRIANGLE, TRACED_TEST = 11_000, 2_000
+"""Bytes that a triangle, and a pixel test, takes once all stages have been stepped (measured)."""
+UNASKED = 2**26
+"""Bytes that are taken without asking: an edit of a small scene reads no files of the system."""
+DRAWN_TRIANGLE, DRAWN_VERTEX = 1_200, 1_000
+"""Bytes that a triangle, and a vertex, takes once it is drawn on the grid and in the 3D view (measured)."""
 TESTS_PER_SECOND = 2_000_000
 EXACT_TESTS_PER_SECOND = 250_000
 TRIANGLES_PER_SECOND = 600_000
@@ -111,11 +120,21 @@ class Document:
         ValueError
             With what to do about it.
         """
-        if self.most_tests > LONGEST_RUN:
+        triangles, tests = self.triangle_count if self.triangle is None else 1, self.most_tests
+        if tests > LONGEST_RUN:
             raise ValueError(
-                f"Testing every pixel for all {self.triangle_count:,} triangles makes {self.most_tests:,} steps, "
+                f"Testing every pixel for all {self.triangle_count:,} triangles makes {tests:,} steps, "
                 f"and {LONGEST_RUN:,} can be kept: bring one triangle into focus, or choose another fill."
             )
+        if triangles > MOST_TRIANGLES:
+            raise ValueError(
+                f"All {triangles:,} triangles are too many to be stepped together, at most {MOST_TRIANGLES:,} are "
+                "kept: bring one triangle into focus."
+            )
+        check_room(
+            triangles * TRACED_TRIANGLE + tests * TRACED_TEST,
+            f"stepping {triangles:,} triangles together" if triangles > 1 else "stepping one triangle",
+        )
 
     def make_trace(self, settings: Settings | None = None, earlier: Trace | None = None) -> Trace:
         """Prepare the trace, under other settings if they are given; see ``core.trace`` for the ``earlier`` one."""
@@ -129,6 +148,30 @@ LEAST_AREA = 8.0
 """Pixels that it has at least, if one of them has."""
 STEPPED = Settings(fill="bounding-box")
 """How a scene is first stepped: every pixel of a box tested, one after another, is the plainest fill to follow."""
+
+
+def check_room(wanted: int, what: str) -> None:
+    """Raise MemoryBoundError if ``what`` takes ``wanted`` bytes and that is more than is free; little is not asked."""
+    if wanted > UNASKED:
+        check_free(wanted, what)
+
+
+def check_drawing(scene: AnyScene) -> None:
+    """Raise MemoryBoundError where drawing a scene may take more memory than is free."""
+    count = scene_triangle_count(scene)
+    vertices = 3 * count if isinstance(scene, ClipScene) else sum(len(m.positions) for m in scene.meshes)
+    check_room(count * DRAWN_TRIANGLE + vertices * DRAWN_VERTEX, f"drawing its {count:,} triangles")
+
+
+def shortened(document: Document) -> tuple[Document, str]:
+    """Return the document, with one triangle in focus where all are too many to be stepped, and then why."""
+    try:
+        document.check_length()
+    except ValueError as problem:
+        if document.triangle is not None:
+            raise
+        return focus_on(document, central_triangle(document)), str(problem)
+    return document, ""
 
 
 def open_document(scene: AnyScene, title: str, path: str = "", settings: Settings | None = None) -> Document:
@@ -224,10 +267,12 @@ __all__ = [
     "Document",
     "TeachingRaster",
     "central_triangle",
+    "check_drawing",
     "fit_region",
     "focus_on",
     "is_typed",
     "open_document",
     "same_view",
+    "shortened",
     "window_corners_of",
 ]

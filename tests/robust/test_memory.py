@@ -1,5 +1,6 @@
 """How much memory something takes is asked before it is allocated, and what is free is what the system grants."""
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,7 +16,11 @@ from app.files import memory
 from app.files.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.mesh_formats import gltf
+from app.files.open_any import open_any
 from app.files.state_arrays import array_from, array_record
+from app.files.state_files import State, save_state
+from app.session import document
+from app.session.tracing import trace_now
 from core import Settings
 from tests.app.cli.cli_runs import refused, run_program
 from tests.app.files.mesh_writing import GltfWriter, write
@@ -141,3 +146,58 @@ def test_a_trace_of_very_many_triangles_is_refused(monkeypatch):
     line = refused(1, "trace", "cube", "--stage", "transform")
     assert line.endswith("24 triangles or vertices, and at most 11 fit: choose one --triangle")
     assert run_program("trace", "cube", "--stage", "transform", "--triangle", "0").returncode == 0
+
+
+def grid_file(path: Path, side: int) -> Path:
+    """Write a mesh of 2 side^2 triangles."""
+    places = [f"v {x} {y} 0" for y in range(side + 1) for x in range(side + 1)]
+    corners = [(y * (side + 1) + x + 1, side + 1) for y in range(side) for x in range(side)]
+    return write(path, "\n".join([*places, *(f"f {a} {a + 1} {a + w + 1} {a + w}" for a, w in corners), ""]))
+
+
+@pytest.fixture
+def tight(monkeypatch):
+    """Let nearly nothing be free, and ask for what is drawn and stepped however little it is."""
+    monkeypatch.setattr(document, "UNASKED", 0)
+    monkeypatch.setattr(memory, "free_memory", lambda: 4e6)
+
+
+def test_a_mesh_whose_picture_does_not_fit_is_refused_before_it_is_drawn(tmp_path, tight):
+    assert open_any(str(grid_file(tmp_path / "a.obj", 5))).document.triangle_count == 50
+    with pytest.raises(
+        MeshFileError, match=r"^b\.obj is too large: drawing its 3,200 triangles may take 5\.\d MiB"
+    ):
+        open_any(str(grid_file(tmp_path / "b.obj", 40)))
+
+
+def test_all_triangles_of_a_large_mesh_are_not_stepped_together(tmp_path, monkeypatch):
+    opened = open_any(str(grid_file(tmp_path / "a.obj", 15))).document
+    assert opened.triangle is not None
+    everything = replace(opened, triangle=None)
+    assert trace_now(everything, "cull").source.triangle is None
+    monkeypatch.setattr(document, "MOST_TRIANGLES", 449)
+    with pytest.raises(
+        ValueError, match="All 450 triangles are too many to be stepped together, at most 449 are"
+    ):
+        trace_now(everything, "cull")
+    assert trace_now(opened, "cull").source.triangle == opened.triangle
+
+
+def test_a_trace_that_does_not_fit_is_refused_before_it_is_made(tmp_path, tight):
+    mesh = open_any(str(grid_file(tmp_path / "a.obj", 15))).document
+    mesh.check_length()
+    with pytest.raises(
+        ValueError, match=r"stepping 450 triangles together may take .* MiB of memory, 3\.8 MiB are"
+    ):
+        trace_now(replace(mesh, triangle=None), "cull")
+
+
+def test_a_state_that_steps_more_than_fits_opens_at_one_triangle(tmp_path, monkeypatch):
+    mesh = open_any(str(grid_file(tmp_path / "a.obj", 15))).document
+    save_state(tmp_path / "a.rasterscope", State(replace(mesh, triangle=None)))
+    assert open_any(str(tmp_path / "a.rasterscope")).document.triangle is None
+    monkeypatch.setattr(document, "MOST_TRIANGLES", 449)
+    opened = open_any(str(tmp_path / "a.rasterscope"))
+    assert opened.document.triangle is not None
+    assert opened.state.document is opened.document
+    assert opened.warnings[-1].startswith("All 450 triangles are too many")
