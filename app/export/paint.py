@@ -1,7 +1,7 @@
 """What one widget looks like on paper: without the widgets in it, as vectors where that is right."""
 
 from PySide6.QtCore import QPoint, QRect, QRectF, Qt
-from PySide6.QtGui import QImage, QPainter, QRegion
+from PySide6.QtGui import QImage, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QWidget
 
 from widgets.grid.display import GridDisplay
@@ -10,6 +10,20 @@ from widgets.space.texture_view import TextureView
 
 SHARPNESS = 4.0
 """Pixels, to a logical pixel, of what cannot be drawn as vectors."""
+
+
+class Portrait(QWidget):
+    """Shows another widget, which stays where it is, in a sheet of paper."""
+
+    def __init__(self, of: QWidget, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.of = of
+        self.setFixedSize(of.size())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the other widget and what is in it."""
+        with QPainter(self) as painter:
+            paint_tree(self.of, painter)
 
 
 def draws_vectors(widget: QWidget) -> bool:
@@ -27,7 +41,9 @@ def paint_alone(widget: QWidget, painter: QPainter, *, as_vectors: bool = True) 
     part of it is hidden (``as_vectors`` false) it goes in as a picture too.
     """
     is_grid = isinstance(widget, GridDisplay) and draws_vectors(widget)
-    if isinstance(widget, GridDisplay) and is_grid and as_vectors:
+    if isinstance(widget, Portrait):
+        paint_tree(widget.of, painter)
+    elif isinstance(widget, GridDisplay) and is_grid and as_vectors:
         widget.paint_to(painter)
     elif is_grid or isinstance(widget, FormulaView | TextureView):
         painter.drawImage(QRectF(widget.rect()), seen_image(widget, SHARPNESS))
@@ -72,4 +88,15 @@ def seen_image(widget: QWidget, scale: float) -> QImage:
     image.fill(0)
     # As a widget: a graphics view has a method of its own by this name, which draws its scene only.
     QWidget.render(widget, image, QPoint())
+    return image
+
+
+def drawn_image(widget: QWidget, scale: float) -> QImage:
+    """Return a widget drawn anew, ``scale`` pixels to a logical pixel: lines and texts stay sharp when enlarged."""
+    image = QImage(widget.size() * scale, QImage.Format.Format_ARGB32_Premultiplied)
+    image.fill(0)
+    with QPainter(image) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.scale(scale, scale)
+        paint_tree(widget, painter)
     return image

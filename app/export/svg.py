@@ -16,7 +16,7 @@ from PySide6.QtGui import QBrush, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QWidget
 
-from app.export.paint import draws_vectors, paint_alone, shown_children
+from app.export.paint import Portrait, draws_vectors, paint_alone, shown_children
 
 LARGEST = 4096
 """Pixels each way of an enlarged picture."""
@@ -44,6 +44,8 @@ def svg_text(widget: QWidget, title: str) -> str:
 
 def _content(widget: QWidget, names: Iterator[str]) -> str:
     """Return what a widget draws and, above it, what its children do, in the order in which they lie."""
+    if isinstance(widget, Portrait):
+        return _content(widget.of, names)
     parts = [_drawn(widget, next(names))]
     for child in shown_children(widget):
         place = child.geometry()

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QSizeF
+from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QSize, QSizeF
 from PySide6.QtGui import QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
 from PySide6.QtWidgets import QWidget
 
-from app.export.paint import paint_tree, seen_image
+from app.export.paint import drawn_image, paint_tree, seen_image
 from app.export.svg import svg_text
 from app.files.file_writing import write_file
 from widgets.inspector.formula_view import FormulaView
@@ -24,7 +24,7 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
     path : str or Path
         Ends with ``.png``, ``.svg`` or ``.pdf``.
     scale : float, optional
-        Pixels of a PNG to a logical pixel; by default that of the screen, at least 1.
+        Pixels of a PNG to a logical pixel; by default it is the picture on the screen.
 
     Raises
     ------
@@ -47,16 +47,20 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
     write_file(path, content)
 
 
-def copy_widget(widget: QWidget) -> None:
-    """Put a widget, as it is seen, on the clipboard as a picture."""
-    QGuiApplication.clipboard().setImage(widget_image(widget))
+def copy_widget(widget: QWidget, scale: float | None = None) -> QSize:
+    """Put a widget, as it is seen, on the clipboard as a picture; return the picture's size in pixels."""
+    image = widget_image(widget, scale)
+    QGuiApplication.clipboard().setImage(image)
+    return image.size()
 
 
 def widget_image(widget: QWidget, scale: float | None = None) -> QImage:
     """Return a widget as it is seen; a formula alone, on a clear ground."""
     if isinstance(widget, FormulaView):
         return widget.to_image() if scale is None else widget.to_image(scale)
-    return seen_image(widget, max(widget.devicePixelRatioF(), 1.0) if scale is None else scale)
+    if scale is None:
+        return seen_image(widget, max(widget.devicePixelRatioF(), 1.0))
+    return drawn_image(widget, scale)
 
 
 def png_bytes(image: QImage) -> bytes:

@@ -1,4 +1,4 @@
-"""Files of the window: opening meshes, states and built-in scenes, saving a state, exporting the view."""
+"""Files of the window: opening meshes, states and built-in scenes, saving a state."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.background.progress import WorkProgress
 from app.background.workers import Job, Progress
-from app.export.views import copy_widget, export_widget
 from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
 from app.files.open_any import Opened, open_any
@@ -30,7 +29,7 @@ READ_OUTSIDE = "Read outside its folder"
 
 
 class FileActions(QObject):
-    """Opens off the GUI thread; saves and exports at once."""
+    """Opens off the GUI thread; saves at once."""
 
     message_sent = Signal(object)
     """A ``Message`` about what became of a file."""
@@ -169,25 +168,3 @@ class FileActions(QObject):
         else:
             self.file_used.emit(path)
             self._tell(f"Saved {Path(path).name}.")
-
-    # The view.
-
-    def ask_export(self) -> None:
-        """Ask where the current view is to go, and export it."""
-        kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
-        path = SaveDialog(self._page.window(), "Export view", "view.png", kinds).ask()
-        if path:
-            self.export_to(path)
-
-    def export_to(self, path: str) -> None:
-        """Export the current view by the ending of the file."""
-        try:
-            export_widget(self._pages.current.main_view(), path)
-        except (OSError, ValueError) as error:
-            self._tell(f"The view was not exported: {error}", MessageKind.ERROR)
-        else:
-            self._tell(f"Exported {Path(path).name}.")
-
-    def copy_view(self) -> None:
-        """Put the current view on the clipboard as a picture."""
-        copy_widget(self._pages.current.main_view())

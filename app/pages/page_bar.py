@@ -9,6 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.session.session import Session
+from core.explain.records import Formula
 from core.settings import Settings
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.message_bar import Progress
@@ -32,6 +33,14 @@ class StepRequest:
     """Settings of B, for A | B; ``None``: only A is shown."""
     triangle: int | None = None
     """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
+
+
+@dataclass(frozen=True)
+class Caption:
+    """What a page says of its main view."""
+
+    sentence: str = ""
+    formula: Formula | None = None
 
 
 class Page(QWidget):
@@ -61,6 +70,13 @@ class Page(QWidget):
     def main_view(self) -> QWidget:
         """Return what is exported and copied as "the view"."""
         return self
+
+    def settle(self) -> None:
+        """Wait until everything that is drawn a moment later is there."""
+
+    def caption(self) -> Caption:
+        """Return what can be exported and printed with the view."""
+        return Caption()
 
     def open_path(self, path: str) -> None:
         """Show a file that has one of the endings of this page."""

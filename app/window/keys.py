@@ -190,6 +190,16 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
     KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),
     KeyAction("copy_view", ("Ctrl+Shift+C",), "Copy view", FILES, "File"),
+    KeyAction("print_view", ("Ctrl+P",), "Print view with sentence and formula…", FILES, "File"),
+    KeyAction(
+        "export_caption",
+        (),
+        "Export with sentence and formula",
+        FILES,
+        "File",
+        is_checkable=True,
+        page="step",
+    ),
     KeyAction("quit", ("Ctrl+Q",), "Quit", FILES, "File"),
 )
 

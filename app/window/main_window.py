@@ -12,6 +12,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, Q
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QStatusBar, QWidget
 
 from app.background.workers import ending_within
+from app.files.export_desk import ExportActions
 from app.files.file_desk import READ_OUTSIDE, FileActions
 from app.help.pane import HelpPane
 from app.pages.page_bar import Page, Pages
@@ -66,6 +67,7 @@ class MainWindow(QMainWindow):
         self.overlays = Overlays(self.page, self.pages, self)
         self.help = HelpPane(self)
         self.files = FileActions(self.page, self.pages, self.messages, self)
+        self.exports = ExportActions(self.pages, self)
         self.memory = Remembering(self, preferences or Preferences())
         self.menus.show_recent(self.memory.preferences.recent_files)
         self.opening = StepOpening(self.session, self.page, self)
@@ -120,6 +122,8 @@ class MainWindow(QMainWindow):
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
         self.files.message_sent.connect(self._show_message)
+        self.exports.message_sent.connect(self._show_message)
+        menus.scale_chosen.connect(self.exports.set_scale)
         self.files.file_used.connect(self.memory.remember_file)
         self.memory.recent_changed.connect(self.menus.show_recent)
         self.memory.autosave.failed.connect(self._warn)
@@ -164,8 +168,10 @@ class MainWindow(QMainWindow):
             "toggle_cleared": self.edits.toggle_cleared,
             "open_file": self.files.ask_file,
             "save_state": self.files.ask_save,
-            "export_view": self.files.ask_export,
-            "copy_view": self.files.copy_view,
+            "export_view": self.exports.ask_export,
+            "copy_view": self.exports.copy,
+            "print_view": self.print_view,
+            "export_caption": self.toggle_caption,
             "quit": self.close,
         }
 
@@ -243,6 +249,15 @@ class MainWindow(QMainWindow):
         is_on = not self.page.predicting.is_active
         self.page.set_predicting(is_on)
         self.menus.show_checked("predict", is_on)
+
+    def toggle_caption(self) -> None:
+        """Export the view with sentence and formula from now on, or without."""
+        self.exports.has_caption = not self.exports.has_caption
+        self.menus.show_checked("export_caption", self.exports.has_caption)
+
+    def print_view(self) -> None:
+        """Print the view with what the page says of it, under the title of the scene."""
+        self.exports.print_view(self.session.document.title)
 
     def toggle_presenter(self) -> None:
         """Fill the screen with large type, or go back to the window."""

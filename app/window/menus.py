@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
+from app.files.export_desk import SCALES
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import THEMES
@@ -19,7 +20,7 @@ from widgets.basics.theme import current_theme
 MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "Plan", "View", "Help")
 BEFORE_SEPARATORS = (
     "save_state",
-    "copy_view",
+    "export_caption",
     "redo",
     "visited_forward",
     "compare",
@@ -45,6 +46,8 @@ class Menus(QObject):
     raster_chosen = Signal(int, int)
     """Columns and rows for the whole view."""
     theme_chosen = Signal(str)
+    scale_chosen = Signal(int)
+    """Pixels of an exported picture to one of the screen's."""
 
     def __init__(self, window: QMainWindow) -> None:
         super().__init__(window)
@@ -52,6 +55,7 @@ class Menus(QObject):
         self.recent_menu = QMenu("Open &recent", window)
         self.earlier_menu = QMenu("Earlier &windows", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
+        self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group = QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
@@ -66,6 +70,8 @@ class Menus(QObject):
                 menus["File"].addMenu(self.recent_menu)
                 menus["File"].addMenu(self.earlier_menu)
                 menus["File"].addMenu(self.scene_menu)
+            if entry.name == "export_caption":
+                self._add_scales(menus["File"])
             if entry.name == "note_bookmark":
                 menus["Step"].addMenu(self.bookmark_menu)
             if entry.name in BEFORE_SEPARATORS:
@@ -105,6 +111,16 @@ class Menus(QObject):
             made = sizes.addAction(f"{columns} × {rows}")
             made.setData((columns, rows))
         sizes.triggered.connect(self._choose_raster)
+
+    def _add_scales(self, menu: QMenu) -> None:
+        scales = menu.addMenu("Picture scale")
+        for scale in SCALES:
+            made = scales.addAction(f"{scale} ×" if scale > 1 else "1 ×, as on the screen")
+            made.setCheckable(True)
+            made.setData(scale)
+            made.setChecked(scale == 1)
+            self.scale_group.addAction(made)
+        scales.triggered.connect(self._choose_scale)
 
     def _add_themes(self, menu: QMenu) -> None:
         themes = menu.addMenu("Theme")
@@ -194,6 +210,10 @@ class Menus(QObject):
     def _choose_raster(self, action: QAction) -> None:
         columns, rows = action.data()
         self.raster_chosen.emit(columns, rows)
+
+    @Slot(QAction)
+    def _choose_scale(self, action: QAction) -> None:
+        self.scale_chosen.emit(action.data())
 
     @Slot(QAction)
     def _choose_theme(self, action: QAction) -> None:

@@ -104,13 +104,13 @@ def test_files_that_the_user_saves_stay_whole(window: MainWindow, disk: Disk, tm
     window.resize(900, 600)
     state, picture = tmp_path / "a.rasterscope", tmp_path / "a.png"
     window.files.save_to(str(state))
-    window.files.export_to(str(picture))
+    window.exports.export_to(str(picture))
     before = state.read_bytes(), picture.read_bytes()
     disk.is_full = True
     window.session.set_setting("fill", "blocks")
     window.files.save_to(str(state))
     assert window.messages.text.text() == f"The state was not saved: {state} cannot be written: {FULL}"
-    window.files.export_to(str(picture))
+    window.exports.export_to(str(picture))
     assert window.messages.text.text() == f"The view was not exported: {picture} cannot be written: {FULL}"
     assert (state.read_bytes(), picture.read_bytes()) == before
     assert sorted(path.name for path in tmp_path.glob(".*.part")) == []

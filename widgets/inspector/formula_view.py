@@ -78,6 +78,10 @@ class FormulaView(QWidget):
         theme_notifier().theme_changed.connect(self._rebuild)
         self._rebuild()
 
+    def formula(self) -> Formula | None:
+        """Return the formula that is shown."""
+        return self._formula
+
     @Slot(object)
     def show_formula(self, formula: Formula | None) -> None:
         """Show a formula, or the hint for an empty pane."""

@@ -6,7 +6,7 @@ from functools import partial
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import QComboBox, QScrollArea, QSplitter, QStackedWidget, QWidget
 
-from app.pages.page_bar import Handlers, Page
+from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.step.ab_presenter import ComparePresenter
 from app.pages.step.actions import step_handlers
 from app.pages.step.grid_presenter import GridPresenter
@@ -274,6 +274,10 @@ class StepPage(Page):
             **{f"pane_{name}": partial(self.toggle_pane, name) for name in PANES},
             "compare": self.toggle_compare,
         }
+
+    def caption(self) -> Caption:
+        """Return the sentence and the formula of the step just done."""
+        return Caption(self.sentence.text(), self.formula.formula())
 
     def dismiss(self) -> bool:
         """Stop playing, or else take the pin away."""

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtGui import QGuiApplication, QKeySequence
+from PySide6.QtPrintSupport import QPrintPreviewDialog
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
@@ -109,6 +110,7 @@ def test_every_key_does_something(
     window.files.save_to(str(state))
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *args: (str(state), ""))
     monkeypatch.setattr(SaveDialog, "ask", lambda dialog: str(tmp_path / "view.png"))
+    monkeypatch.setattr(QPrintPreviewDialog, "exec", lambda dialog: 1)
     document = window.session.document
     idle = []
     # A new theme for the window takes long, and without a window there is nothing more to try.

@@ -1,11 +1,12 @@
 """Opening, saving and coming back: menus, drops, broken files, states, preferences."""
 
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -19,6 +20,7 @@ from core.records.steps import Level
 from core.scene import Scene
 from lessons.scenes import built_in_scene
 from tests.app.files.mesh_writing import write_image
+from widgets.basics.theme import DARK, current_theme
 from widgets.grid.view import GridView
 from widgets.space.orbit import Orbit
 
@@ -232,11 +234,65 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
 def test_the_view_is_exported(window: MainWindow, tmp_path: Path) -> None:
     for ending in ["png", "svg", "pdf"]:
         path = tmp_path / f"view.{ending}"
-        window.files.export_to(str(path))
+        window.exports.export_to(str(path))
         assert path.stat().st_size > 500
-        assert window.statusBar().currentMessage() == f"Exported view.{ending}."
+        assert window.statusBar().currentMessage().startswith(f"Exported view.{ending}")
+
+
+def test_sentence_and_formula_stand_under_an_exported_view(window: MainWindow, tmp_path: Path) -> None:
+    window.run_action("export_caption")
+    window.exports.export_to(str(tmp_path / "view.svg"))
+    drawing = ElementTree.parse(tmp_path / "view.svg")
+    written = " ".join(text.text or "" for text in drawing.iter("{http://www.w3.org/2000/svg}text"))
+    assert all(word in written for word in window.page.sentence.text().split()[:4])
+    view = window.page.main_view()
+    assert int(drawing.getroot().get("height") or 0) > view.height() + 60
+    window.exports.set_scale(4)
+    window.exports.export_to(str(tmp_path / "view.png"))
+    picture = QImage(str(tmp_path / "view.png"))
+    assert picture.width() == 4 * int(drawing.getroot().get("width") or 0)
+    message = f"Exported view.png, {picture.width()} × {picture.height()} pixels."
+    assert window.statusBar().currentMessage() == message
+    window.run_action("copy_view")
+    assert QApplication.clipboard().image().size() == picture.size()
+    assert window.statusBar().currentMessage().startswith("Copied the view")
+
+
+def test_an_enlarged_picture_is_drawn_sharp(window: MainWindow, tmp_path: Path) -> None:
+    window.exports.set_scale(4)
+    window.exports.export_to(str(tmp_path / "view.png"))
+    large = QImage(str(tmp_path / "view.png")).convertToFormat(QImage.Format.Format_RGB32)
+    blurred = window.page.main_view().grab().toImage().scaled(large.size())
+    rows = [np.frombuffer(image.constBits(), np.uint32) for image in (large, blurred)]
+    assert not np.array_equal(*rows)
+
+
+def test_the_view_is_printed_on_one_page_and_light(
+    window: MainWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
+
+    printed = []
+
+    def exec_(dialog: QPrintPreviewDialog) -> int:
+        printer = dialog.printer()
+        printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
+        printer.setOutputFileName(str(tmp_path / "page.pdf"))
+        dialog.paintRequested.emit(printer)
+        printed.append(current_theme().is_dark)
+        return 1
+
+    monkeypatch.setattr(QPrintPreviewDialog, "exec", exec_)
+    window.appearance.set_theme("dark")
+    window.run_action("print_view")
+    assert printed == [False]
+    assert current_theme() == DARK
+    content = (tmp_path / "page.pdf").read_bytes()
+    assert content.count(b"/MediaBox") == 1
+    assert len(content) > 5000
+    assert window.statusBar().currentMessage() == "Printed the view."
 
 
 def test_an_export_that_fails_is_told(window: MainWindow, tmp_path: Path) -> None:
-    window.files.export_to(str(tmp_path / "nowhere" / "view.png"))
+    window.exports.export_to(str(tmp_path / "nowhere" / "view.png"))
     assert window.messages.text.text().startswith("The view was not exported")

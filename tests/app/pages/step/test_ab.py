@@ -56,7 +56,7 @@ def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBo
 
 def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
     window.page.show_view("compare")
-    window.files.export_to(str(tmp_path / "both.svg"))
+    window.exports.export_to(str(tmp_path / "both.svg"))
     drawing = (tmp_path / "both.svg").read_text()
     for text in ("A, current settings", "Scanline, as printed", "Difference, colour", "pixels differ"):
         assert text in drawing
