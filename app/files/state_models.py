@@ -236,6 +236,8 @@ class Look(Record):
     """Family to method: what B does otherwise than A."""
     other_buffer: str = "color"
     """Buffer in which A and B are compared."""
+    panes: list[str] | None = None
+    """Names of the panes that are not folded away; ``None``: those of the window that opens it."""
     event: str = "covered"
     """Kind of event that N runs to."""
 

@@ -24,7 +24,7 @@ class Remembering(QObject):
     def __init__(self, window: "MainWindow", preferences: Preferences) -> None:
         super().__init__(window)
         self.preferences = preferences
-        edits = window.page.look_changed, window.page.stepping.places_changed
+        edits = window.page.look_changed, window.page.panes_changed, window.page.stepping.places_changed
         self.autosave = Autosave(window.session, window.files.state, edits, self)
         self._keeps_results = False
 

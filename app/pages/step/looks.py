@@ -14,6 +14,7 @@ def look_of(page: StepPage) -> Look:
         orbits={name: OrbitRecord(**vars(orbit)) for name, orbit in page.views.chosen_orbits().items()},
         other=dict(page.comparing.differences),
         other_buffer=page.comparing.buffer,
+        panes=page.shown_panes(),
         event=page.stepping.event_kind,
     )
 
@@ -24,6 +25,8 @@ def show_look(page: StepPage, look: Look) -> None:
     page.comparing.set_buffer(look.other_buffer)
     page.comparing.set_differences(look.other)
     page.choose_event(look.event)
+    if look.panes is not None:
+        page.show_panes(look.panes)
     page.grids.show_look(look.grid)
     page.views.look_from({name: Orbit(**dict(orbit)) for name, orbit in look.orbits.items()})
     page.show_view(look.view)

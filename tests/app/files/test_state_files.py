@@ -39,6 +39,7 @@ EVERYTHING = Look(
     orbits={"scene": OrbitRecord(azimuth=1.0, elevation=0.5, target=(0.0, 1.0, 0.0), extent=2.0)},
     other={"fill": "hierarchy", "block_size": 4},
     other_buffer="depth",
+    panes=["overlays"],
     event="tie",
 )
 FRAME_BUFFERS = ("color", "depth", "primitive", "attributes", "cover_count")
