@@ -18,6 +18,8 @@ from core.framebuffer.display import linear_light
 
 CLEAR = 3.0
 """Contrast that whatever must be seen has with what is beside it (WCAG 2, 1.4.11)."""
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""Shares of linear red, green and blue in the luminance of a colour (WCAG 2)."""
 VERTEX_COLORS = ("#0072B2", "#E69F00", "#009E73")
 """Colours of vertices, edges and barycentric weights 0, 1, 2 (Okabe and Ito), for lines, fills and marks."""
 
@@ -71,6 +73,10 @@ class Theme:
     """Shades of the three vertex colours that are readable as text."""
     vertex: tuple[str, str, str] = VERTEX_COLORS
     """Vertices, edges and weights 0, 1, 2 as lines, fills and marks."""
+    edge_casing: str = "#000000"
+    """Around coloured edges and vertices: 3:1 against each of the three colours."""
+    edge_rim: str = "#ffffff"
+    """Around the casing: seen where the cells are as dark as the casing."""
     text_px: int = 13
     """Text of everything."""
     small_px: int = 11
@@ -144,6 +150,7 @@ DARK = Theme(
     good="#3ccb9c",
     bad="#ff9455",
     vertex_text=("#4ba9e0", "#f0ac1e", "#2bc495"),
+    edge_rim="#c8ccd0",
 )
 """Light text on dark grey: the look for a dim room."""
 
@@ -237,8 +244,8 @@ def contrast(first: str, second: str) -> float:
 def relative_luminance(color: str) -> float:
     """Return the luminance of an sRGB colour, 0 (black) to 1 (white)."""
     parsed = QColor(color)
-    red, green, blue = linear_light(np.array([parsed.redF(), parsed.greenF(), parsed.blueF()])).tolist()
-    return float(0.2126 * red + 0.7152 * green + 0.0722 * blue)
+    light = linear_light(np.array([parsed.redF(), parsed.greenF(), parsed.blueF()]))
+    return float(light @ LUMINANCE)
 
 
 def ink_color(ink: str, theme: Theme | None = None) -> str:

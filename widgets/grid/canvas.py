@@ -21,6 +21,7 @@ from widgets.grid.paint import (
     paint_lines,
     paint_nan,
     paint_numbers,
+    paint_pale_edges,
     paint_rulers,
 )
 from widgets.grid.sample_dots import SampleDots, paint_samples
@@ -214,6 +215,7 @@ class GridCanvas:
             paint_lines(painter, placement, theme, self._samples is None and is_free)
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)
+        paint_pale_edges(painter, placement, buffer, image, theme, cells)
         paint_border(painter, placement, theme)
         paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
         paint_above(painter, placement, self._overlays, theme)

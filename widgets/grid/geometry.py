@@ -18,8 +18,15 @@ _GRAB_RADIUS = 11.0
 _LEAST_HANDLE = 0.4
 """Handles on a tiny triangle are that part of their size, so that they hide less of it."""
 HALO_WIDTH = 2.4
-HALO_OPACITY = 0.5
+HALO_OPACITY = 0.75
 """Of what sets thin outlines off from the cells."""
+CASING, RIM = 3.0, 4.6
+"""How much wider than a coloured edge its dark casing is, and the light rim around that.
+
+No colour of an edge has 3:1 against every cell. Each has it against the casing, and casing or rim against any cell.
+"""
+_NAMED_LENGTH = 7.0
+"""Least length of an edge that is named, in heights of the text."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,15 +147,14 @@ def paint_focus(
     ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in range(3)])
     lines, source = widget_lines(geometry.vertices[ends], placement)
     scale = theme.text_px / 13
-    width = 1.2 if small else 1.8 * scale
-    halo = QColor(theme.halo())
-    halo.setAlphaF(0.75)
-    painter.setPen(QPen(halo, width + 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    width = 1.2 if small else 2.2 * scale
     if free is not None:
         painter.setClipRegion(free)
     else:
         painter.setClipRect(placement.seen_raster)
-    painter.drawLines(lines)
+    for color, more in ((theme.edge_rim, RIM), (theme.edge_casing, CASING)):
+        painter.setPen(QPen(QColor(color), width + more, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawLines(lines)
     for line, edge in zip(lines, source.tolist(), strict=True):
         painter.setPen(
             QPen(QColor(theme.vertex[edge]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
@@ -162,14 +168,17 @@ def paint_focus(
             if position is None:
                 continue
             radius = HANDLE_RADIUS * scale + (1.5 if corners[place] == held else 0.0)
-            painter.setPen(QPen(QColor("#ffffff"), 1.8))
-            painter.setBrush(QColor(theme.vertex[place]))
-            painter.drawEllipse(position, radius, radius)
-            painter.setPen(QPen(QColor("#000000"), 0.8))
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawEllipse(position, radius + 1.2, radius + 1.2)
+            painter.setPen(Qt.PenStyle.NoPen)
+            for color, more in (
+                (theme.edge_rim, RIM),
+                (theme.edge_casing, CASING),
+                (theme.vertex[place], 0.0),
+            ):
+                painter.setBrush(QColor(color))
+                painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
         _paint_names(painter, placement, geometry, theme)
+        _paint_edge_names(painter, placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme)
     painter.restore()
 
 
@@ -230,13 +239,47 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
         box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
         if QRectF(placement.viewport).contains(position):
             box = moved_inside(box, QRectF(placement.viewport))
-        chip = QColor(theme.panel)
-        chip.setAlphaF(0.88)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(chip)
-        painter.drawRoundedRect(box, 3, 3)
-        painter.setPen(QColor(theme.vertex_text[place]))
-        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+        _paint_chip(painter, box, text, theme.vertex_text[place], theme)
+
+
+def _paint_edge_names(
+    painter: QPainter,
+    placement: GridPlacement,
+    geometry: GridGeometry,
+    edges: list[tuple[QLineF, int]],
+    theme: Theme,
+) -> None:
+    """Write the name of each edge function beside its edge, outside of the triangle."""
+    corners = geometry.vertices[list(geometry.focus_vertices)]
+    if not np.isfinite(corners).all():
+        return
+    metrics = painter.fontMetrics()
+    width, height = metrics.horizontalAdvance("E0") + 6, metrics.height()
+    viewport = QRectF(placement.viewport)
+    for line, edge in edges:
+        inside = viewport.intersected(QRectF(line.p1(), line.p2()).normalized().adjusted(-1, -1, 1, 1))
+        if line.length() < _NAMED_LENGTH * theme.text_px or inside.isEmpty():
+            continue
+        facing = placement.to_widget(*corners[edge].clip(-1e6, 1e6).tolist())
+        normal = line.normalVector().unitVector()
+        away = QPointF(normal.dx(), normal.dy())
+        middle = line.center()
+        if QPointF.dotProduct(away, facing - middle) > 0:
+            away = -away
+        box = QRectF(0, 0, width, height)
+        box.moveCenter(middle + away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2))
+        _paint_chip(painter, moved_inside(box, viewport), f"E{edge}", theme.vertex_text[edge], theme)
+
+
+def _paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: Theme) -> None:
+    """Write a name on a ground of its own."""
+    chip = QColor(theme.panel)
+    chip.setAlphaF(0.88)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(chip)
+    painter.drawRoundedRect(box, 3, 3)
+    painter.setPen(QColor(color))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
 def moved_inside(box: QRectF, area: QRectF) -> QRectF:

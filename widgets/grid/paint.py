@@ -2,11 +2,12 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QRegion
 
+from core.framebuffer.display import linear_light
 from widgets.basics.mark_patterns import cell_tile
-from widgets.basics.theme import Theme, text_font
+from widgets.basics.theme import LUMINANCE, Theme, relative_luminance, text_font
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.overlay import Mark
 from widgets.grid.overlay_paint import paint_pattern
@@ -15,6 +16,9 @@ from widgets.grid.view import GridPlacement
 
 LINE_CELL = 6.0
 """Side of a cell in logical pixels from which grid lines are drawn."""
+OUTLINED_CELL = 3.0
+"""Side from which fragments that are as light or dark as the empty grid are outlined."""
+LEAST_CONTRAST = 3.0
 CENTRE_CELL = 12.0
 """Side from which sample centres are drawn."""
 NUMBER_CELL = 40.0
@@ -59,6 +63,42 @@ def paint_lines(
         painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
         painter.fillRect(shown, QBrush(cell_tile(cell, round(strength, 2), has_centre, theme, ratio)))
         painter.restore()
+
+
+def paint_pale_edges(
+    painter: QPainter,
+    placement: GridPlacement,
+    buffer: GridBuffer,
+    image: QImage,
+    theme: Theme,
+    cells: tuple[int, int, int, int],
+) -> None:
+    """Draw a line between cells that have a value and empty ones of nearly the same colour: white on a light grid."""
+    if buffer.known is None or buffer.kind == "bool" or placement.cell < OUTLINED_CELL:
+        return
+    column0, row0, column1, row1 = cells
+    shown = image.copy(column0, placement.rows - row1, column1 - column0, row1 - row0)
+    pixels = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), -1, 4)[::-1, : shown.width()]
+    light = linear_light(pixels[..., 2::-1] / 255.0) @ LUMINANCE + 0.05
+    empty = relative_luminance(theme.empty) + 0.05
+    known = buffer.known[row0:row1, column0:column1]
+    pale = known & (np.maximum(light, empty) < LEAST_CONTRAST * np.minimum(light, empty))
+    if not pale.any():
+        return
+    lines = []
+    for first, second, step in (
+        ((slice(None), slice(None, -1)), (slice(None), slice(1, None)), (1, 0)),
+        ((slice(None, -1), slice(None)), (slice(1, None), slice(None)), (0, 1)),
+    ):
+        meets = (pale[first] & ~known[second]) | (pale[second] & ~known[first])
+        for row, column in np.argwhere(meets).tolist():
+            rect = placement.cells_rect(column + column0 + step[0], row + row0 + step[1])
+            corner = rect.topLeft() if step[0] else rect.bottomRight()
+            lines.append(QLineF(rect.bottomLeft(), corner))
+    painter.save()
+    painter.setPen(QPen(QColor(theme.text), 1.0))
+    painter.drawLines(lines)
+    painter.restore()
 
 
 def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> None:

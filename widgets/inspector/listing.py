@@ -2,6 +2,7 @@
 
 import io
 import keyword
+import math
 import re
 import tokenize
 from collections.abc import Collection, Iterator
@@ -34,6 +35,8 @@ _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
+MOST_ROWS = 17
+"""Rows that the pane is made high for: beyond them a listing is scrolled."""
 HINT = "The algorithm of the stage appears here, with the line of each step marked."
 """What an empty pane is for."""
 
@@ -121,8 +124,8 @@ class ListingView(QPlainTextEdit):
         self._title = ""
         self.setReadOnly(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        self.setWordWrapMode(QTextOption.WrapMode.NoWrap)
+        self.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
@@ -189,9 +192,13 @@ class ListingView(QPlainTextEdit):
         return None
 
     def height_of(self, lines: int) -> int:
-        """Return the height in which so many lines are seen whole."""
-        around = self.height() - self.viewport().height() if self.isVisible() else 0
-        return round(lines * self.fontMetrics().lineSpacing() + 2 * self.document().documentMargin()) + around
+        """Return the height in which the first lines are seen whole, wrapped as they are; at least so many rows."""
+        row = self.fontMetrics().lineSpacing()
+        block, rows = self.document().firstBlock(), 0.0
+        for _ in range(lines):
+            rows += max(self.blockBoundingRect(block).height(), row) if block.isValid() else row
+            block = block.next()
+        return math.ceil(min(rows, MOST_ROWS * row) + 2 * self.document().documentMargin())
 
     def margin_width(self) -> int:
         """Room for a mark and the largest line number."""
@@ -208,14 +215,15 @@ class ListingView(QPlainTextEdit):
             return
         painter.setFont(self.font())
         block = self.firstVisibleBlock()
-        size = float(self._mark_size())
+        size, line_height = float(self._mark_size()), self.fontMetrics().lineSpacing()
         while block.isValid():
             box = self.blockBoundingGeometry(block).translated(self.contentOffset())
             if box.top() > event.rect().bottom():
                 break
             line = block.blockNumber() + 1
             row = QRect(0, round(box.top()), self._margin.width(), round(box.height()))
-            middle = row.center().y() + 0.5
+            # A line that is wrapped has its number and marks beside its beginning.
+            middle = row.top() + line_height / 2
             is_current = line == self._line
             if is_current:
                 painter.fillRect(row, blended(theme.accent, theme.panel, 0.14))
@@ -237,7 +245,8 @@ class ListingView(QPlainTextEdit):
                 painter.drawRect(row.adjusted(2, 0, -3, -1))
             painter.setPen(QColor(theme.text if is_current else theme.muted_text))
             flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-            painter.drawText(row.adjusted(0, 0, -8, 0), flags, str(line))
+            first = QRect(row.left(), row.top(), row.width() - 8, line_height)
+            painter.drawText(first, flags, str(line))
             block = block.next()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -277,7 +286,8 @@ class ListingView(QPlainTextEdit):
         if event.key() in (Qt.Key.Key_Up, Qt.Key.Key_Down):
             cursor = self.textCursor()
             is_up = event.key() == Qt.Key.Key_Up
-            cursor.movePosition(QTextCursor.MoveOperation.Up if is_up else QTextCursor.MoveOperation.Down)
+            way = QTextCursor.MoveOperation.PreviousBlock if is_up else QTextCursor.MoveOperation.NextBlock
+            cursor.movePosition(way)
             self.setTextCursor(cursor)
             self._mark_line()
             return
@@ -303,11 +313,16 @@ class ListingView(QPlainTextEdit):
         theme = current_theme()
         marks = []
         if self.hasFocus() and self.textCursor().blockNumber() + 1 != self._line:
-            marks.append(self._line_mark(self.textCursor(), QColor(theme.selection)))
+            chosen = self.textCursor()
+            chosen.movePosition(QTextCursor.MoveOperation.StartOfBlock)
+            chosen.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
+            marks.append(self._line_mark(chosen, QColor(theme.selection)))
         if self._line is not None:
             block = self.document().findBlockByNumber(self._line - 1)
             if block.isValid():
-                marks.append(self._line_mark(QTextCursor(block), blended(theme.accent, theme.panel, 0.14)))
+                whole = QTextCursor(block)
+                whole.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
+                marks.append(self._line_mark(whole, blended(theme.accent, theme.panel, 0.14)))
         self.setExtraSelections(marks)
         self._margin.update()
 
@@ -316,7 +331,6 @@ class ListingView(QPlainTextEdit):
         mark = QTextEdit.ExtraSelection()
         mark.format.setBackground(color)
         mark.format.setProperty(int(QTextCharFormat.Property.FullWidthSelection), True)
-        cursor.clearSelection()
         mark.cursor = cursor
         return mark
 

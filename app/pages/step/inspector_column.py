@@ -1,6 +1,7 @@
 """The inspector's column: the step in words, formula, listing and variables, and the pixel's history."""
 
 from PySide6.QtCore import Qt, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QSplitter, QTabWidget, QWidget
 
 from app.session.session import Session
@@ -63,7 +64,13 @@ class InspectorColumn(QScrollArea):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         session.pin_changed.connect(self._show_history)
+        self.listing.textChanged.connect(self.fit)
         theme_notifier().theme_changed.connect(self.fit)
+        self.fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Wrap the listing anew."""
+        super().resizeEvent(event)
         self.fit()
 
     @Slot()

@@ -55,6 +55,20 @@ def test_a_click_on_a_line_asks_to_run_to_it(qtbot, view) -> None:
     assert seen == [4]
 
 
+def test_long_lines_wrap_and_ten_are_seen_whole(view) -> None:
+    lines = [f"    value_{k} = function_of_many(a0, a1, a2, x, y)  # {'and more ' * 4}" for k in range(12)]
+    view.resize(350, 100)
+    view.show_listing(ListingText("long", "\n".join(["def long():", *lines])))
+    assert not view.horizontalScrollBar().maximum()
+    view.resize(350, view.height_of(10))
+    last = view.document().findBlockByNumber(4)
+    assert view.blockBoundingRect(last).height() > 1.5 * view.fontMetrics().lineSpacing()
+    view.show_listing(ListingText("inside", SOURCE))
+    assert view.height_of(10) >= 10 * view.fontMetrics().lineSpacing()
+    view.show_line(3)
+    assert view.extraSelections()[-1].cursor.selectedText() == SOURCE.splitlines()[2]
+
+
 def test_dragging_selects_and_asks_for_nothing(qtbot, view) -> None:
     seen = []
     view.line_clicked.connect(seen.append)
