@@ -89,7 +89,7 @@ QMenu::separator { height: 1px; background: $selection; margin: ${u}px; }
 
 QTabWidget::pane { border: none; }
 QTabBar::tab {
-    background: transparent; color: $muted_text; padding: ${u}px ${uuu}px; border: 2px solid transparent;
+    background: transparent; color: $muted_text; padding: ${u}px ${uu}px; border: 2px solid transparent;
 }
 QTabBar::tab:selected { color: $text; border-bottom-color: $text; }
 QTabBar::tab:focus { border-color: $focus; }

@@ -37,10 +37,10 @@ class RangeButton(QToolButton):
             self.hide()
             return
         low, high = value_range(buffer)
-        text = f"{number_text(low)} … {number_text(high)}"
+        text = f"{number_text(low, 3)} … {number_text(high, 3)}"
         if text != self.text():
             self.setText(text)
-            self.setAccessibleName(f"Colour range {number_text(low)} to {number_text(high)}")
+            self.setAccessibleName(f"Colour range {number_text(low, 3)} to {number_text(high, 3)}")
         colormap = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
         self._show_colors(colormap if buffer.channels == 1 else "grey")
         self.show()

@@ -35,7 +35,7 @@ _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
-MOST_ROWS = 17
+MOST_ROWS = 14
 """Rows that the pane is made high for: beyond them a listing is scrolled."""
 HINT = "The algorithm of the stage appears here, with the line of each step marked."
 """What an empty pane is for."""

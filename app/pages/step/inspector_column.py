@@ -14,7 +14,7 @@ from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
 
-DETAIL_LINES = 7
+DETAIL_LINES = 5
 """Least height of variables and history, in lines."""
 
 
