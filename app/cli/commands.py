@@ -150,7 +150,7 @@ def _run_window(arguments: Sequence[str]) -> int:
         usage=f"{PROGRAM} [FILE]\n       {PROGRAM} COMMAND ...",
         description="Step through the rasterization pipeline, pixel by pixel, forwards and backwards.",
         epilog=f"commands ({PROGRAM} COMMAND --help explains each):\n{rows}\n{EXAMPLES}\n{FILES}\n"
-        "Exit code: 0 done, 1 failed (stderr has the reason in one line), 2 wrong usage.",
+        "Exit code: 0 done, 1 failed (stderr has the reason in one line), 2 wrong usage, 130 Ctrl+C.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )

@@ -10,7 +10,7 @@ EXAMPLES = """examples:
   rasterscope opengl-check
   rasterscope opengl-check single shared --count 100 --seed 7
 
-Exit code: 0 all families agree, 1 a family differs, 2 OpenGL is not available, or wrong usage.
+Exit code: 0 all families agree, 1 a family differs, or there is no OpenGL (stderr says why), 2 wrong usage.
 """
 
 

@@ -38,8 +38,8 @@ def run_opengl_check(
     Returns
     -------
     int
-        Exit code: 0 if all families agree, 1 if one does not, 2 if there is no OpenGL or no such family (one
-        line on stderr).
+        Exit code: 0 if all families agree, 1 if one does not or there is no OpenGL, 2 if there is no such family, or
+        for a wrong number. What went wrong is one line on stderr.
     """
     chosen = list(FAMILIES) if families is None else list(families)
     try:
@@ -57,7 +57,7 @@ def run_opengl_check(
             ]
     except (OpenGLMissingError, ValueError) as error:
         print(f"rasterscope opengl-check: {error}", file=sys.stderr)
-        return 2
+        return 1 if isinstance(error, OpenGLMissingError) else 2
     if disagreeing:
         write(f"Not the same: {', '.join(disagreeing)}.")
         return 1

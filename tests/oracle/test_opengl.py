@@ -140,7 +140,7 @@ def test_wrong_arguments_are_one_line(capsys, arguments, sentence):
 
 def test_missing_moderngl_is_one_line(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "moderngl", None)
-    assert run_opengl_check() == 2
+    assert run_opengl_check() == 1
     err = capsys.readouterr().err
     assert err.startswith(
         "rasterscope opengl-check: the comparison with OpenGL needs moderngl (pip install moderngl)"
@@ -155,7 +155,7 @@ def test_missing_opengl_is_one_line():
     pytest.importorskip("moderngl")
     code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run())"
     result = run_python(code, GLCONTEXT_LINUX_LIBEGL="libEGL-that-is-not-there.so")
-    assert result.returncode == 2
+    assert result.returncode == 1
     assert result.stdout == ""
     assert result.stderr.startswith("rasterscope opengl-check: OpenGL 3.3 could not be started: ")
     assert result.stderr.count("\n") == 1
