@@ -1,7 +1,7 @@
 """The built-in scenes: small cases for one idea each, where every pixel can be read, and whole meshes."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +31,8 @@ class BuiltInScene:
     description: str
     """One sentence on what the scene shows."""
     make: Callable[[], AnyScene]
+    picture_settings: Mapping[str, str] = field(default_factory=dict)
+    """Settings of its picture on the start page, where not the defaults show what it is about."""
 
 
 def window_triangle(
@@ -174,7 +176,7 @@ CATALOGUE = (
     BuiltInScene(
         "shared-edge",
         "Two triangles sharing an edge",
-        "Their common edge runs through pixel centres, each of which belongs to one triangle only.",
+        "Every pixel centre on their common edge belongs to one of them.",
         shared_edge,
     ),
     BuiltInScene(
@@ -200,6 +202,7 @@ CATALOGUE = (
         "Z-fighting plates",
         "Two plates lie so close that 16 bits of depth mix them, while 24 bits and floats keep them apart.",
         z_fighting,
+        {"depth": "z-16"},
     ),
     BuiltInScene(
         "textured-floor",

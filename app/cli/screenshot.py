@@ -31,7 +31,7 @@ EXAMPLES = """examples:
 The other pages first measure or run their content, in fewer rounds than in the window. A saved study or atlas is shown
 unchanged.
 """
-PAGES = ("step", "compare", "stability", "plan")
+PAGES = ("start", "step", "compare", "stability", "plan")
 ONLY_OF = {
     "stage": ("step",),
     "step": ("step",),

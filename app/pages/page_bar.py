@@ -15,6 +15,7 @@ from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
+    from app.window.preferences import Preferences
     from core.study.accuracy.record import (
         Opening,
     )  # At run time all studies would come along: not before they are wanted.
@@ -56,6 +57,12 @@ class Page(QWidget):
     work_progressed = Signal(object)
     """A ``Progress``: how far the work of this page has come; ``None``: it does none any more."""
 
+    open_requested = Signal(str)
+    """A file or built-in scene that is to be opened."""
+
+    preference_changed = Signal(str, object)
+    """Name and value of a field of ``app.window.preferences.Preferences`` that the user has changed."""
+
     action_requested = Signal(str)
     """Name of an action of ``app.window.keys.ACTIONS`` that is another page's, or shows another page."""
 
@@ -81,6 +88,9 @@ class Page(QWidget):
     def open_path(self, path: str) -> None:
         """Show a file that has one of the endings of this page."""
         self.edit_refused.emit(f"This page cannot show {path}.")
+
+    def show_preferences(self, preferences: "Preferences") -> None:
+        """Show what the program remembers, as far as the page does."""
 
     def keep_results(self) -> None:
         """Show the results of the last start of the window, and keep those that come for the next one."""
@@ -138,9 +148,10 @@ class Pages(QWidget):
         session: Session,
         hints: QWidget,
         messages: QWidget,
+        first: str,
         parent: QWidget | None = None,
     ) -> None:
-        """Show the first of ``kinds``, with hints beside the bar; messages float over both: they move no page."""
+        """Show the page ``first``, with hints beside the bar; messages float over both: they move no page."""
         super().__init__(parent)
         self._kinds, self._session = kinds, session
         self._made: dict[str, Page] = {}
@@ -164,7 +175,8 @@ class Pages(QWidget):
         self._messages = messages
         messages.setParent(self)
         messages.installEventFilter(self)
-        self._show_index(0)
+        self.bar.setCurrentIndex(self.names.index(first))
+        self._show_index(self.bar.currentIndex())
         self.bar.currentChanged.connect(self._show_index)
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:

@@ -12,6 +12,7 @@ from app.pages.page_bar import Page
 from app.pages.plan.page import PlanPage
 from app.pages.result_page import ResultPage
 from app.pages.stability.page import StabilityPage
+from app.pages.start.page import StartPage
 from app.window.main_window import MainWindow
 
 PICTURE_ROUNDS = 3
@@ -50,6 +51,8 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     page.edit_refused.connect(refusals.take)
     if isinstance(page, ResultPage):
         _show_result(page, content)
+    elif isinstance(page, StartPage):
+        _wait_until(lambda: not page.is_drawing)
     elif isinstance(page, PlanPage):
         page.plans.analyse()
         _wait_until(lambda: not page.plans.is_running)

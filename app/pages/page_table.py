@@ -12,6 +12,12 @@ def _make_step(session: Session, parent: QWidget) -> Page:
     return StepPage(session, parent)
 
 
+def _make_start(session: Session, parent: QWidget) -> Page:
+    from app.pages.start.page import StartPage  # Not every start shows it.
+
+    return StartPage(session, parent)
+
+
 def _make_compare(session: Session, parent: QWidget) -> Page:
     from app.pages.compare.page import ComparePage  # pyqtgraph takes a moment: not before the page is shown.
 
@@ -33,6 +39,7 @@ def _make_plan(session: Session, parent: QWidget) -> Page:
 
 
 PAGE_KINDS = (
+    PageKind("start", "Start", "What this is, recent files and scenes (Alt+0)", _make_start),
     PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
     PageKind(
         "compare",

@@ -111,6 +111,8 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pane_thumbnails", ("T",), "Thumbnails of all buffers", VIEWING, "View", is_checkable=True),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     ),
+    KeyAction("page_start", ("Alt+0",), "Start page", PAGES, "Help"),
+    *_on("start", KeyAction("begin_stepping", ("Right",), "Step what is open", STEPPING)),
     KeyAction("page_step", ("Alt+1",), "Step page", PAGES, "View", is_checkable=True),
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
     KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),

@@ -52,7 +52,7 @@ class MainWindow(QMainWindow):
         self.session = Session(document, self)
         self.messages = MessageBar(self)
         self._hints = QStatusBar(self)
-        self.pages = Pages(PAGE_KINDS, self.session, self._hints, self.messages, self)
+        self.pages = Pages(PAGE_KINDS, self.session, self._hints, self.messages, "step", self)
         step_page = self.pages.page("step")
         assert isinstance(step_page, StepPage)
         self.page = step_page
@@ -273,6 +273,8 @@ class MainWindow(QMainWindow):
         page.edit_refused.connect(self._warn)
         page.step_requested.connect(self.opening.open_request)
         page.action_requested.connect(self.run_action)
+        page.open_requested.connect(self.open_path)
+        page.preference_changed.connect(self.memory.remember)
         self.memory.restore_page(page)
 
     @Slot(str)
@@ -280,6 +282,7 @@ class MainWindow(QMainWindow):
         """Let the keys and menus be those of the page that is shown now."""
         self.menus.show_page(name)
         self.overlays.show_page(name)
+        self.pages.current.show_preferences(self.memory.preferences)
         self._show_pointed()
 
     @Slot()
@@ -428,4 +431,6 @@ class MainWindow(QMainWindow):
             self.pages.show_page(name)
             self.pages.current.open_path(path)
         else:
+            if self.pages.current_name == "start":
+                self.pages.show_page("step")
             self.files.open_path(path, allows_outside)

@@ -41,6 +41,8 @@ class Preferences(BaseModel):
     """Stages whose card is folded."""
     page: str = "step"
     """Page that was shown last."""
+    shows_start: bool = False
+    """Whether the start page is shown although the last scene is restored."""
     shows_all_methods: bool = False
     """Whether the pane Methods shows those beyond a first course too."""
     level: Annotated[int, Field(ge=0, le=4)] = 3

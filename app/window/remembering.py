@@ -53,6 +53,11 @@ class Remembering(QObject):
         """Keep how fast it plays."""
         self.preferences = self.preferences.model_copy(update={"speed": speed})
 
+    @Slot(str, object)
+    def remember(self, name: str, value: object) -> None:
+        """Keep a preference by its name."""
+        self.preferences = self.preferences.model_copy(update={name: value})
+
     @Slot(str)
     def remember_theme(self, name: str) -> None:
         """Keep the theme."""
@@ -96,7 +101,7 @@ class Remembering(QObject):
             update={
                 "geometry": window.saveGeometry().toBase64().toStdString(),
                 "layout": layout,
-                "page": window.pages.current_name,
+                "page": window.pages.current_name if window.pages.current_name != "start" else "step",
                 "shows_all_methods": window.page.settings_panel.more_button.isChecked(),
                 "shown_panes": window.page.shown_panes(),
                 "folded_cards": window.page.inspector.folded(),

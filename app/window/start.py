@@ -39,6 +39,11 @@ def theme_of(name: str, application: QApplication) -> Theme:
     return DARK if is_dark else LIGHT
 
 
+def shows_start_page(target: str | None, is_restored: bool, is_wanted: bool) -> bool:
+    """Return whether a start shows the start page: not over a file, over a restored scene only where it is wanted."""
+    return target is None and (is_wanted or not is_restored)
+
+
 def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     """Show the window until it is closed; return the exit code.
 
@@ -71,6 +76,9 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
         window.tell(warning, MessageKind.WARNING)
     if first.message is not None:
         window.offer(first.message, first.offered)
+    is_restored = first.file is not None or first.message is not None
+    if shows_start_page(target, is_restored, preferences.shows_start):
+        window.pages.show_page("start")
     if target is not None:
         window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
         window.open_path(target, allows_outside)

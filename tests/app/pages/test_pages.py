@@ -33,11 +33,15 @@ def test_starting_the_window_does_not_wait_for_other_pages() -> None:
 def test_a_click_in_the_bar_shows_a_page_that_is_made_only_then(window: MainWindow) -> None:
     assert [type(page).__name__ for page in window.pages.made] == ["StepPage"]
     bar = window.pages.bar
-    QTest.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(1).center())
+    QTest.mouseClick(
+        bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(window.pages.names.index("compare")).center()
+    )
     assert window.pages.current_name == "compare"
     assert len(window.pages.made) == 2
     assert not window.page.isVisible()
-    QTest.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(0).center())
+    QTest.mouseClick(
+        bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(window.pages.names.index("step")).center()
+    )
     assert window.page.isVisible()
 
 

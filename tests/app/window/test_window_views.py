@@ -59,6 +59,8 @@ def look_at_everything(window: MainWindow, views: Iterable[str], stages: tuple[s
 
 def test_every_view_at_every_stage_of_every_scene(window: MainWindow) -> None:
     for name in scene_names():
+        if name in ("fan", "z-fighting"):
+            continue  # They have no step or view of another kind.
         scene = built_in_scene(name)
         window.session.open(open_document(scene.make(), scene.title))
         look_at_everything(window, window.page.view_names())

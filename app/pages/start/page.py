@@ -1,0 +1,230 @@
+"""The start page: what the program is, what to press, files to open, and the built-in scenes with their pictures."""
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import Qt, Slot
+from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QScrollArea, QWidget
+
+from app.background.workers import Job, Progress
+from app.pages.page_bar import Handlers, Page
+from app.session.session import Session
+from core.fast_path.draw import draw_picture
+from core.scene import Scene
+from core.settings import settings_from_texts
+from lessons.scenes import CATALOGUE, TEACHING_SIZE, BuiltInScene
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
+from widgets.basics.image import display_image
+from widgets.basics.labels import text_label
+from widgets.basics.theme import current_theme
+from widgets.start.scene_cards import PICTURE, SceneCards, SceneEntry
+
+if TYPE_CHECKING:
+    from app.window.preferences import Preferences
+
+FIRST = CATALOGUE[0].name
+WHAT = (
+    "Rasterscope shows how triangles become pixels: every stage of the pipeline, "
+    "step by step, forwards and backwards."
+)
+MOST_RECENT = 6
+OF_MESH = 8
+"""Size of the picture of a mesh, in those of the cards' unit: it is shown smaller, so that its edges are smooth."""
+SIDE = 300
+"""Width of the left column in pixels at a text size of 13."""
+
+
+class StartPage(Page):
+    """Left what to begin with, right the scenes."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._job = Job(self)
+        self._job.part_done.connect(self._show_picture)
+        self._job.failed.connect(self._fail)
+        self.cards = SceneCards(self)
+        self.cards.show_scenes([SceneEntry(s.name, s.title, s.description) for s in CATALOGUE])
+        self.cards.scene_chosen.connect(self.open_requested)
+        self.begin_button = button_with_tip(
+            "Begin with one triangle", "Open the scene with one triangle", self
+        )
+        self.begin_button.clicked.connect(self._begin)
+        self.open_button = self._action_button("Open a mesh or state…", "open_file", "Open a file (Ctrl+O)")
+        self.guide_button = self._action_button(
+            "Five-minute guide", "help_guide", "Learn the program step by step"
+        )
+        self.keys_button = self._action_button("All keys", "show_keys", "Everything that a key does (?)")
+        self.always_box = QCheckBox("Show this page at every start", self)
+        self.always_box.toggled.connect(self._choose_always)
+        self.now_label = text_label("", self, wraps=True)
+        self._recent = QWidget(self)
+        self._recent_rows = column_layout(self._recent, 4)
+        row = row_layout(self, 16, margins=(16, 8, 8, 8))
+        row.addWidget(_scrolled(self._side(), "Begin"))
+        row.addWidget(_scrolled(self._scenes(), "Scenes"), 1)
+        session.document_changed.connect(self._show_document)
+        self._show_document()
+        self.show_recent(())
+
+    def _action_button(self, text: str, action: str, tip: str) -> QPushButton:
+        button = button_with_tip(text, tip, self)
+        button.setObjectName(action)
+        button.clicked.connect(self._act)
+        return button
+
+    def _side(self) -> QWidget:
+        side = self._side_pane = QWidget(self)
+        layout = column_layout(side, 8, margins=(0, 8, 12, 8))
+        layout.addWidget(text_label("Rasterscope", side, role="title"))
+        layout.addWidget(text_label(WHAT, side, wraps=True))
+        layout.addSpacing(8)
+        layout.addWidget(self.begin_button)
+        layout.addWidget(self.now_label)
+        layout.addSpacing(8)
+        for button in (self.open_button, self.guide_button, self.keys_button):
+            layout.addWidget(button)
+        hint = "Or drop a file on the window: OBJ, PLY, STL, OFF, glTF, GLB."
+        layout.addWidget(text_label(hint, side, role="muted", wraps=True))
+        layout.addSpacing(8)
+        layout.addWidget(text_label("Recent files", side, role="strong"))
+        layout.addWidget(self._recent)
+        layout.addStretch(1)
+        layout.addWidget(self.always_box)
+        return side
+
+    def _scenes(self) -> QWidget:
+        pane = QWidget(self)
+        layout = column_layout(pane, 8, margins=(0, 8, 8, 8))
+        layout.addWidget(text_label("Scenes", pane, role="title"))
+        layout.addWidget(self.cards)
+        layout.addStretch(1)
+        return pane
+
+    # What is shown.
+
+    def show_preferences(self, preferences: "Preferences") -> None:
+        """Show the recent files, and whether the page is wanted at every start."""
+        self.show_recent(preferences.recent_files)
+        self.always_box.setChecked(preferences.shows_start)
+
+    def show_recent(self, paths: "tuple[str, ...] | list[str]") -> None:
+        """Show the files that were open last, of those that can be had now."""
+        for row in self._recent.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly):
+            row.hide()
+            row.deleteLater()
+            self._recent_rows.removeWidget(row)
+        for path in [path for path in paths if os.path.isfile(path)][:MOST_RECENT]:
+            button = button_with_tip(os.path.basename(path), path, self._recent)
+            button.setObjectName(path)
+            button.clicked.connect(self._open_recent)
+            self._recent_rows.addWidget(button)
+        if not self._recent_rows.count():
+            self._recent_rows.addWidget(text_label("No files yet.", self._recent, role="muted"))
+
+    @Slot()
+    def _show_document(self) -> None:
+        title = self._session.document.title or "a scene"
+        self.now_label.setText(f"Open now: {title}. Press Right for its next step, Left to go back.")
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether pictures are still being drawn."""
+        return self._job.is_running
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the left column the width that its text needs, if the scenes keep most of the page."""
+        super().resizeEvent(event)
+        self._side_pane.setFixedWidth(min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5))
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Draw the pictures when they are first seen."""
+        super().showEvent(event)
+        if not self._job.is_running and not all(card.has_picture() for card in self.cards.cards):
+            self._job.start_in_parts(draw_pictures)
+
+    @Slot(object)
+    def _show_picture(self, part: tuple[str, NDArray[np.uint8]]) -> None:
+        name, pixels = part
+        self.cards.show_picture(name, display_image(pixels))
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        raise error
+
+    # What is done.
+
+    def handlers(self) -> Handlers:
+        """Return what the keys of this page do."""
+        return {"begin_stepping": self._step_on}
+
+    def _step_on(self) -> None:
+        self.action_requested.emit("page_step")
+        self.action_requested.emit("step_forward")
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Press a button with Return."""
+        focused = self.focusWidget()
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and isinstance(focused, QAbstractButton):
+            focused.click()
+        else:
+            super().keyPressEvent(event)
+
+    @Slot(bool)
+    def _choose_always(self, is_wanted: bool) -> None:
+        self.preference_changed.emit("shows_start", is_wanted)
+
+    @Slot()
+    def _begin(self) -> None:
+        self.open_requested.emit(FIRST)
+
+    @Slot()
+    def _act(self) -> None:
+        self.action_requested.emit(self.sender().objectName())
+
+    @Slot()
+    def _open_recent(self) -> None:
+        self.open_requested.emit(self.sender().objectName())
+
+    def leave(self) -> None:
+        """Draw no further: what is missing is drawn when the page is shown again."""
+        self._job.cancel()
+
+    def stop(self) -> None:
+        """End drawing."""
+        self._job.shut_down()
+
+
+def draw_pictures(
+    progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[object], None]
+) -> None:
+    """Draw the built-in scenes for their cards: name and (H, W, 4) uint8 pixels of each, one after the other."""
+    for built_in in CATALOGUE:
+        if is_cancelled():
+            return
+        part_done((built_in.name, picture_of(built_in)))
+
+
+def picture_of(built_in: BuiltInScene) -> NDArray[np.uint8]:
+    """Return the picture of a built-in scene, (H, W, 4) uint8: a teaching raster unchanged, a mesh in more pixels."""
+    scene = built_in.make()
+    if isinstance(scene, Scene) and scene.size != TEACHING_SIZE:
+        scene = replace(scene, size=(OF_MESH * PICTURE.width(), OF_MESH * PICTURE.height()))
+    return draw_picture(scene, settings_from_texts(dict(built_in.picture_settings))).pixels
+
+
+def _scrolled(content: QWidget, name: str) -> QScrollArea:
+    """Return a part of the page that scrolls where the window is too low."""
+    area = QScrollArea()
+    area.setWidgetResizable(True)
+    area.setFrameShape(QScrollArea.Shape.NoFrame)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    area.setAccessibleName(name)
+    area.setWidget(content)
+    return area

@@ -1,0 +1,112 @@
+"""The start page: shown at the first start, by key, and left for stepping by Right, a card, a file."""
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.pages.start.page import StartPage, picture_of
+from app.window import start
+from app.window.main_window import MainWindow
+from app.window.preferences import load_preferences
+from lessons.scenes import CATALOGUE, built_in_scene
+
+
+@pytest.fixture
+def page(window: MainWindow, qtbot: QtBot) -> StartPage:
+    QTest.keyClick(window, Qt.Key.Key_0, Qt.KeyboardModifier.AltModifier)
+    shown = window.pages.current
+    assert isinstance(shown, StartPage)
+    qtbot.waitUntil(lambda: not shown.is_drawing)
+    return shown
+
+
+def test_every_scene_has_a_card_with_a_picture_of_it(page: StartPage) -> None:
+    assert [card.entry.name for card in page.cards.cards] == [scene.name for scene in CATALOGUE]
+    for card in page.cards.cards:
+        assert card.has_picture()
+        assert (card.accessibleName(), card.accessibleDescription()) == (
+            card.entry.title,
+            card.entry.description,
+        )
+        assert min(card.width(), card.height()) > 24
+
+
+def test_pictures_are_drawn_by_the_core() -> None:
+    assert picture_of(built_in_scene("fan")).shape == (48, 64, 4)
+    assert picture_of(built_in_scene("cube")).shape == (384, 512, 4)
+    # The plates are shown as 16 bits of depth draw them.
+    plates = picture_of(built_in_scene("z-fighting"))
+    assert set((plates[24, 26:36, 0] > plates[24, 26:36, 2]).tolist()) == {True, False}
+
+
+def test_right_steps_what_is_open(window: MainWindow, page: StartPage) -> None:
+    window.session.set_stage("transform", 0)
+    assert "Two triangles sharing an edge" in page.now_label.text()
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    assert (window.pages.current_name, window.session.cursor.position > 0) == ("step", True)
+
+
+def test_arrows_go_from_card_to_card_and_return_opens(
+    window: MainWindow, page: StartPage, qtbot: QtBot
+) -> None:
+    cards = page.cards.cards
+    cards[0].setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(cards[0], Qt.Key.Key_Right)
+    assert cards[1].hasFocus()
+    QTest.keyClick(cards[1], Qt.Key.Key_Right)
+    QTest.keyClick(cards[2], Qt.Key.Key_Return)
+    assert window.pages.current_name == "step"
+    qtbot.waitUntil(lambda: window.session.document.title == "Fan of shared edges")
+
+
+def test_recent_files_and_the_first_triangle_open(
+    window: MainWindow, page: StartPage, qtbot: QtBot, tmp_path: Path
+) -> None:
+    mesh = tmp_path / "one.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    window.memory.remember_file(str(mesh))
+    window.pages.show_page("step")
+    window.pages.show_page("start")
+    page.findChild(QPushButton, str(mesh)).click()
+    qtbot.waitUntil(lambda: window.session.document.title == "one")
+    window.pages.show_page("start")
+    page.begin_button.click()
+    qtbot.waitUntil(lambda: window.session.document.title == "Single triangle")
+    assert window.session.cursor.stage == "transform"
+
+
+def test_the_choice_is_remembered_and_the_page_is_not_where_one_stopped(
+    window: MainWindow, page: StartPage
+) -> None:
+    page.always_box.click()
+    window.close()
+    kept = load_preferences()[0]
+    assert (kept.shows_start, kept.page) == (True, "step")
+
+
+@pytest.mark.parametrize(
+    ("target", "is_restored", "is_wanted", "shown"),
+    [
+        (None, False, False, "start"),
+        (None, True, False, "step"),
+        (None, True, True, "start"),
+        ("cube", False, True, "step"),
+    ],
+)
+def test_what_a_start_shows(target: str | None, is_restored: bool, is_wanted: bool, shown: str) -> None:
+    assert start.shows_start_page(target, is_restored, is_wanted) == (shown == "start")
+
+
+def test_the_page_is_reached_by_tab_from_begin_to_the_last_card(window: MainWindow, page: StartPage) -> None:
+    page.begin_button.setFocus(Qt.FocusReason.TabFocusReason)
+    reached = [QApplication.focusWidget()]
+    for _ in range(40):
+        QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
+        reached.append(QApplication.focusWidget())
+    wanted = [page.begin_button, page.open_button, page.guide_button, page.keys_button, page.always_box]
+    assert [each for each in wanted if each not in reached] == []
+    assert [card.entry.name for card in page.cards.cards if card not in reached] == []

@@ -1,0 +1,1 @@
+"""What the start page shows: scenes with their pictures."""

@@ -1,0 +1,190 @@
+"""Scenes as cards: a picture, a title and a sentence; a click or Return opens one, arrows go to its neighbours."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QImage,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QAbstractButton, QWidget
+
+from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.key_claim import KeyClaim
+from widgets.basics.theme import current_theme, text_font, theme_notifier
+
+PICTURE = QSize(64, 48)
+"""Logical pixels of a picture at a text size of 13, times 3 or 4: a teaching raster keeps square pixels."""
+SIZES = (3, 4)
+MANY = 5
+"""Cards in a row that the larger pictures leave room for."""
+GAP = 8
+WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
+
+
+@dataclass(frozen=True)
+class SceneEntry:
+    """One scene."""
+
+    name: str
+    title: str
+    description: str
+
+
+class SceneCard(QAbstractButton):
+    """A button with a picture, which may come later."""
+
+    def __init__(self, entry: SceneEntry, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.entry = entry
+        self._image: QImage | None = None
+        self._size = SIZES[0]
+        self.setObjectName(entry.name)
+        self.setText(entry.title)
+        self.setAccessibleName(entry.title)
+        self.setAccessibleDescription(entry.description)
+        self.setToolTip(entry.description)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        KeyClaim(self, (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Space))
+
+    @Slot(QImage)
+    def show_picture(self, image: QImage) -> None:
+        """Show the picture of the scene."""
+        self._image = image
+        self.update()
+
+    def set_size(self, size: int) -> None:
+        """Show the picture so many times as large as `PICTURE`."""
+        self._size = size
+
+    def has_picture(self) -> bool:
+        """Return whether its picture is there."""
+        return self._image is not None
+
+    def sizeHint(self) -> QSize:
+        """Return the size of picture, title and sentence; the parent gives all cards the height of the highest."""
+        text = sum(self._text_heights())
+        return QSize(self._picture_size().width() + 2 * GAP, self._picture_size().height() + text + 3 * GAP)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the card, with a frame where it has the keyboard or the pointer."""
+        theme = current_theme()
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            frame = theme.focus if self.hasFocus() else theme.outline
+            is_framed = self.underMouse() or self.hasFocus()
+            painter.setPen(QPen(QColor(frame), 2) if is_framed else Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.selection if self.isDown() else theme.panel))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            picture = QRect(GAP, GAP, self._picture_size().width(), self._picture_size().height())
+            painter.fillRect(picture, QColor(theme.canvas))
+            if self._image is not None:
+                # Pixels of a small raster stay squares; a large picture is made smaller smoothly.
+                is_small = self._image.width() < picture.width()
+                painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, not is_small)
+                painter.drawImage(picture, self._image)
+            text = picture.translated(0, picture.height() + GAP // 2)
+            text.setBottom(self.height())
+            title, sentence = self._fonts()
+            painter.setFont(title)
+            painter.setPen(QColor(theme.text))
+            painter.drawText(text, WRAPPED, self.entry.title)
+            painter.setFont(sentence)
+            painter.setPen(QColor(theme.muted_text))
+            painter.drawText(text.adjusted(0, self._text_heights()[0], 0, 0), WRAPPED, self.entry.description)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Open the scene with Return too."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.click()
+        else:
+            super().keyPressEvent(event)
+
+    def _fonts(self) -> tuple[QFont, QFont]:
+        """Return the fonts of the title and of the sentence."""
+        theme = current_theme()
+        title = text_font(theme)
+        title.setWeight(QFont.Weight.DemiBold)
+        return title, text_font(theme, theme.text_px - 1)
+
+    def _text_heights(self) -> tuple[int, int]:
+        """Return the heights of title and sentence, wrapped to the width of the picture."""
+        room = QRect(0, 0, self._picture_size().width(), 1000)
+        title, sentence = (
+            QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
+            for font, text in zip(self._fonts(), (self.entry.title, self.entry.description), strict=True)
+        )
+        return title, sentence
+
+    def _picture_size(self) -> QSize:
+        return PICTURE * (self._size * current_theme().text_px / 13)
+
+
+class SceneCards(QWidget):
+    """All cards, as many in a row as fit."""
+
+    scene_chosen = Signal(str)
+    """Name of a scene."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.cards: list[SceneCard] = []
+        self._flow = FlowLayout(self, 12)
+        self.setAccessibleName("Scenes")
+
+    def show_scenes(self, entries: Sequence[SceneEntry]) -> None:
+        """Make a card for each scene."""
+        for entry in entries:
+            card = SceneCard(entry, self)
+            card.clicked.connect(self._choose)
+            card.installEventFilter(self)
+            self._flow.addWidget(card)
+            self.cards.append(card)
+        self._fit()
+        theme_notifier().theme_changed.connect(self._fit)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Choose the size of the pictures."""
+        super().resizeEvent(event)
+        self._fit()
+
+    @Slot()
+    def _fit(self) -> None:
+        """Take the larger pictures where there is room for them, and make all cards as high as the highest."""
+        small, large = SIZES
+        scale = current_theme().text_px / 13
+        width = MANY * (large * PICTURE.width() * scale + 2 * GAP + self._flow.spacing())
+        for card in self.cards:
+            card.set_size(large if width <= self.width() else small)
+        height = max(card.sizeHint().height() for card in self.cards)
+        for card in self.cards:
+            card.setFixedSize(card.sizeHint().width(), height)
+
+    def show_picture(self, name: str, image: QImage) -> None:
+        """Show the picture of a scene by its name."""
+        next(card for card in self.cards if card.entry.name == name).show_picture(image)
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Go with an arrow to the card on that side; Qt would go to the next in the order of Tab."""
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress and watched in self.cards:
+            row = max(1, sum(card.y() == self.cards[0].y() for card in self.cards))
+            steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Up: -row, Qt.Key.Key_Down: row}
+            if event.key() in steps:
+                place = self.cards.index(watched) + steps[Qt.Key(event.key())]
+                if 0 <= place < len(self.cards):
+                    self.cards[place].setFocus(Qt.FocusReason.TabFocusReason)
+                return True
+        return False
+
+    @Slot()
+    def _choose(self) -> None:
+        self.scene_chosen.emit(self.sender().objectName())
