@@ -109,6 +109,8 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pane_overlays", ("O",), "Overlays pane", VIEWING, "View", is_checkable=True),
         KeyAction("pane_inspector", ("I",), "Inspector", VIEWING, "View", is_checkable=True),
         KeyAction("pane_thumbnails", ("T",), "Thumbnails of all buffers", VIEWING, "View", is_checkable=True),
+        KeyAction("flip", ("X",), "Swap the pictures of A and B while held", VIEWING),
+        KeyAction("divergence", ("D",), "First divergence of A and B", VIEWING, "View"),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     ),
     KeyAction("page_start", ("Alt+0",), "Start page", PAGES, "Help"),

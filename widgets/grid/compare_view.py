@@ -1,28 +1,53 @@
 """A | B | difference: two settings on the same input, three linked grids."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtGui import QGuiApplication, QKeyEvent
+from PySide6.QtWidgets import QLabel, QWidget
 
-from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
+from widgets.basics.labels import text_label
 from widgets.basics.settings_panel import ChoiceBox, Setting
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import LinkedGrids
+from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """One of the two pictures that are compared."""
+
+    name: str
+    """A or B."""
+    title: str
+    """What it is drawn with."""
+    place: str = ""
+    """How far its run is."""
+    sentence: str = ""
+    """What its last step did."""
+    buffer: GridBuffer | None = None
+    """``None``: there is no picture."""
+    reason: str = ""
+    """Why there is none."""
+    overlays: tuple[Overlay, ...] = ()
+    geometry: GridGeometry | None = None
+    """Its triangles."""
+    step: StepMark = field(default_factory=StepMark)
+    """What its last step was about."""
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """What the three grids show."""
 
-    first: GridBuffer
-    second: GridBuffer
-    difference: GridBuffer
-    first_title: str
-    second_title: str
+    first: Side
+    second: Side
+    difference: GridBuffer | None
+    """``None``: one side is blank."""
     summary: str
     """How much they differ, in words."""
     marks: tuple[Overlay, ...] = ()
@@ -43,6 +68,10 @@ class CompareView(QWidget):
     """The user wants B to be like A again."""
     swap_requested = Signal()
     """The user wants A to become B and B to become A."""
+    use_requested = Signal()
+    """The user wants the page to use the settings of B."""
+    divergence_requested = Signal()
+    """The user wants both runs to go to the first step that differs."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -52,15 +81,21 @@ class CompareView(QWidget):
         self.linked = LinkedGrids(("A", "B", "Difference"), self.figure)
         self.grids, self.titles = self.linked.grids, self.linked.titles
         self.buffer_box, self.family_box, self.value_box = (ChoiceBox(self) for _ in range(3))
-        self.summary = QLabel(self.figure)
+        self.notes = tuple(text_label("", self.figure, role="muted", wraps=True) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
+        self._comparison: Comparison | None = None
+        self._is_flipped = False
         self.linked.pixel_hovered.connect(self.pixel_hovered)
         self.linked.pixel_left.connect(self.pixel_left)
         self.linked.pixel_clicked.connect(self.pixel_clicked)
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
-            (self.family_box, "Family of B", "The family in which B differs from A"),
-            (self.value_box, "Method of B", "The method that B uses"),
+            (
+                self.family_box,
+                "Family of B",
+                "A family of methods; a dot marks those in which B differs from A",
+            ),
+            (self.value_box, "Method of B", "The method that B uses. B may differ in any number of families"),
         ):
             box.setAccessibleName(name)
             box.setToolTip(tip)
@@ -70,29 +105,43 @@ class CompareView(QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        reset, swap = QPushButton("B = A", self), QPushButton("Swap", self)
-        reset.setToolTip("Give B the settings of A")
-        swap.setToolTip("Swap the settings of A and B")
-        reset.clicked.connect(self.reset_requested)
-        swap.clicked.connect(self.swap_requested)
         row = row_layout(spacing=8)
-        for widget in (
-            QLabel("Compare", self),
-            self.buffer_box,
-            QLabel("B:", self),
-            self.family_box,
-            self.value_box,
-        ):
+        for widget in (QLabel("Compare", self), self.buffer_box, QLabel("B:", self)):
             row.addWidget(widget)
-        row.addWidget(reset)
-        row.addWidget(swap)
+        row.addWidget(self.family_box, 1)
+        row.addWidget(self.value_box, 2)
         row.addStretch(1)
+        buttons = row_layout(spacing=8)
+        for text, tip, signal in (
+            (
+                "First divergence",
+                "Go to the first step that differs, in both runs",
+                self.divergence_requested,
+            ),
+            ("Swap", "Swap the settings of A and B", self.swap_requested),
+            ("Use B", "Give the page the settings of B", self.use_requested),
+            ("B = A", "Give B the settings of A", self.reset_requested),
+        ):
+            button = button_with_tip(text, tip, self)
+            button.clicked.connect(signal)
+            buttons.addWidget(button)
+        self.flip_button = button_with_tip("Flip", "Swap the two pictures while it is held (X)", self)
+        self.flip_button.pressed.connect(self._flip)
+        self.flip_button.released.connect(self._flip_back)
+        buttons.addWidget(self.flip_button)
+        buttons.addStretch(1)
         layout = column_layout(self, 8, margins=(0, 4, 0, 0))
         layout.addLayout(row)
+        layout.addLayout(buttons)
         layout.addWidget(self.figure, 1)
         figure = column_layout(self.figure, 8)
         figure.addWidget(self.linked, 1)
-        figure.addWidget(self.summary)
+        notes = row_layout(spacing=8)
+        for note in self.notes:
+            note.setAlignment(Qt.AlignmentFlag.AlignTop)
+            notes.addWidget(note, 1)
+        figure.addLayout(notes)
+        self.summary = self.notes[2]
 
     def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
         """Offer buffers (name, title) for comparison."""
@@ -104,13 +153,14 @@ class CompareView(QWidget):
                 self.buffer_box.addItem(title, name)
         self.buffer_box.setCurrentIndex(self.buffer_box.findData(current))
 
-    def show_settings(self, settings: Sequence[Setting]) -> None:
-        """Show the settings of B."""
+    def show_settings(self, settings: Sequence[Setting], changed: frozenset[str]) -> None:
+        """Show the settings of B, and mark the families in which it differs."""
         family = self.family_box.currentData()
         self._settings = tuple(settings)
         self.family_box.clear()
         for setting in settings:
-            self.family_box.addItem(setting.label, setting.family)
+            mark = "\u2022 " if setting.family in changed else ""
+            self.family_box.addItem(mark + setting.label, setting.family)
         self.family_box.setCurrentIndex(max(self.family_box.findData(family), 0))
         self._show_values()
 
@@ -121,29 +171,71 @@ class CompareView(QWidget):
 
     def show_comparison(self, comparison: Comparison) -> None:
         """Show both pictures and their difference."""
-        buffers = (comparison.first, comparison.second, comparison.difference)
-        name = self.buffer_box.currentText().lower()
-        titles = (
-            comparison.first_title,
-            comparison.second_title,
-            f"Difference, {name}" if name else "Difference",
-        )
-        self.linked.show_buffers(buffers, titles)
+        self._comparison = comparison
+        sides = [comparison.first, comparison.second]
+        if self._is_flipped:
+            sides.reverse()
+        for number, side in enumerate(sides):
+            grid, note = self.grids[number], self.notes[number]
+            grid.empty_text = side.reason
+            grid.show_buffer(side.buffer)
+            grid.show_overlays(side.overlays)
+            grid.show_geometry(side.geometry)
+            grid.show_step(side.step)
+            self._write(self.titles[number], f"{side.title}\n{side.place}", 3)
+            self._write(note, side.sentence, 5)
+        name = self.buffer_box.currentText()
+        self.grids[2].empty_text = comparison.summary
+        self.grids[2].show_buffer(comparison.difference)
         self.grids[2].show_overlays(comparison.marks)
-        self.summary.setText(comparison.summary)
+        self.grids[2].show_geometry(comparison.first.geometry)
+        self._write(self.titles[2], f"Difference, {name}" if name else "Difference", 3)
+        self._write(self.summary, comparison.summary, 5)
 
-    def show_refusal(self, text: str) -> None:
-        """Show no pictures, and why."""
-        self.linked.show_nothing()
-        self.summary.setText(text)
+    def show_flipped(self, is_flipped: bool) -> None:
+        """Show B in the place of A and A in the place of B, or both in their own places."""
+        if is_flipped != self._is_flipped:
+            self._is_flipped = is_flipped
+            if self._comparison is not None:
+                self.show_comparison(self._comparison)
+
+    def flip_while_held(self) -> None:
+        """Show B in the place of A and A in the place of B until the key is released."""
+        self.show_flipped(True)
+        QGuiApplication.instance().installEventFilter(self)  # type: ignore[union-attr]
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Put A and B back when a key is released, or the window is left while it is held."""
+        is_release = isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyRelease
+        is_held = is_release and isinstance(event, QKeyEvent) and event.isAutoRepeat()
+        if (is_release and not is_held) or event.type() == QEvent.Type.WindowDeactivate:
+            QGuiApplication.instance().removeEventFilter(self)  # type: ignore[union-attr]
+            self.show_flipped(False)
+        return False
+
+    @property
+    def is_flipped(self) -> bool:
+        """Whether A and B have changed places."""
+        return self._is_flipped
+
+    @staticmethod
+    def _write(label: QLabel, text: str, lines: int) -> None:
+        """Show a text in the place of some lines: longer and shorter ones do not move the pictures."""
+        label.setText(text)
+        label.setToolTip(text)
+        label.setFixedHeight(lines * label.fontMetrics().lineSpacing() + 4)
+
+    @Slot()
+    def _flip(self) -> None:
+        self.show_flipped(True)
+
+    @Slot()
+    def _flip_back(self) -> None:
+        self.show_flipped(False)
 
     def set_pixel_center(self, pixel_center: str) -> None:
         """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
         self.linked.set_pixel_center(pixel_center)
-
-    def show_geometry(self, geometry: GridGeometry | None) -> None:
-        """Show the triangles in all grids."""
-        self.linked.show_geometry(geometry)
 
     def show_pointing(self, pin: tuple[int, int] | None, hover: tuple[int, int] | None) -> None:
         """Mark pin and hover in all grids."""

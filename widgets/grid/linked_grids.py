@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 from widgets.basics.controls import closing_button
 from widgets.basics.labels import text_label
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.geometry import GridGeometry
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 
@@ -55,11 +54,6 @@ class LinkedGrids(QWidget):
             grid.show_buffer(None)
             grid.show_overlays(())
             label.setText(name)
-
-    def show_geometry(self, geometry: GridGeometry | None) -> None:
-        """Show the triangles in all grids."""
-        for grid in self.grids:
-            grid.show_geometry(geometry)
 
     def set_pixel_center(self, pixel_center: str) -> None:
         """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""

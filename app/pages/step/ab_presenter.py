@@ -1,64 +1,83 @@
-"""A | B | difference: the traced picture under the page's settings and under other ones, on the same input."""
+"""A | B | difference: the page's run and the same one under other settings, stepped together."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
+from app.pages.step.ab_pictures import Place, buffers_at, compare, side_of
+from app.pages.step.ab_settings import first_difference, settings_difference
+from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import geometry_of
+from app.pages.step.lock_step import LockStep
 from app.pages.step.scene_outline_presenter import settings_records
 from app.pages.step.vertex_drags import VertexDrags
-from app.session.session import Session
+from app.session.session import Cursor, Session
 from app.session.tracing import QUICK_SECONDS
-from core import Frame, Settings
-from core.explain.stage_texts import family_title
-from core.methods import table
+from core import STAGES, Settings, Trace
+from core.records.steps import Level
 from core.settings import WHOLE_NUMBERS
-from core.trace import TraceSource
-from widgets.grid.buffer import BufferKind, GridBuffer, number_text
-from widgets.grid.compare_view import CompareView, Comparison
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.compare_view import CompareView, Comparison, Side
+from widgets.grid.geometry import GridGeometry
 
-BUFFERS = (
-    ("color", "Colour"),
-    ("primitive", "Triangles"),
-    ("depth", "Depth"),
-    ("cover_count", "Cover count"),
-)
+if TYPE_CHECKING:
+    from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
+
+PREDICTING = "Prediction hides the pictures of A and B. P ends it."
 
 
 class ComparePresenter(QObject):
-    """Keeps the settings of B and shows both pictures while the view is open."""
+    """Keeps the settings, the run and the cursor of B, and shows both runs while the view is open."""
 
     edit_refused = Signal(str)
+    message_sent = Signal(str)
+    """What a search has found."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
 
     def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._view = session, view
-        self._differences: dict[str, str | int] = {"fill": "scanline-lecture"}
-        """The family in which B differs from A: family and value."""
-        self._buffer = "color"
+        self._differences: dict[str, str | int] = {}
+        """What B does otherwise than A: family and value."""
+        self._is_chosen = False
+        """Whether the user has chosen it; else it follows the stage that is shown."""
+        self._buffer = ""
         self._is_active = False
-        self._job = Job(self)
-        self._job.succeeded.connect(self._show)
+        self._second: Trace | None = None
+        """The run of B; ``None``: it cannot be drawn, or is being drawn."""
+        self._geometry: dict[tuple[Trace, str, int], GridGeometry] = {}
+        self._refusal = ""
+        self._stage = ""
+        self._meeting: tuple[int, int] | None = None
+        """The pixel to which both runs go when B is drawn."""
+        self._steps: LockStep | None = None
+        self._job, self._search = Job(self), Job(self)
+        self._job.succeeded.connect(self._take)
         self._job.failed.connect(self._refuse)
+        self._search.succeeded.connect(self._land)
+        self._search.failed.connect(self._tell_no_divergence)
         self._drags = VertexDrags(session, view.linked.grids, self._no_triangle, "drag in A | B", self)
         self._drags.refused.connect(self.edit_refused)
         session.document_changed.connect(self.refresh)
+        session.cursor_changed.connect(self._follow)
+        session.predicting_changed.connect(self.refresh)
         session.pin_changed.connect(self.refresh_pointing)
         session.hover_changed.connect(self.refresh_pointing)
         view.setting_chosen.connect(self._choose)
         view.buffer_chosen.connect(self.set_buffer)
         view.reset_requested.connect(self._reset)
         view.swap_requested.connect(self._swap)
+        view.use_requested.connect(self._use)
+        view.divergence_requested.connect(self.go_to_divergence)
         view.pixel_hovered.connect(self._hover)
         view.pixel_left.connect(self._leave)
         view.pixel_clicked.connect(self._pin)
+
+    # What is compared.
 
     @property
     def other(self) -> Settings:
@@ -67,66 +86,249 @@ class ComparePresenter(QObject):
 
     @property
     def differences(self) -> Mapping[str, str | int]:
-        """What B does otherwise than A: family and value."""
-        return self._differences
+        """What B does otherwise than A, family and value; empty: it follows the stage."""
+        return self._differences if self._is_chosen else {}
 
     @property
     def buffer(self) -> str:
-        """Name of the buffer in which both are compared."""
+        """Name of the buffer in which both are compared; empty: the first one of the stage."""
         return self._buffer
 
+    @property
+    def second_position(self) -> int | None:
+        """Where B is in the stage that is shown; ``None``: it has no run."""
+        return None if self._steps is None else self._steps.second_position
+
     def set_active(self, is_active: bool) -> None:
-        """Show the comparison from now on, or stop computing it."""
+        """Show both runs from now on, or stop computing the second one."""
         self._is_active = is_active
         self.refresh()
         if is_active and self._differences:
             self._view.show_family(next(iter(self._differences)))
 
+    def set_differences(self, differences: Mapping[str, str | int]) -> None:
+        """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand."""
+        mine = self._session.document.settings
+        self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
+        self._is_chosen = bool(differences)
+        self.refresh()
+        self.look_changed.emit()
+
+    @Slot(str)
+    def set_buffer(self, name: str) -> None:
+        """Compare in another buffer."""
+        self._buffer = name
+        self._show()
+        self.look_changed.emit()
+
+    @Slot(str, str)
+    def _choose(self, family: str, value: str) -> None:
+        chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
+        self.set_differences({**self._differences, family: chosen})
+
+    @Slot()
+    def _reset(self) -> None:
+        self._differences, self._is_chosen = {}, True
+        self.refresh()
+        self.look_changed.emit()
+
+    @Slot()
+    def _swap(self) -> None:
+        mine = self._session.document.settings
+        self._edit({family: getattr(mine, family) for family in self._differences})
+
+    @Slot()
+    def _use(self) -> None:
+        said = settings_difference(self._session.document.settings, self.other)
+        if self._edit({}) and said:
+            self.message_sent.emit(f"The page now uses B: {said}. Ctrl+Z takes it back.")
+
+    def _edit(self, differences: dict[str, str | int]) -> bool:
+        """Give the page the settings of B, and B other differences; return whether the page could take them."""
+        other, before = self.other, (self._differences, self._is_chosen)
+        self._differences, self._is_chosen = differences, True
+        try:
+            self._session.edit(replace(self._session.latest, settings=other))
+        except ValueError as error:
+            self._differences, self._is_chosen = before
+            self.edit_refused.emit(str(error))
+            return False
+        return True
+
+    # The run of B.
+
     @Slot()
     def refresh(self) -> None:
-        """Draw both pictures and their difference."""
+        """Trace B anew, and show both runs."""
         if not self._is_active:
             return
         session = self._session
-        document, source = session.document, session.trace.source
-        self._view.show_buffers(BUFFERS, self._buffer)
-        self._view.show_settings(settings_records(replace(document, settings=self.other)))
-        self._view.show_geometry(geometry_of(document, session.trace))
-        self._view.set_pixel_center(document.settings.pixel_center)
-        other = TraceSource(source.scene, self.other, source.triangle, source.region, source.before)
+        document, self._stage = session.document, session.cursor.stage
         self._job.cancel()
-        if replace(document, settings=self.other).estimated_seconds > QUICK_SECONDS:
-            self._view.show_refusal("Drawing B …")
-            self._job.start(partial(_draw, other))
+        self._search.cancel()
+        self._steps = None
+        if session.is_predicting:
+            self._second, self._refusal = None, PREDICTING
+            self._show()
+            return
+        if not self._is_chosen:
+            self._differences = first_difference(document, session.trace, self._stage)
+        other = replace(document, settings=self.other)
+        self._view.show_settings(settings_records(other), frozenset(self._differences))
+        if not self._is_chosen and self._differences:
+            self._view.show_family(next(iter(self._differences)))
+        self._view.set_pixel_center(document.settings.pixel_center)
+        run = partial(_trace, other.make_trace, self._second or session.trace, self._stage)
+        if other.estimated_seconds > QUICK_SECONDS:
+            self._second, self._refusal = None, "Drawing B …"
+            self._show()
+            self._job.start(run)
             return
         try:
-            self._show(other)
+            self._take(run())
         except ValueError as error:
             self._refuse(error)
 
     @Slot(object)
-    def _show(self, other: TraceSource) -> None:
-        """Show both pictures and their difference."""
-        document, source = self._session.document, self._session.trace.source
-        origin = source.raster.bounds[:2]
-        comparison = compare(
-            source.picture, other.picture, self._buffer, document.settings, self.other, origin
-        )
-        self._view.show_comparison(comparison)
-        self.refresh_pointing()
+    def _take(self, second: Trace) -> None:
+        session, self._second, self._refusal = self._session, second, ""
+        mine, theirs = session.stage_trace.steps, second.stage(self._stage).steps
+        self._steps = LockStep(mine, theirs, session.cursor.position, session.cursor.level)
+        self._show()
+        self._meet(second)
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        self._view.show_refusal(f"B cannot be drawn: {error}")
-
-    @staticmethod
-    def _no_triangle() -> int | None:
-        """Return that only the document's own triangle has handles here."""
-        return None
+        self._second, self._refusal = None, f"B cannot be drawn: {error}"
+        self._show()
 
     def stop(self) -> None:
         """End drawing in the background."""
         self._job.shut_down()
+        self._search.shut_down()
+
+    # Stepping.
+
+    def steps_alone(self, direction: int, level: Level) -> bool:
+        """Step B where A has no more steps in this stage; return whether that was so."""
+        is_alone = self._is_active and self._steps is not None and self._steps.step_second(direction, level)
+        if is_alone:
+            self._show()
+        return is_alone
+
+    @Slot()
+    def _follow(self) -> None:
+        """Take B along to where A has gone."""
+        cursor = self._session.cursor
+        if not self._is_active:
+            return
+        if cursor.stage == self._stage:
+            if self._steps is not None:
+                self._steps.follow(cursor.position, cursor.level)
+            self._show()
+        elif self._second is None or not self._is_chosen:
+            self.refresh()
+        else:
+            self._stage = cursor.stage
+            self._take(self._second)
+
+    @Slot()
+    def go_to_divergence(self) -> None:
+        """Search for the first step that differs, in any stage, and put both runs there."""
+        from app.pages.step.ab_divergence import search
+
+        if self._second is None:
+            self.message_sent.emit(self._refusal or "Show A | B first (Ctrl+D).")
+        else:
+            self._search.start(partial(search, self._session.trace, self._second))
+
+    @Slot(object)
+    def _land(self, found: "Divergence | None") -> None:
+        from app.pages.step.ab_divergence import report
+
+        if self._second is None:
+            return
+        said = report(found, self._session.trace, self._second)
+        if found is not None:
+            if found.pixel is not None:
+                self._session.set_pin(found.pixel)
+            self._put_at(found.stage, *found.rows)
+        self.message_sent.emit(said)
+
+    def meet_at(self, pixel: tuple[int, int]) -> None:
+        """Put both runs at the first step about a pixel in which they differ, or else at the first one about it."""
+        self._meeting = pixel
+        if self._second is not None:
+            self._meet(self._second)
+
+    def _meet(self, second: Trace) -> None:
+        pixel, self._meeting = self._meeting, None
+        if pixel is None:
+            return
+        from app.pages.step.ab_divergence import rows_about
+
+        self._put_at(self._stage, *rows_about(self._session.stage_trace, second.stage(self._stage), pixel))
+
+    def _put_at(self, stage: str, mine: int | None, theirs: int | None) -> None:
+        """Put both runs just after a row of each; a run without one stays at its start."""
+        # B is what was compared, whatever stage it shows in.
+        self._is_chosen = True
+        steps = self._session.trace.stage(stage).steps
+        self._session.set_stage(stage, 0 if mine is None else steps.position_after(mine))
+        if self._steps is not None and self._second is not None and theirs is not None:
+            self._steps.land(self._second.stage(stage).steps.position_after(theirs))
+        self._show()
+
+    @Slot(object)
+    def _tell_no_divergence(self, error: Exception) -> None:
+        self.message_sent.emit(f"A and B cannot be compared: {error}")
+
+    # Showing.
+
+    def _show(self) -> None:
+        """Show both runs where they are, and their difference."""
+        if not self._is_active:
+            return
+        session, cursor = self._session, self._session.cursor
+        if session.is_predicting:
+            blanks = Side("A", "A", reason=PREDICTING), Side("B", "B", reason=PREDICTING)
+            self._view.show_comparison(Comparison(*blanks, None, PREDICTING))
+            return
+        steps, second = self._steps, self._second
+        mine, theirs = Place(session.trace, cursor), None
+        if steps is not None and second is not None:
+            mine = replace(mine, done=steps.done(0), steps=steps.steps(0), waits=steps.waits(0))
+            theirs = Place(second, replace(cursor, position=steps.second_position))
+            theirs = replace(theirs, done=steps.done(1), steps=steps.steps(1), waits=steps.waits(1))
+        buffers = [buffers_at(place) for place in (mine, theirs) if place is not None]
+        names = {name: buffer.label for each in reversed(buffers) for name, buffer in each.items()}
+        chosen = self._buffer if self._buffer in names else next(iter(buffers[0]))
+        self._view.show_buffers(tuple(names.items()), chosen)
+        first = side_of(
+            "A", "current settings", mine, self._outlines(mine), buffers[0].get(chosen), names[chosen]
+        )
+        title = settings_difference(session.document.settings, self.other) or "the same settings"
+        if theirs is None:
+            blank = Side("B", f"B: {title}", reason=self._refusal)
+            comparison = Comparison(first, blank, None, self._refusal)
+        else:
+            picture = buffers[1].get(chosen)
+            other = side_of("B", title, theirs, self._outlines(theirs), picture, names[chosen])
+            comparison = compare(first, other)
+        self._view.show_comparison(comparison)
+        self.refresh_pointing()
+
+    def _outlines(self, place: Place) -> GridGeometry:
+        """Return the triangles of a run, made anew only where they change."""
+        cursor = place.cursor if place.cursor.stage in OUTLINING else Cursor(STAGES[-1])
+        key = place.trace, cursor.stage, cursor.position
+        if key not in self._geometry:
+            if len(self._geometry) > 2:
+                self._geometry.clear()
+            self._geometry[key] = geometry_of(
+                self._session.document, place.trace, stage=cursor.stage, position=cursor.position
+            )
+        return self._geometry[key]
 
     @Slot()
     def refresh_pointing(self) -> None:
@@ -139,42 +341,10 @@ class ComparePresenter(QObject):
             ]
             self._view.show_pointing(marks[0], marks[1])
 
-    def set_differences(self, differences: Mapping[str, str | int]) -> None:
-        """Choose what B does otherwise than the page."""
-        mine = self._session.document.settings
-        self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
-        self.refresh()
-        self.look_changed.emit()
-
-    @Slot(str, str)
-    def _choose(self, family: str, value: str) -> None:
-        chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
-        self.set_differences({**self._differences, family: chosen})
-
-    @Slot(str)
-    def set_buffer(self, name: str) -> None:
-        """Compare in another buffer."""
-        if name in dict(BUFFERS):
-            self._buffer = name
-            self.refresh()
-            self.look_changed.emit()
-
-    @Slot()
-    def _reset(self) -> None:
-        self.set_differences({})
-
-    @Slot()
-    def _swap(self) -> None:
-        document, other = self._session.document, self.other
-        before, self._differences = (
-            self._differences,
-            {f: getattr(document.settings, f) for f in self._differences},
-        )
-        try:
-            self._session.edit(replace(self._session.latest, settings=other))
-        except ValueError as error:
-            self._differences = before
-            self.edit_refused.emit(str(error))
+    @staticmethod
+    def _no_triangle() -> int | None:
+        """Return that only the document's own triangle has handles here."""
+        return None
 
     @Slot(int, int)
     def _hover(self, column: int, row: int) -> None:
@@ -191,51 +361,14 @@ class ComparePresenter(QObject):
         self._session.set_pin((column + first_column, row + first_row))
 
 
-def _draw(source: TraceSource, progress: Progress, is_cancelled: Callable[[], bool]) -> TraceSource:
-    """Draw the picture of B in a thread."""
-    assert source.picture is not None
-    return source
-
-
-def compare(
-    first: Frame, second: Frame, buffer: str, mine: Settings, other: Settings, origin: tuple[int, int]
-) -> Comparison:
-    """Return both buffers, their difference (B minus A; colours: the largest channel) and how many pixels differ."""
-    a, b = getattr(first, buffer), getattr(second, buffer)
-    differs = (a != b).any(axis=2) if a.ndim == 3 else a != b
-    amount = b.astype(float) - a.astype(float)
-    if a.ndim == 3:
-        largest = np.abs(amount).argmax(axis=2)
-        amount = np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
-    kind: BufferKind = "color" if buffer == "color" else "ids" if buffer == "primitive" else "scalar"
-    scale = None
-    if kind == "scalar":
-        scale = (float(min(a.min(), b.min())), float(max(a.max(), b.max())))
-    count = int(np.count_nonzero(differs))
-    summary = f"{count:,} of {differs.size:,} pixels differ"
-    if buffer == "primitive":
-        amount = differs.astype(float)
-        in_a, in_b = a >= 0, b >= 0
-        summary += (
-            f"; {np.count_nonzero(in_a & ~in_b):,} only in A, {np.count_nonzero(in_b & ~in_a):,} only in B"
-        )
-    elif count:
-        summary += f"; largest difference {number_text(float(np.abs(amount).max()))}"
-    return Comparison(
-        GridBuffer("A", a, kind, range=scale, origin=origin),
-        GridBuffer("B", b, kind, range=scale, origin=origin),
-        GridBuffer("difference", amount, "bool" if buffer == "primitive" else "signed", origin=origin),
-        "A, current settings",
-        "B, " + (settings_difference(mine, other) or "the same settings"),
-        summary + ".",
-        (MaskOverlay("difference", Mark.DIFFERENCE, differs),),
-    )
-
-
-def settings_difference(mine: Settings, other: Settings) -> str:
-    """Return in words what ``other`` does otherwise than ``mine``."""
-    parts = []
-    for name, value in mine.differences(other).items():
-        text = table.get(name, value).title if isinstance(value, str) else str(value)
-        parts.append(f"{family_title(name).lower()}: {text}")
-    return ", ".join(parts)
+def _trace(
+    make: Callable[..., Trace],
+    earlier: Trace,
+    stage: str,
+    progress: Progress | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
+) -> Trace:
+    """Trace B up to the stage that is shown."""
+    trace = make(earlier=earlier)
+    trace.stage(stage)
+    return trace

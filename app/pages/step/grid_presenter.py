@@ -134,7 +134,7 @@ class GridPresenter(QObject):
             shown = frozenset(overlay.key for overlay in overlays)
         self._legend.show_overlays(overlays, shown)
         self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
-        mark = step_mark(session)
+        mark = step_mark(session.trace, session.cursor)
         self._grid.show_step(mark)
         self._strip.show_step(mark)
 

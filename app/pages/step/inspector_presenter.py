@@ -14,6 +14,7 @@ from core.explain import formula, initial_sentence, sentence, stage_card, summar
 from core.explain.records import Variable
 from core.records.listing import Listing
 from core.records.steps import Level
+from core.trace import StageTrace
 from core.trace.origins import origin
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import HINT as NO_HISTORY
@@ -24,6 +25,21 @@ from widgets.timeline.stage_card import StageCardView
 
 HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
 NO_LISTING = "This step copies what is known; it has no algorithm to list."
+
+
+def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
+    """Return the sentence of the step of a level just done at a position; one larger than a row is summed up."""
+    row, _ = trace.steps.row_at(position)
+    if row < 0:
+        return initial_sentence(trace.stage)
+    triangle = int(trace.triangle[row])
+    first = trace.steps.rows_done(trace.steps.back(position, level))
+    if level <= Level.GROUP and row > first:
+        return summary_sentence(trace.stage, level, trace.summary(first, row + 1), triangle)
+    explanation = trace.explain(position)
+    assert explanation is not None
+    pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
+    return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
 
 
 class InspectorPresenter(QObject):
@@ -101,18 +117,8 @@ class InspectorPresenter(QObject):
 
     def sentence(self) -> str:
         """Return the sentence of the step just done; a step larger than a row is summed up."""
-        trace, cursor = self._session.stage_trace, self._session.cursor
-        row, _ = trace.steps.row_at(cursor.position)
-        if row < 0:
-            return initial_sentence(cursor.stage)
-        triangle = int(trace.triangle[row])
-        first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
-        if cursor.level <= Level.GROUP and row > first:
-            return summary_sentence(cursor.stage, cursor.level, trace.summary(first, row + 1), triangle)
-        explanation = trace.explain(cursor.position)
-        assert explanation is not None
-        pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
-        return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+        cursor = self._session.cursor
+        return sentence_at(self._session.stage_trace, cursor.position, cursor.level)
 
     def _show_listing(self, listing: Listing | None) -> None:
         function = listing.function.__name__ if listing else ""

@@ -56,8 +56,11 @@ class MainArea(QWidget):
     def _lay_out(self) -> None:
         row = row_layout(spacing=4)
         row.addWidget(self.view_bar, 1)
+        self._choices = QWidget(self)
+        choices = row_layout(self._choices, spacing=4)
         for widget in (self.range_button, self.buffer_choice, self.thumbnails_button):
-            row.addWidget(widget)
+            choices.addWidget(widget)
+        row.addWidget(self._choices)
         self.rows = QSplitter(Qt.Orientation.Vertical, self)
         self.rows.addWidget(self.view_stack)
         self.rows.addWidget(self.strip)
@@ -151,6 +154,8 @@ class MainArea(QWidget):
     def _show_view(self, index: int) -> None:
         self.view_stack.setCurrentIndex(index)
         name = self.current_view()
+        # A | B has a choice of its own, of what both have.
+        self._choices.setHidden(name == "compare")
         if name in {view[0] for view in self._views.widgets}:
             self._views.show(name)
         self.view_changed.emit(name)

@@ -60,21 +60,19 @@ class StepOpening(QObject):
         self._session.open(ready.document, ready.trace)
         self._page.stepping.set_places()
         self._session.set_stage(opening.stage, 0)
-        if opening.pixel is not None and self._session.has_pixel(opening.pixel):
-            self._go_to_pixel(opening.stage, opening.pixel, has_other=other is not None)
-        if other is not None:
-            self._page.comparing.set_differences(opening.settings.differences(other))
-        self._page.show_view("pixels" if other is None else "compare")
-        self.opened.emit()
-
-    def _go_to_pixel(self, stage: str, pixel: tuple[int, int], *, has_other: bool) -> None:
-        """Pin a pixel and go to the first step about it; say how to get there where only another run has one."""
-        self._session.set_pin(pixel)
-        if has_other and not len(self._session.trace.stage(stage).rows_at_pixel(*pixel)):
-            said = f"A has no step at pixel {pixel}. Swap A and B; then J goes to the step of B."
-            self.message_sent.emit(Message(MessageKind.INFORMATION, said))
+        pixel = opening.pixel if opening.pixel and self._session.has_pixel(opening.pixel) else None
+        if pixel is not None:
+            self._session.set_pin(pixel)
+        if other is None:
+            self._page.show_view("pixels")
+            if pixel is not None:
+                self._page.stepping.step_into(opening.stage, *pixel)
         else:
-            self._page.stepping.step_into(stage, *pixel)
+            self._page.comparing.set_differences(opening.settings.differences(other))
+            self._page.show_view("compare")
+            if pixel is not None:
+                self._page.comparing.meet_at(pixel)
+        self.opened.emit()
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:

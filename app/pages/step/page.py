@@ -81,7 +81,9 @@ class StepPage(Page):
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.main_area.view_changed.connect(self._follow_view)
         self.main_area.thumbnails_toggled.connect(self._toggle_thumbnails)
+        self.stepping.stepped_alone = self.comparing.steps_alone
         self.stepping.message_sent.connect(self.message_sent)
+        self.comparing.message_sent.connect(self.message_sent)
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
@@ -269,15 +271,28 @@ class StepPage(Page):
         """Return what the keys of this page do."""
         return {
             **step_handlers(self.session, self.stepping, self.timeline),
-            "fit_view": self.grid.fit,
+            "fit_view": self._fit,
             "next_view": self.main_area.next_view,
             **{f"pane_{name}": partial(self.toggle_pane, name) for name in PANES},
             "compare": self.toggle_compare,
+            "flip": self._flip,
+            "divergence": self.comparing.go_to_divergence,
         }
 
     def caption(self) -> Caption:
         """Return the sentence and the formula of the step just done."""
         return Caption(self.sentence.text(), self.formula.formula())
+
+    def _fit(self) -> None:
+        """Show all pixels in the main view."""
+        (self.compare_view.grids[0] if self.current_view() == "compare" else self.grid).fit()
+
+    def _flip(self) -> None:
+        """Swap the pictures of A and B until the key is released."""
+        if self.current_view() == "compare":
+            self.compare_view.flip_while_held()
+        else:
+            self.message_sent.emit("X swaps the pictures of A and B while it is held. Ctrl+D shows them.")
 
     def dismiss(self) -> bool:
         """Stop playing, or else take the pin away."""

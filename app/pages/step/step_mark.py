@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.session.session import Session
+from app.session.session import Cursor
 from core.records.arrays import Floats, Integers
 from core.records.steps import Level
 from core.trace import StageTrace, Trace
@@ -17,17 +17,17 @@ TRAIL = 8
 """Pixels looked at last that the trail goes through."""
 
 
-def step_mark(session: Session) -> StepMark:
-    """Return the mark of the step just done, in the grid's columns and rows."""
-    trace, cursor = session.stage_trace, session.cursor
+def step_mark(run: Trace, cursor: Cursor) -> StepMark:
+    """Return the mark of the step just done at a place of a run, in the grid's columns and rows."""
+    trace = run.stage(cursor.stage)
     row, operation = trace.steps.row_at(cursor.position)
     if row < 0:
         return StepMark()
-    bounds = session.trace.source.raster.bounds
+    bounds = run.source.raster.bounds
     origin = np.array(bounds[:2])
     triangle = int(trace.triangle[row])
     if cursor.level <= Level.TRIANGLE and triangle >= 0:
-        return StepMark(lines=_edges(session.trace, triangle) - origin)
+        return StepMark(lines=_edges(run, triangle) - origin)
     first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
     pixels = trace.pixel[first : row + 1]
     pixels = pixels[pixels[:, 0] >= 0]
@@ -36,7 +36,7 @@ def step_mark(session: Session) -> StepMark:
         return StepMark(lines=_box(*low, *high))
     if len(pixels):
         return StepMark(pixels - origin, trail=_trail(trace, row) - origin)
-    lines, points = _geometry_mark(session.trace, trace, row, operation, cursor.position)
+    lines, points = _geometry_mark(run, trace, row, operation, cursor.position)
     return StepMark(lines=lines - origin, points=points - origin)
 
 

@@ -1,6 +1,6 @@
 """Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 
 import numpy as np
@@ -50,6 +50,11 @@ def nearest(positions: Integers, position: int, direction: int) -> int | None:
     return int(found[0 if direction > 0 else -1]) if len(found) else None
 
 
+def _no_other_run(direction: int, level: Level) -> bool:
+    """Return that no run is stepped beside this one."""
+    return False
+
+
 class SteppingPresenter(QObject):
     """Shows where the cursor is and moves it."""
 
@@ -65,6 +70,8 @@ class SteppingPresenter(QObject):
     def __init__(self, session: Session, timeline: Timeline, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._timeline = session, timeline
+        self.stepped_alone: Callable[[int, Level], bool] = _no_other_run
+        """Steps a run beside this one where only that one has steps left, and returns whether that was so."""
         self.event_kind = "covered"
         """Kind of event that N runs to."""
         self.pixel_breakpoints: set[tuple[int, int]] = set()
@@ -170,6 +177,8 @@ class SteppingPresenter(QObject):
     def step(self, direction: int) -> None:
         """Step once at the present level, from stage to stage; playing stops at the end of the last one."""
         before = self._session.cursor
+        if self.stepped_alone(direction, before.level):
+            return
         self._session.step(direction)
         if self._session.cursor == before:
             self._timeline.show_playing(False)
@@ -218,7 +227,8 @@ class SteppingPresenter(QObject):
     def step_larger(self, direction: int) -> None:
         """Step at the level above the present one."""
         level = Level(max(self._session.cursor.level - 1, Level.STAGE))
-        self._session.step(direction, level)
+        if not self.stepped_alone(direction, level):
+            self._session.step(direction, level)
 
     def run_to_pin(self, direction: int) -> None:
         """Go to the next or last step at the pinned pixel."""

@@ -193,18 +193,15 @@ def test_the_history_of_a_pixel_that_is_opened_from_another_page_is_told(
     assert "Triangle 0 is visible here" in window.page.history.verdict.text()
 
 
-def test_a_pixel_that_only_the_second_run_looks_at_is_told_with_the_way_there(
-    window: MainWindow, qtbot: QtBot
-) -> None:
+def test_b_goes_to_a_pixel_that_only_it_looks_at(window: MainWindow, qtbot: QtBot) -> None:
     first, second = Settings(polygon_mode="wireframe"), Settings()
     opening = Opening(make_scene("single-triangle"), first, "raster", (27, 20))
     with qtbot.waitSignal(window.opening.opened, timeout=20000):
         window.opening.open_request(StepRequest(opening, "Two", second))
-    assert "A has no step at pixel (27, 20)" in window.statusBar().currentMessage()
-    window.page.compare_view.swap_requested.emit()
-    window.run_action("next_at_pin")
-    row = window.session.stage_trace.steps.row_at(window.session.cursor.position)[0]
-    assert window.session.stage_trace.pixel[row].tolist() == [27, 20]
+    other = window.session.document.make_trace(second).stage("raster")
+    row = int(other.rows_at_pixel(27, 20)[0])
+    assert window.session.cursor.position == 0
+    assert window.page.comparing.second_position == other.steps.position_after(row)
 
 
 def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:

@@ -3,37 +3,18 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.ab_presenter import compare, settings_difference
+from app.pages.step.ab_settings import settings_difference
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core import Settings, render
+from core import STAGES, Settings
 from core.scene import Scene
+from core.study.accuracy.divergence import diverge, is_same_schedule, stage_divergence
 from lessons.scenes import make_scene
-
-
-def test_equal_settings_do_not_differ() -> None:
-    frame = render(make_scene("single-triangle"))
-    found = compare(frame, frame, "color", Settings(), Settings(), (0, 0))
-    assert found.summary == "0 of 3,072 pixels differ."
-    assert found.second_title == "B, the same settings"
-
-
-@pytest.mark.parametrize("buffer", ["color", "primitive", "depth", "cover_count"])
-def test_the_difference_is_b_minus_a(buffer: str) -> None:
-    scene = make_scene("single-triangle")
-    other = Settings(fill="scanline-lecture")
-    a, b = render(scene), render(scene, other)
-    found = compare(a, b, buffer, Settings(), other, (0, 0))
-    first, second = getattr(a, buffer), getattr(b, buffer)
-    differs = (first != second).any(axis=2) if first.ndim == 3 else first != second
-    assert np.array_equal(found.difference.values != 0, differs)
-    assert found.summary.startswith(f"{int(differs.sum())} of 3,072 pixels differ")
 
 
 def test_the_difference_in_words() -> None:
@@ -47,43 +28,140 @@ def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBo
     assert view.isVisible()
     assert window.menus.actions_by_name["compare"].isChecked()
     assert "pixels differ" in view.summary.text()
-    assert view.family_box.currentData() == "fill"
-    assert view.value_box.currentData() == "scanline-lecture"
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     assert window.page.current_view() == "pixels"
     assert not window.menus.actions_by_name["compare"].isChecked()
+
+
+@pytest.mark.parametrize("name", ["single-triangle", "textured-floor", "cube"])
+def test_b_differs_in_the_stage_that_is_shown_and_draws(window: MainWindow, name: str) -> None:
+    scene = make_scene(name)
+    window.session.open(open_document(scene, name))
+    window.page.show_view("compare")
+    for stage in STAGES[STAGES.index("edges") :]:
+        window.session.set_stage(stage, 0)
+        comparing, view = window.page.comparing, window.page.compare_view
+        assert view.grids[1].buffer() is not None
+        mine = window.session.stage_trace
+        theirs = window.session.document.make_trace(comparing.other).stage(stage)
+        assert theirs.steps.row_count
+        if stage != "blend":
+            assert not is_same_schedule(mine, theirs) or stage_divergence(mine, theirs) is not None
+        assert view.family_box.currentText().startswith("\u2022 ")
+
+
+def test_both_step_and_who_has_no_more_steps_waits(window: MainWindow) -> None:
+    window.session.open(open_document(make_scene("single-triangle"), "One"))
+    window.page.comparing.set_differences({"fill": "scanline"})
+    window.session.set_stage("raster", 0)
+    window.page.show_view("compare")
+    session, comparing, view = window.session, window.page.comparing, window.page.compare_view
+    window.run_action("step_forward")
+    theirs = session.document.make_trace(comparing.other).stage("raster").steps
+    assert session.cursor.position == session.stage_trace.steps.starts[1]
+    assert comparing.second_position == theirs.starts[1]
+    assert "step 1 of" in view.titles[0].text()
+    assert "step 1 of" in view.titles[1].text()
+    session.go_to(session.stage_trace.steps.position_after(theirs.row_count + 4))
+    assert comparing.second_position == theirs.count
+    window.page.comparing.set_differences({"fill": "scanline"})
+    assert comparing.second_position == theirs.count
+    view.swap_requested.emit()
+    session.go_to(0)
+    session.go_to(int(session.stage_trace.steps.starts[-2]))
+    window.run_action("step_forward")
+    end, alone = session.cursor, comparing.second_position
+    assert end.position == session.stage_trace.steps.count
+    window.run_action("step_forward")
+    assert session.cursor == end
+    assert comparing.second_position > alone
+    assert "A waits" in view.titles[0].text()
+    window.run_action("step_back")
+    assert (session.cursor, comparing.second_position) == (end, alone)
+
+
+def test_a_key_flips_both_pictures_while_it_is_held(window: MainWindow) -> None:
+    window.page.show_view("compare")
+    view = window.page.compare_view
+    first, second = (grid.buffer() for grid in view.grids[:2])
+    QTest.keyPress(window, Qt.Key.Key_X)
+    assert [grid.buffer() for grid in view.grids[:2]] == [second, first]
+    assert view.titles[0].text().startswith("B: ")
+    QTest.keyRelease(window, Qt.Key.Key_X)
+    assert [grid.buffer() for grid in view.grids[:2]] == [first, second]
+
+
+def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBot) -> None:
+    window.session.open(open_document(make_scene("single-triangle"), "One"))
+    window.page.comparing.set_differences({"interpolation": "affine"})
+    window.page.show_view("compare")
+    with qtbot.waitSignal(window.page.comparing.message_sent, timeout=20000) as sent:
+        window.run_action("divergence")
+    session, comparing = window.session, window.page.comparing
+    other = session.document.make_trace(comparing.other)
+    found = diverge(session.trace, other)
+    assert found is not None
+    assert session.cursor.stage == found.stage == "interpolate"
+    rows = [session.stage_trace.steps.row_at(session.cursor.position)[0]]
+    rows.append(other.stage("interpolate").steps.row_at(comparing.second_position)[0])
+    assert tuple(rows) == found.rows
+    assert sent.args[0].startswith("First divergence, at pixel")
+    for action in ("step_forward", "step_back"):
+        window.run_action(action)
+    assert session.stage_trace.steps.row_at(session.cursor.position)[0] == found.rows[0]
+    assert other.stage("interpolate").steps.row_at(comparing.second_position)[0] == found.rows[1]
 
 
 def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
     window.page.show_view("compare")
     window.exports.export_to(str(tmp_path / "both.svg"))
     drawing = (tmp_path / "both.svg").read_text()
-    for text in ("A, current settings", "Scanline, as printed", "Difference, colour", "pixels differ"):
+    for text in ("A: current settings", "Scanline", "Difference, coverage", "pixels differ"):
         assert text in drawing
     for text in ("B = A", "Swap"):
         assert text not in drawing
 
 
-def test_b_follows_the_page_but_for_its_difference(window: MainWindow) -> None:
-    comparing = window.page.comparing
+def test_b_may_differ_in_several_families(window: MainWindow) -> None:
+    comparing, view = window.page.comparing, window.page.compare_view
     window.page.show_view("compare")
+    view.setting_chosen.emit("fill", "scanline-lecture")
+    view.setting_chosen.emit("depth", "z-16")
     window.session.set_setting("interpolation", "affine")
-    assert comparing.other == replace(window.session.document.settings, fill="scanline-lecture")
-    window.page.compare_view.setting_chosen.emit("interpolation", "perspective")
-    assert comparing.other.interpolation == "perspective"
-    window.page.compare_view.reset_requested.emit()
-    assert comparing.other == window.session.document.settings
-    assert "0 of" in window.page.compare_view.summary.text()
-
-
-def test_swapping_is_an_edit(window: MainWindow) -> None:
-    window.page.show_view("compare")
     mine = window.session.document.settings
-    window.page.compare_view.swap_requested.emit()
-    assert window.session.document.settings.fill == "scanline-lecture"
-    assert window.page.comparing.other == mine
+    assert comparing.other == replace(mine, fill="scanline-lecture", depth="z-16")
+    assert "fill: Scanline" in view.titles[1].text()
+    assert "depth: " in view.titles[1].text()
+    view.setting_chosen.emit("interpolation", "perspective")
+    assert comparing.other.interpolation == "perspective"
+    view.reset_requested.emit()
+    assert comparing.other == window.session.document.settings
+    assert "0 of" in view.summary.text()
+
+
+def test_swapping_and_using_b_are_edits(window: MainWindow) -> None:
+    window.page.show_view("compare")
+    view, comparing = window.page.compare_view, window.page.comparing
+    view.setting_chosen.emit("fill", "scanline")
+    mine, other = window.session.document.settings, comparing.other
+    view.swap_requested.emit()
+    assert (window.session.document.settings, comparing.other) == (other, mine)
     window.session.undo()
     assert window.session.document.settings == mine
+    view.setting_chosen.emit("fill", "scanline")
+    view.use_requested.emit()
+    assert window.session.document.settings == comparing.other == other
+    assert "The page now uses B" in window.statusBar().currentMessage()
+
+
+def test_prediction_hides_both_pictures(window: MainWindow) -> None:
+    window.run_action("predict")
+    window.page.show_view("compare")
+    assert [grid.buffer() for grid in window.page.compare_view.grids] == [None] * 3
+    assert "P ends it" in window.page.compare_view.summary.text()
+    window.run_action("predict")
+    window.page.show_view("compare")
+    assert "pixels differ" in window.page.compare_view.summary.text()
 
 
 def test_pin_and_hover_are_linked(window: MainWindow) -> None:
@@ -103,7 +181,10 @@ def test_what_b_cannot_draw_is_told_in_its_place(window: MainWindow) -> None:
     assert window.page.compare_view.summary.text().startswith(
         "B cannot be drawn: depth inverse-w needs a perspective"
     )
-    assert window.page.compare_view.grids[1].buffer() is None
+    first, second, difference = window.page.compare_view.grids
+    assert first.buffer() is not None
+    assert second.buffer() is difference.buffer() is None
+    assert second.empty_text.startswith("B cannot be drawn")
 
 
 def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -> None:
@@ -111,7 +192,7 @@ def test_a_slow_b_is_drawn_in_the_background(window: MainWindow, qtbot: QtBot) -
     window.page.show_view("compare")
     window.page.compare_view.setting_chosen.emit("fill", "brute-force")
     assert window.page.compare_view.summary.text() == "Drawing B …"
-    qtbot.waitUntil(lambda: "0 of" in window.page.compare_view.summary.text(), timeout=20000)
+    qtbot.waitUntil(lambda: "pixels differ" in window.page.compare_view.summary.text(), timeout=20000)
 
 
 def test_a_vertex_is_dragged_in_any_of_the_pictures(window: MainWindow) -> None:

@@ -1,0 +1,148 @@
+"""What A | B shows of two runs at their cursors: each one's buffer and step, and where the buffers differ."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.pages.step.grid_records import buffers_of, mask_overlays
+from app.pages.step.inspector_presenter import sentence_at
+from app.pages.step.step_mark import step_mark
+from app.session.session import Cursor
+from core import Trace
+from core.records.arrays import Flags
+from widgets.grid.buffer import GridBuffer, number_text
+from widgets.grid.compare_view import Comparison, Side
+from widgets.grid.geometry import GridGeometry
+from widgets.grid.overlay import Mark, MaskOverlay
+
+SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
+"""Marks of rows done that lie over the pictures."""
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A run and where it is."""
+
+    trace: Trace
+    cursor: Cursor
+    done: int | None = None
+    """Steps of the level that are done; ``None``: they are not counted."""
+    steps: int = 0
+    """Steps of the level that there are."""
+    waits: bool = False
+    """Whether only the other run has steps left."""
+
+
+def buffers_at(place: Place) -> dict[str, GridBuffer]:
+    """Return the buffers of a run by name."""
+    cursor = place.cursor
+    found = buffers_of(place.trace.stage(cursor.stage), place.trace, cursor.position)
+    return {buffer.name: buffer for buffer in found}
+
+
+def side_of(
+    name: str, settings: str, place: Place, geometry: GridGeometry, buffer: GridBuffer | None, wanted: str
+) -> Side:
+    """Return one picture: ``name`` is A or B, ``settings`` what it draws with, ``wanted`` the buffer compared."""
+    cursor = place.cursor
+    stage = place.trace.stage(cursor.stage)
+    counted = "" if place.done is None else f"step {place.done:,} of {place.steps:,}"
+    if place.waits:
+        end = "all its steps are done" if place.done else "its first step comes later"
+        counted = f"{name} waits: {end} ({counted})"
+    elif place.done == place.steps == 0:
+        counted = "no steps in this stage"
+    reason = "" if buffer is not None else f"{name} has no buffer “{wanted}” in this stage."
+    if buffer is not None and place.steps and place.done == place.steps and _is_empty(buffer):
+        counted += "; it gives no pixel a value"
+    overlays = mask_overlays(stage, place.trace.source.raster, cursor.position)
+    return Side(
+        name=name,
+        title=f"{name}: {settings}",
+        place=counted,
+        sentence=sentence_at(stage, cursor.position, cursor.level),
+        buffer=buffer,
+        reason=reason,
+        overlays=tuple(overlay for overlay in overlays if overlay.key in SHOWN_MARKS),
+        geometry=geometry,
+        step=step_mark(place.trace, cursor),
+    )
+
+
+def _is_empty(buffer: GridBuffer) -> bool:
+    if buffer.kind == "bool":
+        return not buffer.values.any()
+    return buffer.known is not None and not buffer.known.any()
+
+
+def compare(first: Side, second: Side) -> Comparison:
+    """Return two sides with their difference, B minus A; of colours the largest channel."""
+    a, b = first.buffer, second.buffer
+    if a is None or b is None:
+        return Comparison(first, second, None, "There is nothing to compare: one side is blank.")
+    if a.values.shape != b.values.shape:
+        return Comparison(first, second, None, "The two buffers have different numbers of channels.")
+    if a.kind in ("scalar", "signed"):
+        scale = _common_range(a, b)
+        a, b = replace(a, range=scale), replace(b, range=scale)
+        first, second = replace(first, buffer=a), replace(second, buffer=b)
+    amount = b.values.astype(float) - a.values.astype(float)
+    with np.errstate(invalid="ignore"):
+        changed = (a.values != b.values) & ~(np.isnan(amount) & ~_is_one_nan(a, b))
+    if amount.ndim == 3:
+        changed = changed.any(axis=2)
+        largest = np.abs(np.nan_to_num(amount)).argmax(axis=2)
+        amount = np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
+    ours, theirs = _known(a), _known(b)
+    differs = (ours != theirs) | (changed & ours & theirs)
+    count = int(np.count_nonzero(differs))
+    summary = f"{count:,} of {differs.size:,} pixels differ"
+    is_choice = a.kind in ("ids", "bool")
+    if is_choice:
+        in_a, in_b = (_has(buffer) for buffer in (a, b))
+        summary += (
+            f"; {np.count_nonzero(in_a & ~in_b):,} only in A, {np.count_nonzero(in_b & ~in_a):,} only in B"
+        )
+        amount = differs.astype(float)
+    else:
+        both = differs & ours & theirs
+        if both.any():
+            summary += f"; largest difference {number_text(float(np.nanmax(np.abs(amount[both]))))}"
+        if (ours != theirs).any():
+            summary += f"; {np.count_nonzero(ours != theirs):,} reached by one of them only"
+    difference = GridBuffer(
+        "difference",
+        amount,
+        "bool" if is_choice else "signed",
+        origin=a.origin,
+        known=None if is_choice else ours & theirs,
+    )
+    # What both have reached is told by the colours.
+    marks = () if is_choice else (MaskOverlay("difference", Mark.DIFFERENCE, ours != theirs),)
+    return Comparison(first, second, difference, summary + ".", marks)
+
+
+def _is_one_nan(a: GridBuffer, b: GridBuffer) -> Flags:
+    """Return where one of two values is not a number and the other one is."""
+    found: Flags = np.isnan(a.values.astype(float)) != np.isnan(b.values.astype(float))
+    return found
+
+
+def _known(buffer: GridBuffer) -> Flags:
+    return np.ones(buffer.values.shape[:2], bool) if buffer.known is None else buffer.known
+
+
+def _has(buffer: GridBuffer) -> Flags:
+    """Return which pixels are covered, or belong to a triangle."""
+    held = buffer.values.reshape(*buffer.values.shape[:2], -1)[..., 0].astype(float)
+    found: Flags = (held >= 0 if buffer.kind == "ids" else held != 0) & _known(buffer)
+    return found
+
+
+def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
+    """Return the range in which both are shown."""
+    if a.range is None or b.range is None:
+        values = np.concatenate([a.values[_known(a)].ravel(), b.values[_known(b)].ravel()]).astype(float)
+        values = values[np.isfinite(values)]
+        return (float(values.min()), float(values.max())) if values.size else None
+    return min(a.range[0], b.range[0]), max(a.range[1], b.range[1])
