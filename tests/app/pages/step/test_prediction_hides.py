@@ -39,7 +39,7 @@ def seen(window: MainWindow) -> tuple[QImage, QImage, list[str]]:
     """Return the whole window, what copying the view gives, and what every pixel tells."""
     window.page.settle()
     QApplication.processEvents()
-    window.files.copy_view()
+    window.run_action("copy_view")
     copied = QGuiApplication.clipboard().image()
     window.statusBar().clearMessage()
     window.messages.clear()
