@@ -77,9 +77,14 @@ class History(Generic[State]):
     def _drop(self, which: slice) -> None:
         del self._states[which], self._keys[which], self._bytes[which]
 
+    @property
+    def gesture(self) -> str:
+        """The gesture that put the present value in; empty: none."""
+        return self._keys[self._at]
+
     def is_within(self, gesture: str) -> bool:
         """Return whether the present value was put in by this gesture."""
-        return self._keys[self._at] == gesture
+        return self.gesture == gesture
 
     def undo(self) -> State:
         """Return to the value before."""

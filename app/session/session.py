@@ -3,20 +3,23 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document
 from app.session.held_bytes import held_arrays
 from app.session.history import History
-from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_now
+from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import STAGES, Settings, Trace
 from core.records.steps import Level
 from core.trace import Explanation, StageTrace
+from core.trace.incremental.draft import Draft
 
 if TYPE_CHECKING:
     from core.study.planner import PlanReport  # As in app.pages.page_bar.
 
 Pixel = tuple[int, int]
+REST_MS = 150
+"""A drag rests where it has not moved for so long, in milliseconds."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,11 @@ class Session(QObject):
         self._is_predicting = False
         self._plan: PlanReport | None = None
         self._trace = document.make_trace()
+        self._resting = QTimer(self)
+        """Runs from the last move of a drag until it rests."""
+        self._resting.setSingleShot(True)
+        self._resting.setInterval(REST_MS)
+        self._resting.timeout.connect(self.come_to_rest)
 
     @property
     def document(self) -> Document:
@@ -144,6 +152,42 @@ class Session(QObject):
         """
         if document is not self.latest:
             self._put(document, gesture)
+
+    def drag(self, document: Document, gesture: str) -> None:
+        """Take over a part of a gesture that changes the triangle in focus: until it rests, only that one is traced.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be traced; nothing changes.
+        """
+        source = self._trace.source
+        run = document.settings, document.triangle, document.region, document.before
+        is_same_run = run == (source.settings, source.triangle, source.region, source.before)
+        if document.triangle is None or not is_same_run:
+            self.edit(document, gesture)
+            return
+        self.tracing.cancel()
+        self._take(document, gesture, trace_drag(document, self._cursor.stage, self._trace))
+        self._resting.start()
+
+    @Slot()
+    def come_to_rest(self) -> None:
+        """Trace what a drag has left out; a scene that cannot be drawn is as it was before the drag."""
+        self._resting.stop()
+        if not isinstance(self._trace.source, Draft):
+            return
+        document, gesture, stage = self.document, self._history.gesture, self._cursor.stage
+        if document.estimated_seconds > QUICK_SECONDS:
+            self.tracing.start(Order(document, gesture, stage, earlier=self._trace))
+            return
+        try:
+            trace = trace_now(document, stage, self._trace)
+        except ValueError as error:
+            self.take_back(gesture)
+            self.edit_failed.emit(error)
+            return
+        self._document_replaced(trace)
 
     def take_back(self, gesture: str) -> None:
         """End a gesture as if it had not been; redo does it after all."""

@@ -8,6 +8,7 @@ from app.background.workers import Job, Progress
 from app.session.document import Document
 from core import Trace
 from core.resolved import resolve
+from core.trace.incremental.draft import draft
 
 QUICK_SECONDS = 0.3
 """What is estimated to take longer is traced off the GUI thread."""
@@ -51,6 +52,19 @@ def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> T
     if resolve(trace.source.settings).sampling.count == 1:
         # What the chapters count: of a large mesh it would hold up the window.
         assert trace.source.depth_tests is not None
+    return trace
+
+
+def trace_drag(document: Document, stage: str, earlier: Trace) -> Trace:
+    """Trace the triangle in focus, and one of its stages, of a document that differs from the one of ``earlier`` in it.
+
+    Raises
+    ------
+    ValueError
+        If a method does not serve the scene.
+    """
+    trace = draft(document.traced_scene, earlier)
+    trace.stage(stage)
     return trace
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from app.session.document import Document
+from app.session.latest_call import LatestCall
 from app.session.session import Session
 from app.views.hidden_backs import HiddenBacks
 from app.views.pixel_ray import pixel_marks
@@ -82,6 +83,7 @@ class Scene3dPresenter(QObject):
         # Queued: what the figures change is not to be laid out while the view is painted.
         view.picture_painted.connect(self._count_frame, Qt.ConnectionType.QueuedConnection)
         view.picked.connect(self._pick)
+        self._moves = LatestCall(self._move, self)
         view.vertex_dragged.connect(self._drag)
         view.vertex_drag_finished.connect(self._end_drag)
         view.vertex_drag_taken_back.connect(self._take_drag_back)
@@ -336,6 +338,9 @@ class Scene3dPresenter(QObject):
 
     @Slot(int, float, float)
     def _drag(self, index: int, x: float, y: float) -> None:
+        self._moves.call(index, x, y)
+
+    def _move(self, index: int, x: float, y: float) -> None:
         latest, space, triangle = self._session.latest, self._space, self.focus
         if space is None or triangle is None or self._drawn is None:
             return
@@ -346,14 +351,17 @@ class Scene3dPresenter(QObject):
         except ValueError as error:
             self.refused.emit(str(error))
             return
-        self._session.edit(replace(latest, scene=moved), self._gesture)
+        self._session.drag(replace(latest, scene=moved), self._gesture)
 
     @Slot(int)
     def _end_drag(self, index: int) -> None:
+        self._moves.flush()
+        self._session.come_to_rest()
         self._drags += 1
 
     @Slot(int)
     def _take_drag_back(self, index: int) -> None:
+        self._moves.flush()
         self._session.take_back(self._gesture)
         self._drags += 1
 

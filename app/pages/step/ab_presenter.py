@@ -60,7 +60,9 @@ class ComparePresenter(QObject):
         self._job.failed.connect(self._refuse)
         self._search.succeeded.connect(self._land)
         self._search.failed.connect(self._tell_no_divergence)
-        self._drags = VertexDrags(session, view.linked.grids, self._no_triangle, "drag in A | B", self)
+        self._drags = VertexDrags(
+            session, view.linked.grids, self._no_triangle, session.edit, "drag in A | B", self
+        )
         self._drags.refused.connect(self.edit_refused)
         session.document_changed.connect(self.refresh)
         session.cursor_changed.connect(self._follow)

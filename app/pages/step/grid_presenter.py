@@ -61,7 +61,7 @@ class GridPresenter(QObject):
         self._chosen: dict[str, str] = {}
         self._own_ranges: dict[str, tuple[float, float]] = {}
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
-        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, "drag", self)
+        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, session.drag, "drag", self)
         self._drags.refused.connect(self.edit_refused)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)

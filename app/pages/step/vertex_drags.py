@@ -6,6 +6,8 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.pages.step.grid_records import outlined_triangles
+from app.session.document import Document
+from app.session.latest_call import LatestCall
 from app.session.scene_edits import move_corner
 from app.session.session import Session
 from widgets.grid.pixel_grid import PixelGrid
@@ -22,6 +24,7 @@ class VertexDrags(QObject):
         session: Session,
         grids: Sequence[PixelGrid],
         focus: Callable[[], int | None],
+        take: Callable[[Document, str], None],
         name: str,
         parent: QObject | None = None,
     ) -> None:
@@ -33,13 +36,17 @@ class VertexDrags(QObject):
         grids : sequence of PixelGrid
         focus : callable
             Returns the triangle with handles where the document has none in focus.
+        take : callable
+            Takes over a moved document and its gesture: ``Session.drag``, or ``Session.edit`` where the whole picture
+            is looked at.
         name : str
             Of these drags, other than of those in other views.
         parent : QObject, optional
         """
         super().__init__(parent)
-        self._session, self._focus, self._name = session, focus, name
+        self._session, self._focus, self._take, self._name = session, focus, take, name
         self._count = 0
+        self._moves = LatestCall(self._move, self)
         for grid in grids:
             grid.vertex_dragged.connect(self._drag)
             grid.vertex_drag_finished.connect(self._end)
@@ -51,6 +58,9 @@ class VertexDrags(QObject):
 
     @Slot(int, float, float)
     def _drag(self, vertex: int, x: float, y: float) -> None:
+        self._moves.call(vertex, x, y)
+
+    def _move(self, vertex: int, x: float, y: float) -> None:
         document, latest, trace = self._session.document, self._session.latest, self._session.trace
         first_column, first_row, _, _ = trace.source.raster.bounds
         wanted = document.triangle if document.triangle is not None else self._focus()
@@ -58,15 +68,18 @@ class VertexDrags(QObject):
         place, size = (x + first_column, y + first_row), document.traced_scene.size
         try:
             scene = move_corner(latest.scene, triangle, vertex % 3, place, size)
-            self._session.edit(replace(latest, scene=scene), self._gesture)
+            self._take(replace(latest, scene=scene), self._gesture)
         except ValueError as error:
             self.refused.emit(f"The vertex was not moved: {error}")
 
     @Slot(int)
     def _end(self, vertex: int) -> None:
+        self._moves.flush()
+        self._session.come_to_rest()
         self._count += 1
 
     @Slot(int)
     def _take_back(self, vertex: int) -> None:
+        self._moves.flush()
         self._session.take_back(self._gesture)
         self._count += 1

@@ -1,7 +1,7 @@
 """Dragging a corner in the session traces its triangle again, and no trace of before stays in memory."""
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from weakref import ReferenceType, ref
 
@@ -15,6 +15,7 @@ from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS
 from core import ClipScene, Settings
 from core.trace import Trace, source
+from core.trace.incremental.draft import Draft
 from core.trace.incremental.retrace import Retrace
 
 SIZE = (48, 36)
@@ -141,3 +142,60 @@ def test_nor_does_it_after_tracing_in_the_background(
         qtbot.waitUntil(lambda earlier=earlier: not any_is_left(earlier), timeout=5000)
         earlier = references(session.trace, "raster")
     session.tracing.shut_down()
+
+
+@pytest.mark.parametrize("stage", ["raster", "depth", "resolve"])
+def test_while_the_triangle_in_focus_is_dragged_it_alone_is_traced(
+    session: Session, examined: list[set[int]], stage: str
+) -> None:
+    session.open(replace(session.document, triangle=4))
+    session.set_stage(stage)
+    first, picture = session.document, session.trace.source.picture
+    for x in (10.0, 10.5, 11.0):
+        examined.clear()
+        session.drag(dragged(session.document, 4, x), "drag")
+        assert examined == [{0}], "the only one of those that are traced"
+        assert isinstance(session.trace.source, Draft)
+        assert session.trace.source.picture is picture
+    session.come_to_rest()
+    assert not isinstance(session.trace.source, Draft)
+    assert_traced_as_from_nothing(session)
+    wanted = session.document.make_trace().source.picture
+    np.testing.assert_array_equal(session.trace.source.picture.color, wanted.color)
+    session.undo()
+    assert session.document is first
+    assert_traced_as_from_nothing(session)
+
+
+def test_a_drag_that_rests_is_traced_whole_by_itself(qtbot: QtBot, session: Session) -> None:
+    session.open(replace(session.document, triangle=4))
+    session.drag(dragged(session.document, 4, 10.0), "drag")
+    with qtbot.waitSignal(session.document_changed, timeout=5000):
+        pass
+    assert_traced_as_from_nothing(session)
+    session.come_to_rest()
+
+
+def test_a_scene_that_cannot_be_drawn_whole_goes_back_to_that_before_the_drag(
+    qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session.open(replace(session.document, triangle=4))
+    before = session.document
+    session.drag(dragged(session.document, 4, 10.0), "drag")
+    monkeypatch.setattr(Document, "check_length", refuse_once())
+    with qtbot.waitSignal(session.edit_failed):
+        session.come_to_rest()
+    assert session.document is before
+    assert_traced_as_from_nothing(session)
+
+
+def refuse_once() -> Callable[[Document], None]:
+    """Return a check that fails the first time."""
+    calls: list[Document] = []
+
+    def check(document: Document) -> None:
+        calls.append(document)
+        if len(calls) == 1:
+            raise ValueError("too long")
+
+    return check

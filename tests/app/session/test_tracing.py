@@ -7,6 +7,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
+from app.session.scene_edits import move_corner
 from app.session.session import Session
 from app.window.main_window import MainWindow
 from core import ClipScene, Settings
@@ -118,12 +119,13 @@ def test_undo_takes_a_drag_back_that_goes_on_in_the_background(qtbot: QtBot) -> 
 
 
 def test_an_edit_starts_from_the_one_that_is_still_being_traced(window: MainWindow, qtbot: QtBot) -> None:
-    session, grid = window.session, window.page.grid
+    session = window.session
     session.open(replace(open_document(make_scene(SPHERE), "Sphere"), settings=Settings(fill="brute-force")))
-    grid.vertex_dragged.emit(0, 10.0, 12.0)
-    grid.vertex_drag_finished.emit(0)
+    document = session.document
+    assert document.triangle is not None
+    moved = move_corner(document.scene, document.triangle, 0, (10.0, 12.0), document.traced_scene.size)
+    session.edit(replace(document, scene=moved))
     assert session.tracing.is_busy
-    moved = session.latest.scene
     assert moved is not session.document.scene
     window.edits.toggle_cleared()
     session.set_setting("shading", "flat")

@@ -16,6 +16,7 @@ from core.methods import table
 from core.scene import AnyScene
 from core.settings import families
 from core.trace import Trace, source
+from core.trace.incremental.draft import Draft, draft
 from core.trace.incremental.retrace import Retrace
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
@@ -316,3 +317,20 @@ def test_what_is_asked_for_when_the_trace_before_is_gone_is_computed():
     del earlier
     check_trace(after, trace(pulled(grid(), 6)))
     assert after.source.number_before is None
+
+
+@pytest.mark.parametrize("scene", MIXED, ids=name_of)
+def test_a_draft_has_the_rows_of_the_triangle_and_a_trace_after_it_is_the_one_from_nothing(
+    scene: AnyScene,
+) -> None:
+    generator = np.random.default_rng(7)
+    run = Settings(clipping="sutherland-hodgman"), 0
+    found = trace(scene, *run)
+    for _ in range(3):
+        scene = moved_corners(scene, generator, 2)
+        found = draft(scene, found)
+        assert isinstance(found.source, Draft)
+        wanted = trace(scene, *run)
+        for stage in ("transform", "clip", "edges", "bin", "raster", "interpolate", "shade"):
+            check_same(found.stage(stage).columns, wanted.stage(stage).columns, stage)
+    check_trace(trace(scene, *run, earlier=found), wanted)
