@@ -2,11 +2,10 @@
 
 import math
 import re
-import warnings
 from collections import OrderedDict
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
+from importlib import import_module, resources
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
@@ -69,11 +68,15 @@ class Typesetter:
 @cache
 def _typesetting() -> ModuleType:
     """Load the typesetter when the first formula needs it, so that the window opens sooner."""
-    with warnings.catch_warnings():
-        # It opens its font by a call that Python 3.11 and 3.12 call deprecated, and 3.13 does not.
-        warnings.simplefilter("ignore", DeprecationWarning)
+    # It opens its font by a call that Python 3.11 and 3.12 call deprecated. What warns is global, so a warning cannot
+    # be kept quiet for one thread: the call is the one that they ask for, until the typesetter is loaded.
+    path = resources.path
+    vars(resources)["path"] = lambda package, name: resources.as_file(resources.files(package) / name)
+    try:
         module = import_module("ziamath.zmath")
-        import_module("widgets.inspector.quick_rows")
+    finally:
+        vars(resources)["path"] = path
+    import_module("widgets.inspector.quick_rows")
     # Qt draws plain paths only; the newer form defines each glyph once and refers to it.
     module.config.svg2 = False
     return module
