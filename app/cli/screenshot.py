@@ -44,7 +44,7 @@ ONLY_OF = {
 }
 """Options that are of some pages only."""
 ENDINGS = (".png", ".svg", ".pdf")
-SMALLEST = (900, 600)
+SMALLEST = (800, 500)
 """Least size of the window in pixels."""
 
 

@@ -122,6 +122,8 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Previous page", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
+    KeyAction("text_larger", ("Ctrl++", "Ctrl+="), "Larger text", VIEWING, "View"),
+    KeyAction("text_smaller", ("Ctrl+-",), "Smaller text", VIEWING, "View"),
     KeyAction(
         "presenter",
         ("Ctrl+Shift+P",),

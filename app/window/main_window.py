@@ -37,6 +37,8 @@ BY_SIGNAL = 128
 """Exit code of a program that a signal has ended, less the signal's number."""
 SECONDS_TO_END = 1.0
 """How long a window that closes waits for its work."""
+SMALLEST = (800, 500)
+"""Least size of the window: 1920 x 1080 pixels at 200 % leave 960 x 540, and a title."""
 CLOSE_UNSAVED = "Close without saving"
 """The button that closes a window although what is open could not be saved."""
 HINT_MILLISECONDS = 8000
@@ -72,7 +74,7 @@ class MainWindow(QMainWindow):
         self.menus.show_recent(self.memory.preferences.recent_files)
         self.opening = StepOpening(self.session, self.page, self)
         self.setAcceptDrops(True)
-        self.setMinimumSize(900, 600)
+        self.setMinimumSize(*SMALLEST)
         self._connect()
         self._take_page(self.page)
         self._show_page("step")
@@ -116,6 +118,9 @@ class MainWindow(QMainWindow):
         menus.theme_chosen.connect(self.appearance.set_theme)
         self.appearance.theme_changed.connect(self.memory.remember_theme)
         self.appearance.theme_changed.connect(self.menus.show_theme)
+        menus.text_size_chosen.connect(self.appearance.set_text_size)
+        self.appearance.text_size_changed.connect(self.memory.remember_text_size)
+        self.appearance.text_size_changed.connect(self.menus.show_text_size)
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
@@ -154,6 +159,8 @@ class MainWindow(QMainWindow):
             "unpin": self.dismiss,
             "predict": self.toggle_predict,
             "toggle_theme": self.appearance.toggle_theme,
+            "text_larger": lambda: self.appearance.change_text_size(1),
+            "text_smaller": lambda: self.appearance.change_text_size(-1),
             "presenter": self.toggle_presenter,
             "help": self.help.toggle,
             "help_guide": lambda: self.help.show_page("guide"),

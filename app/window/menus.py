@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMainWindow, QMenu
 from app.files.export_desk import SCALES
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
-from app.window.appearance import THEMES
+from app.window.appearance import TEXT_SIZES, THEMES
 from app.window.keys import ACTIONS, KeyAction, key_text
 from app.window.preferences import preferences_folder
 from lessons.scenes import CATALOGUE
@@ -46,6 +46,8 @@ class Menus(QObject):
     raster_chosen = Signal(int, int)
     """Columns and rows for the whole view."""
     theme_chosen = Signal(str)
+    text_size_chosen = Signal(int)
+    """Percent; 0: as large as the desktop's text."""
     scale_chosen = Signal(int)
     """Pixels of an exported picture to one of the screen's."""
 
@@ -57,7 +59,7 @@ class Menus(QObject):
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
-        self.theme_group = QActionGroup(self)
+        self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
         self._menus = menus
         for entry in ACTIONS:
@@ -79,6 +81,7 @@ class Menus(QObject):
         self._fill_scenes()
         self._add_rasters(menus["Raster"])
         self._add_themes(menus["View"])
+        self._add_text_sizes(menus["View"])
         for menu in (self.recent_menu, self.earlier_menu):
             menu.triggered.connect(self._choose_recent)
         self.earlier_menu.aboutToShow.connect(self._fill_earlier)
@@ -128,9 +131,18 @@ class Menus(QObject):
             made = themes.addAction({"presenter": "Presenter (large type)"}.get(name, name.capitalize()))
             made.setCheckable(True)
             made.setData(name)
-            made.setChecked(THEMES[name] == current_theme())
+            made.setChecked(current_theme().name == name)
             self.theme_group.addAction(made)
         themes.triggered.connect(self._choose_theme)
+
+    def _add_text_sizes(self, menu: QMenu) -> None:
+        sizes = menu.addMenu("Text size")
+        for percent in (0, *TEXT_SIZES):
+            made = sizes.addAction(f"{percent} %" if percent else "As the desktop")
+            made.setCheckable(True)
+            made.setData(percent)
+            self.text_size_group.addAction(made)
+        sizes.triggered.connect(self._choose_text_size)
 
     # Showing.
 
@@ -189,6 +201,12 @@ class Menus(QObject):
         for action in self.theme_group.actions():
             action.setChecked(action.data() == name)
 
+    @Slot(int)
+    def show_text_size(self, percent: int) -> None:
+        """Show which size the text has."""
+        for action in self.text_size_group.actions():
+            action.setChecked(action.data() == percent)
+
     # What was chosen.
 
     @Slot()
@@ -218,3 +236,7 @@ class Menus(QObject):
     @Slot(QAction)
     def _choose_theme(self, action: QAction) -> None:
         self.theme_chosen.emit(action.data())
+
+    @Slot(QAction)
+    def _choose_text_size(self, action: QAction) -> None:
+        self.text_size_chosen.emit(action.data())

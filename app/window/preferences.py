@@ -31,6 +31,8 @@ class Preferences(BaseModel):
     recent_files: list[str] = []
     """Absolute paths, the last opened first."""
     theme: Literal["system", "light", "dark", "presenter"] = "system"
+    text_size: Literal[0, 100, 110, 125, 150, 175, 200] = 0
+    """Percent of the usual size of the text; 0: as large as the desktop's."""
     geometry: Base64 = ""
     """Place and size of the window, as Qt saves them, in base 64."""
     layout: dict[str, Base64] = {}

@@ -32,6 +32,7 @@ class Remembering(QObject):
         """Put window and panes where they were left, and keep results from this start to the next."""
         self._keeps_results = True
         window.restoreGeometry(QByteArray.fromBase64(self.preferences.geometry.encode()))
+        window.appearance.set_text_size(self.preferences.text_size)
         for page in window.pages.made:
             self.restore_page(page)
         window.page.show_panes(self.preferences.shown_panes)
@@ -62,6 +63,11 @@ class Remembering(QObject):
     def remember_theme(self, name: str) -> None:
         """Keep the theme."""
         self.preferences = self.preferences.model_copy(update={"theme": name})
+
+    @Slot(int)
+    def remember_text_size(self, percent: int) -> None:
+        """Keep the size of the text."""
+        self.preferences = self.preferences.model_copy(update={"text_size": percent})
 
     @Slot(str)
     def remember_file(self, path: str) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.background.workers import is_work_left
@@ -15,7 +15,7 @@ from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
 from app.pages.page_table import page_of_file
 from app.session.document import open_document
-from app.window.appearance import THEMES, the_application
+from app.window.appearance import THEMES, sized_theme, the_application
 from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
@@ -25,18 +25,28 @@ from core.settings import Settings
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import MessageKind
 from widgets.basics.style_sheet import apply_theme
-from widgets.basics.theme import DARK, LIGHT, Theme
+from widgets.basics.theme import Theme
 
 if TYPE_CHECKING:
     from app.pages.page_filling import PageContent
 
+PART_OF_SCREEN = 0.85
+TITLE_ROOM = 40
+"""Height that the window's title takes of the screen, in logical pixels."""
 
-def theme_of(name: str, application: QApplication) -> Theme:
-    """Return the theme of a name; ``system`` follows the desktop."""
-    if name in THEMES:
-        return THEMES[name]
-    is_dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
-    return DARK if is_dark else LIGHT
+
+def theme_of(name: str, application: QApplication, text_size: int = 100) -> Theme:
+    """Return the theme of a name, with text of a size in percent; ``system`` and 0 follow the desktop."""
+    if name not in THEMES:
+        name = "dark" if application.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"
+    return sized_theme(name, text_size)
+
+
+def first_size(application: QApplication) -> QSize:
+    """Return the size that the window has at first: most of the screen, and never more than it has."""
+    screen = application.primaryScreen().availableSize()
+    wanted = QSize(1280, 800).expandedTo(screen * PART_OF_SCREEN)
+    return wanted.boundedTo(screen - QSize(0, TITLE_ROOM))
 
 
 def shows_start_page(target: str | None, is_restored: bool, is_wanted: bool) -> bool:
@@ -58,12 +68,12 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     application = the_application()
     application.setApplicationName("Rasterscope")
     preferences, warning = load_preferences()
-    apply_theme(application, theme_of(preferences.theme, application))
+    apply_theme(application, theme_of(preferences.theme, application, preferences.text_size))
     first = reopen(is_replaced=target is not None)
     window = MainWindow(first.opened.document, preferences)
     window.page.views.scene_presenter.draw_with(BandWorkers())
     window.files.show_opened(first.opened)
-    window.resize(1280, 800)
+    window.resize(first_size(application))
     window.memory.restore(window)
     window.memory.autosave.begin(first.file, None if first.file else first.opened.document)
     application.commitDataRequest.connect(window.memory.autosave.ask)

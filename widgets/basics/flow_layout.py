@@ -7,9 +7,11 @@ from PySide6.QtWidgets import QLayout, QLayoutItem, QWidget
 class FlowLayout(QLayout):
     """Places items from left to right and begins a new line where the next does not fit."""
 
-    def __init__(self, parent: QWidget | None = None, spacing: int = 8) -> None:
+    def __init__(self, parent: QWidget | None = None, spacing: int = 8, is_spread: bool = False) -> None:
+        """Make an empty layout; ``is_spread``: the last item of several on a line stands at its right end."""
         super().__init__(parent)
         self._items: list[QLayoutItem] = []
+        self._is_spread = is_spread
         self.setSpacing(spacing)
         self.setContentsMargins(0, 0, 0, 0)
 
@@ -74,18 +76,24 @@ class FlowLayout(QLayout):
                 continue
             size = item.sizeHint()
             if line and x + size.width() > rect.right() + 1:
-                _set_line(line, y, line_height, is_only_measured)
+                self._set_line(line, rect, y, line_height, is_only_measured)
                 x, y, line_height, line = rect.x(), y + line_height + self.spacing(), 0, []
             line.append((item, x, size))
             x += size.width() + self.spacing()
             line_height = max(line_height, size.height())
-        _set_line(line, y, line_height, is_only_measured)
+        self._set_line(line, rect, y, line_height, is_only_measured)
         return y + line_height - rect.y()
 
-
-def _set_line(
-    line: list[tuple[QLayoutItem, int, QSize]], y: int, height: int, is_only_measured: bool
-) -> None:
-    """Place the items of one line, centred on it."""
-    for item, x, size in line if not is_only_measured else ():
-        item.setGeometry(QRect(QPoint(x, y + (height - size.height()) // 2), size))
+    def _set_line(
+        self,
+        line: list[tuple[QLayoutItem, int, QSize]],
+        rect: QRect,
+        y: int,
+        height: int,
+        is_only_measured: bool,
+    ) -> None:
+        """Place the items of one line, centred on it."""
+        for place, (item, x, size) in enumerate(line if not is_only_measured else ()):
+            is_at_end = self._is_spread and 0 < place == len(line) - 1
+            left = rect.right() + 1 - size.width() if is_at_end else x
+            item.setGeometry(QRect(QPoint(left, y + (height - size.height()) // 2), size))

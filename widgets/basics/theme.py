@@ -193,6 +193,13 @@ THEMES = (LIGHT, DARK, PRESENTER, PRESENTER_DARK)
 """Every theme, in the order of a menu."""
 
 
+def with_text_size(theme: Theme, percent: int) -> Theme:
+    """Return a theme whose text has so many percent of its usual size."""
+    sizes = (theme.text_px, theme.small_px, theme.title_px)
+    text, small, title = (round(size * percent / 100) for size in sizes)
+    return replace(theme, text_px=text, small_px=small, title_px=title)
+
+
 class ThemeNotifier(QObject):
     """Tells widgets that paint themselves when the look changes."""
 

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from core.records.steps import Level
 from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
@@ -215,28 +216,32 @@ class Timeline(QWidget):
         return button
 
     def _arrange(self) -> None:
-        row = row_layout(spacing=4)
+        steps, places = QWidget(self), QWidget(self)
+        row = row_layout(steps, spacing=4)
         for button in self.transport_buttons():
             row.addWidget(button)
         row.addSpacing(12)
-        caption = text_label("Step by", self, role="muted")
-        row.addWidget(caption)
+        row.addWidget(text_label("Step by", steps, role="muted"))
         for level_button in self.level_buttons.values():
             row.addWidget(level_button)
-        row.addStretch(1)
+        row = row_layout(places, spacing=4)
         self._guests = row_layout(spacing=4)
         row.addLayout(self._guests)
         row.addWidget(self.position_box)
         row.addWidget(self.count_label)
         row.addSpacing(12)
         row.addWidget(self.speed_box)
+        # Below one another in a narrow window, or in large type.
+        controls = FlowLayout(spacing=4, is_spread=True)
+        controls.addWidget(steps)
+        controls.addWidget(places)
         layout = column_layout(self, 4, margins=(4, 0, 0, 0))
-        layout.addLayout(row)
+        layout.addLayout(controls)
         chapters = column_layout(spacing=0)
         chapters.addWidget(self.chapters)
         chapters.addWidget(self.bar)
         layout.addLayout(chapters)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
 
     def _can_go_on(self) -> bool:
         return self._position < self._count or self.bar.run().has_after

@@ -111,9 +111,9 @@ def test_every_theme_fills_the_window_with_its_ground(window: MainWindow) -> Non
 
 
 def test_the_whole_window_fits_its_smallest_size(window: MainWindow) -> None:
-    window.resize(900, 600)
+    window.resize(853, 533)
     QApplication.processEvents()
-    assert (window.width(), window.height()) == (900, 600)
+    assert (window.width(), window.height()) == (853, 533)
     bar = window.page.timeline
     right = bar.mapTo(window, bar.rect().topRight()).x()
     assert right <= window.width()
