@@ -43,6 +43,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         window.isVisible(),
         window.isFullScreen(),
         current_theme().name,
+        current_theme().text_px,
         QGuiApplication.clipboard().image().size().width(),
         window.statusBar().currentMessage(),
         window.pages.current_name,
@@ -78,6 +79,8 @@ def prepare(window: MainWindow, name: str) -> None:
         session.go_to(400)
     elif name == "page_step":
         window.pages.show_page("compare")
+    elif name == "text_smaller":
+        window.appearance.set_text_size(110)
     elif name == "copy_view":
         QGuiApplication.clipboard().clear()
 
