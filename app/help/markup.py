@@ -42,9 +42,8 @@ def bullets(items: Iterable[str]) -> str:
 
 
 def facts(rows: Iterable[tuple[str, str]]) -> str:
-    """Return a table of names and pieces of HTML, without rows that say nothing."""
-    cells = "".join(f"<tr><th>{escape(name)}</th><td>{said}</td></tr>" for name, said in rows if said)
-    return f"<table>{cells}</table>"
+    """Return names with pieces of HTML, one a paragraph as the pane may be narrow, without those that say nothing."""
+    return "".join(f"<p><b>{escape(name)}</b>: {said}</p>" for name, said in rows if said)
 
 
 def sentence(text: str) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QPoint, Qt, Slot
+from PySide6.QtCore import QObject, QPoint, Qt, QTimer, Slot
 from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QDockWidget, QTabBar, QWidget
 
@@ -17,9 +17,6 @@ from lessons.glossary import find_terms
 if TYPE_CHECKING:
     from app.window.main_window import MainWindow
     from widgets.help.help_view import HelpView
-
-WIDTH = 400
-"""Pixels of the pane when it is first shown."""
 
 
 class HelpPane(QObject):
@@ -47,8 +44,12 @@ class HelpPane(QObject):
 
     def show_page(self, address: str) -> None:
         """Show a page by its address, as ``term/depth-buffer``."""
+        is_new = self.dock is None
         self.view.show_page(address)
         self._made().show()
+        if is_new:
+            # Only a dock that is laid out takes a width.
+            QTimer.singleShot(0, self._widen)
 
     def toggle(self) -> None:
         """Show what the widget with the keyboard or under the pointer is about, or else the contents; or close."""
@@ -101,11 +102,12 @@ class HelpPane(QObject):
             self.dock.setTitleBarWidget(QWidget(self.dock))  # The view has a row of its own for closing.
             self.dock.setWidget(view)
             self.window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.dock)
-            self.dock.show()
-            self.window.resizeDocks(
-                [self.dock], [min(WIDTH, self.window.width() // 2)], Qt.Orientation.Horizontal
-            )
         return self.dock
+
+    @Slot()
+    def _widen(self) -> None:
+        width = min(self.view.sizeHint().width(), self.window.width() * 2 // 5)
+        self.window.resizeDocks([self._made()], [width], Qt.Orientation.Horizontal)
 
     # What is asked for on the page.
 

@@ -1,6 +1,5 @@
 """The reference pages: one for each method and family, made from the table of methods."""
 
-import inspect
 from html import escape
 
 import core  # noqa: F401  (its modules register the methods)
@@ -13,6 +12,7 @@ from core.settings import DEFAULTS, FAMILIES, FIELDS
 from core.stages.declared import DECLARED, stage_of
 from core.study.accuracy.families import study_families
 from core.study.stability import experiments
+from lessons.glossary import find_terms
 from lessons.scenes import make_scene
 
 SHOWN_BY = {
@@ -85,16 +85,16 @@ def method_page(name: str, method_name: str) -> HelpPage:
         ("Command", f"<code>--set {name}={method_name}</code>"),
     ]
     use = f"<p>{link(f'do:use/{name}/{method_name}', 'Use this method')} on the open scene.</p>"
-    about = linked(first_paragraph(method))
     listings = "".join(f"<pre>{escape(source)}</pre>" for source in listings_of(method))
     shown = listings or f"<p>{NO_LISTING}</p>"
-    return HelpPage(method.title, f"<p>{about}</p>{use}{facts(rows)}<h2>Listing</h2>{shown}")
+    return HelpPage(method.title, f"{about(method)}{use}{facts(rows)}<h2>Listing</h2>{shown}")
 
 
-def first_paragraph(method: Method) -> str:
-    """Return what the rule of a method does, in a sentence: the beginning of its docstring."""
-    text = inspect.getdoc(method.function) or ""
-    return text.partition("\n\n")[0].replace("\n", " ").replace("``", "").replace("`", "")
+def about(method: Method) -> str:
+    """Return what the glossary says of the term that a method's title begins with, or else of its family's."""
+    own = [term for start, _, term in find_terms(method.title) if start == 0]
+    of_family = [term for _, _, term in find_terms(FAMILIES[method.family].title)]
+    return "".join(f"<p>{linked(term.text, {term.key})}</p>" for term in (own or of_family)[-1:])
 
 
 def listings_of(method: Method) -> list[str]:

@@ -60,6 +60,9 @@ class Page(QWidget):
     open_requested = Signal(str)
     """A file or built-in scene that is to be opened."""
 
+    help_requested = Signal(str)
+    """Address of a page of Help, as ``family/fill``."""
+
     preference_changed = Signal(str, object)
     """Name and value of a field of ``app.window.preferences.Preferences`` that the user has changed."""
 

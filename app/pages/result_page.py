@@ -18,7 +18,7 @@ from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
-from widgets.basics.controls import button_with_tip, column_layout
+from widgets.basics.controls import button_with_tip, column_layout, flat_button
 from widgets.basics.labels import ElidedLabel, Readout
 from widgets.charts.family_list import FamilyList
 
@@ -116,6 +116,16 @@ class ResultPage(WorkPage):
         self.shown_text.setAccessibleDescription(f"What the {words.view} show")
         self.export_button = self._button("Export…", words.export_tip, self.ask_export)
         self.copy_button = self._button("Copy", words.copy_tip, self.copy)
+        about = "What these methods are, and where each is exact and breaks"
+        self.reference_button = flat_button("i", "About these methods", about, self)
+        self.reference_button.setMinimumSize(24, 24)
+        self.reference_button.clicked.connect(self._show_reference)
+
+    @Slot()
+    def _show_reference(self) -> None:
+        """Show the reference of the family that is measured, or that of all families."""
+        families = self.results.choice.families
+        self.help_requested.emit(f"family/{families[0]}" if families else "methods")
 
     def _button(self, text: str, tip: str, action: Callable[[], None]) -> QPushButton:
         button = button_with_tip(text, tip, self)

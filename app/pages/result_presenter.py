@@ -49,6 +49,10 @@ class Choice(Protocol):
         """What it is called in the list."""
 
     @property
+    def families(self) -> tuple[str, ...]:
+        """The families of methods that differ in it; empty: all may."""
+
+    @property
     def result(self) -> Any:
         """What came of it last; ``None``: nothing."""
 

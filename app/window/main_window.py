@@ -281,6 +281,7 @@ class MainWindow(QMainWindow):
         page.step_requested.connect(self.opening.open_request)
         page.action_requested.connect(self.run_action)
         page.open_requested.connect(self.open_path)
+        page.help_requested.connect(self.help.show_page)
         page.preference_changed.connect(self.memory.remember)
         self.memory.restore_page(page)
 

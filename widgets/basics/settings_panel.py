@@ -161,7 +161,7 @@ class SettingsPanel(QWidget):
         self._body = body
         grid = QGridLayout(body)
         grid.setContentsMargins(8, 8, 8, 8)
-        grid.setHorizontalSpacing(12)
+        grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(4)
         grid.setColumnStretch(1, 1)
         row = 0
@@ -178,7 +178,7 @@ class SettingsPanel(QWidget):
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-            combo.setMinimumContentsLength(9)
+            combo.setMinimumContentsLength(7)
             combo.setAccessibleName(setting.label)
             combo.setObjectName(setting.family)
             combo.activated.connect(self._choose)

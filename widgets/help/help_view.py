@@ -4,7 +4,7 @@ from collections.abc import Callable
 from html import escape
 from typing import Any
 
-from PySide6.QtCore import Qt, QUrl, Signal, Slot
+from PySide6.QtCore import QSize, Qt, QUrl, Signal, Slot
 from PySide6.QtGui import QTextDocument
 from PySide6.QtWidgets import QLineEdit, QTextBrowser, QWidget
 
@@ -88,6 +88,10 @@ class HelpView(QWidget):
         self._style()
         self._show_history()
 
+    def sizeHint(self) -> QSize:
+        """Return a width of some fifty letters a line."""
+        return QSize(30 * current_theme().text_px, 600)
+
     def show_page(self, address: str) -> None:
         """Show a page by its address, as ``term/depth-buffer``."""
         url = QUrl()
@@ -135,9 +139,7 @@ class HelpView(QWidget):
         self.browser.document().setDefaultStyleSheet(
             "h1 { font-size: x-large; font-weight: 600; }"
             "h2 { font-size: large; font-weight: 600; margin-top: 12px; }"
-            "p, li, td, th { line-height: 130%; }"
+            "p, li { line-height: 130%; }"
             f"a {{ color: {theme.vertex_text[0]}; }}"
-            f"th {{ text-align: left; color: {theme.muted_text}; padding-right: 12px; font-weight: normal; }}"
-            "td, th { padding-bottom: 4px; }"
             "pre { white-space: pre-wrap; }"
         )

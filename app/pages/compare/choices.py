@@ -54,6 +54,11 @@ class FamilyChoice:
         return [(m.name, f"{m.title} ({m.unit})" if m.unit else m.title) for m in source]
 
     @property
+    def families(self) -> tuple[str, ...]:
+        """The families of methods that differ in it; empty: all may."""
+        return self.family.varies if self.family else ()
+
+    @property
     def can_run(self) -> bool:
         """Whether this version has the family."""
         return self.family is not None

@@ -67,7 +67,7 @@ class ComparePage(ResultPage):
         self.tabs.addTab(self.table, "Numbers")
         corner = QWidget(self)
         row = row_layout(corner, 8, margins=(0, 0, 0, 4))
-        for button in (self.export_button, self.copy_button):
+        for button in (self.reference_button, self.export_button, self.copy_button):
             row.addWidget(button)
         self.tabs.setCornerWidget(corner)
         return self.tabs

@@ -57,6 +57,12 @@ class ExperimentChoice:
         return self.info.title
 
     @property
+    def families(self) -> tuple[str, ...]:
+        """The families of methods that differ in it."""
+        pairs = (pair for method in self.info.methods for pair in method.split())
+        return tuple(dict.fromkeys(pair.partition("=")[0] for pair in pairs))
+
+    @property
     def resolutions(self) -> list[tuple[str, str]]:
         """Names and titles of the grids, with their sizes."""
         rows = []

@@ -63,6 +63,7 @@ class StabilityPage(ResultPage):
         foot = QWidget(self)
         row = row_layout(foot, 8)
         row.addWidget(self.shown_text, 1)
+        row.addWidget(self.reference_button)
         row.addWidget(self.export_button)
         row.addWidget(self.copy_button)
         return foot

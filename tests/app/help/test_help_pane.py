@@ -85,3 +85,15 @@ def test_a_word_of_the_stage_card_a_variable_and_a_method_lead_to_their_pages(wi
     assert view.browser.documentTitle() == "Gouraud (per vertex)"
     window.page.settings_panel.reference_requested.emit("block_size", "8")
     assert view.address() == "family/fill"
+
+
+def test_the_pages_of_results_lead_to_the_reference_of_their_methods(window: MainWindow) -> None:
+    window.help.follow("compare/depth")
+    window.pages.current.reference_button.click()
+    assert window.help.view.address() == "family/depth"
+    window.help.follow("compare/pipeline")
+    window.pages.current.reference_button.click()
+    assert window.help.view.address() == "methods"
+    window.help.follow("stability/z-fighting-range")
+    window.pages.current.reference_button.click()
+    assert window.help.view.address() == "family/depth"
