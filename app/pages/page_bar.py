@@ -77,6 +77,10 @@ class Page(QWidget):
         """Close what is on top or stop what runs (Escape); return whether there was anything."""
         return False
 
+    def is_busy(self) -> bool:
+        """Return whether something runs that Escape would stop."""
+        return False
+
     def main_view(self) -> QWidget:
         """Return what is exported and copied as "the view"."""
         return self
@@ -87,6 +91,10 @@ class Page(QWidget):
     def caption(self) -> Caption:
         """Return what can be exported and printed with the view."""
         return Caption()
+
+    def focus_panes(self) -> list[QWidget]:
+        """Return what F6 goes through after the main view, each with a name; Tab takes the same way."""
+        return [self]
 
     def open_path(self, path: str) -> None:
         """Show a file that has one of the endings of this page."""

@@ -20,6 +20,7 @@ from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
 from widgets.basics.controls import button_with_tip, column_layout, flat_button
 from widgets.basics.labels import ElidedLabel, Readout
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.charts.family_list import FamilyList
 
 
@@ -66,6 +67,14 @@ class WorkPage(Page):
             return True
         return self._opened.dismiss()
 
+    def is_busy(self) -> bool:
+        """Return whether the work runs."""
+        return bool(self._work.is_running)
+
+    def focus_panes(self) -> list[QWidget]:
+        """Return the controls with the result, what is opened of it, and the column at the left."""
+        return [*self.panes.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly), self]
+
     def stop(self) -> None:
         """End all work."""
         self._jobs.shut_down()
@@ -75,7 +84,7 @@ def splitter(
     direction: Qt.Orientation, panes: Sequence[tuple[QWidget, int, int]], parent: QWidget
 ) -> QSplitter:
     """Return a splitter of panes, each with its stretch and the pixels that it begins with."""
-    made = QSplitter(direction, parent)
+    made = PaneSplitter(direction, parent)
     for number, (pane, stretch, _) in enumerate(panes):
         made.addWidget(pane)
         made.setStretchFactor(number, stretch)

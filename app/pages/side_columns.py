@@ -4,8 +4,9 @@ from math import isclose
 
 from PySide6.QtCore import QByteArray, Qt, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSplitter, QWidget
+from PySide6.QtWidgets import QWidget
 
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import LIGHT, current_theme, theme_notifier
 
 WIDTH = 264
@@ -16,7 +17,7 @@ WIDEST = 0.45
 """Largest part of the page that growing takes."""
 
 
-class SideColumns(QSplitter):
+class SideColumns(PaneSplitter):
     """Two columns; what is saved of them is for the usual size of the type, whatever the present one is."""
 
     def __init__(self, left: QWidget, rest: QWidget, parent: QWidget) -> None:

@@ -119,6 +119,8 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
     KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
     KeyAction("page_plan", ("Alt+4",), "Plan page", PAGES, "View", is_checkable=True),
+    KeyAction("next_pane", ("F6",), "Next pane", PAGES, "View"),
+    KeyAction("previous_pane", ("Shift+F6",), "Previous pane", PAGES, "View"),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
     KeyAction("previous_page", ("Ctrl+Shift+Tab",), "Previous page", PAGES),
     KeyAction("toggle_theme", ("Ctrl+T",), "Light or dark", VIEWING, "View"),
@@ -210,6 +212,9 @@ ACTIONS: tuple[KeyAction, ...] = (
 )
 
 LOCAL_KEYS = (
+    KeyAction("next_control", ("Tab", "Shift+Tab"), "Next, previous control", PAGES),
+    KeyAction("next_button", ("Left", "Right"), "In a row of buttons: the neighbouring button", PAGES),
+    KeyAction("move_border", ("Left", "Right", "Up", "Down"), "On a border between panes: move it", PAGES),
     *_on(
         "step",
         KeyAction("value_origin", ("Return",), "In Variables: go to the step that made the number", STEPPING),

@@ -23,6 +23,7 @@ from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
 from app.window.appearance import Appearance, the_application
+from app.window.focus_walk import FocusWalk
 from app.window.keys import has_use_for
 from app.window.menus import Menus
 from app.window.message_words import sentence_case, sentences
@@ -73,6 +74,7 @@ class MainWindow(QMainWindow):
         self.memory = Remembering(self, preferences or Preferences())
         self.menus.show_recent(self.memory.preferences.recent_files)
         self.opening = StepOpening(self.session, self.page, self)
+        self.focus_walk = FocusWalk(self)
         self.setAcceptDrops(True)
         self.setMinimumSize(*SMALLEST)
         self._connect()
@@ -167,6 +169,8 @@ class MainWindow(QMainWindow):
             "help_glossary": lambda: self.help.show_page("glossary"),
             "help_methods": lambda: self.help.show_page("methods"),
             "show_keys": self.overlays.toggle_keys,
+            "next_pane": lambda: self.focus_walk.go_pane(1),
+            "previous_pane": lambda: self.focus_walk.go_pane(-1),
             "undo": self.session.undo,
             "redo": self.session.redo,
             "fit_region": self.fit_to_triangle,
@@ -242,7 +246,7 @@ class MainWindow(QMainWindow):
             self.files.progress.cancel()
         elif self.messages.isVisible():
             self.messages.dismiss()
-        else:
+        elif self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home():
             self.pages.current.dismiss()
 
     def fit_to_triangle(self) -> None:
@@ -399,6 +403,10 @@ class MainWindow(QMainWindow):
         """Keep inside what lies over the page."""
         super().resizeEvent(event)
         self.overlays.place()
+
+    def focusNextPrevChild(self, is_next: bool) -> bool:
+        """Let Tab and Shift+Tab go the same way, forth and back."""
+        return self.focus_walk.go(is_forward=is_next)
 
     def event(self, event: QEvent) -> bool:
         """Leave a control that Tab has reached the keys it needs: Space presses a button, it does not play."""

@@ -27,6 +27,7 @@ BEFORE_SEPARATORS = (
     "pane_thumbnails",
     "predict",
     "page_plan",
+    "previous_pane",
     "previous_family",
     "fit_charts",
     "previous_experiment",

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from app.cli.commands import COMMANDS
-from app.window.keys import ACTIONS, key_text
+from app.window.keys import ACTIONS, LOCAL_KEYS, KeyAction, key_text
 
 README = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
 BY_MOUSE = {"click", "wheel", "right drag"}
@@ -22,17 +22,17 @@ def keys_of_readme() -> set[str]:
     return keys - BY_MOUSE - {""}
 
 
-def keys_of_table() -> list[set[str]]:
-    return [set(key_text(action).split(", ")) for action in ACTIONS if action.keys]
+def keys_of(actions: tuple[KeyAction, ...]) -> list[set[str]]:
+    return [set(key_text(action).split(", ")) for action in actions if action.keys]
 
 
 def test_every_key_of_the_readme_does_something() -> None:
-    assert keys_of_readme() - set().union(*keys_of_table()) == set()
+    assert keys_of_readme() - set().union(*keys_of((*ACTIONS, *LOCAL_KEYS))) == set()
 
 
 def test_every_action_with_a_key_is_in_the_readme() -> None:
     named = keys_of_readme()
-    assert [keys for keys in keys_of_table() if not keys & named] == []
+    assert [keys for keys in keys_of(ACTIONS) if not keys & named] == []
 
 
 def test_every_command_is_in_the_readme() -> None:

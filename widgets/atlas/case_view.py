@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import (
     QScrollArea,
-    QSplitter,
     QTabWidget,
     QWidget,
 )
@@ -15,6 +14,7 @@ from widgets.atlas.format_probe import DialRow, DialView
 from widgets.basics.controls import button_with_tip, column_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import text_label
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.linked_grids import PinnedPictures, Pixel
 
@@ -93,7 +93,7 @@ class CaseView(PinnedPictures):
         scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setMinimumWidth(200)
-        self.parts = QSplitter(Qt.Orientation.Horizontal, self)
+        self.parts = PaneSplitter(Qt.Orientation.Horizontal, self)
         self.parts.addWidget(scroll)
         self.parts.addWidget(self.tabs)
         self.parts.setStretchFactor(1, 1)

@@ -5,6 +5,7 @@ from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QStyle, QStyleOptionToolButton, QStylePainter, QToolButton, QWidget
 
 from widgets.basics.controls import column_layout
+from widgets.basics.focus_order import ArrowGroup
 
 
 class UprightButton(QToolButton):
@@ -48,6 +49,7 @@ class SideTabs(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.buttons: dict[str, UprightButton] = {}
+        self._arrows = ArrowGroup((), self, is_upright=True)
         self._column = column_layout(self, 4)
         self._column.addStretch(1)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Preferred)
@@ -59,6 +61,7 @@ class SideTabs(QWidget):
         button.clicked.connect(self._choose)
         self._column.insertWidget(len(self.buttons), button)
         self.buttons[name] = button
+        self._arrows.add(button)
 
     def show_open(self, name: str) -> None:
         """Mark the tab of the pane that is open; empty: none is."""

@@ -94,8 +94,6 @@ QTabBar::tab {
 QTabBar::tab:selected { color: $text; border-bottom-color: $text; }
 QTabBar::tab:focus { border-color: $focus; }
 
-QSplitter::handle { background: $window; }
-QSplitter::handle:hover { background: $outline; }
 QSplitter::handle:horizontal { width: ${uu}px; }
 QSplitter::handle:vertical { height: ${uu}px; }
 QScrollArea { border: none; background: transparent; }

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from core.records.steps import Level
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.focus_order import ArrowGroup
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
@@ -100,6 +101,7 @@ class Timeline(QWidget):
         self.speed_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.speed_box.activated.connect(self._choose_speed)
         self._arrange()
+        ArrowGroup(self.transport_buttons(), self)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
         self.show_level(Level.PIXEL)

@@ -2,10 +2,11 @@
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QSplitter, QTabWidget, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
 from app.session.session import Session
 from widgets.basics.controls import column_layout
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import PixelHistory
@@ -48,7 +49,7 @@ class InspectorColumn(QScrollArea):
         self.detail_tabs.tabBar().setDrawBase(False)
         self.detail_tabs.addTab(self.variables, "Variables")
         self.detail_tabs.addTab(self.history, "Pixel history")
-        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
         for part in (self.listing, self.detail_tabs):
             self.rows.addWidget(part)
         self.rows.setChildrenCollapsible(False)

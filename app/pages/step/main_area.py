@@ -4,12 +4,13 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QToolButton, QWidget
+from PySide6.QtWidgets import QStackedWidget, QTabBar, QToolButton, QWidget
 
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_choice import BufferChoice
 from widgets.grid.buffer_strip import BufferStrip
@@ -61,7 +62,7 @@ class MainArea(QWidget):
         for widget in (self.range_button, self.buffer_choice, self.thumbnails_button):
             choices.addWidget(widget)
         row.addWidget(self._choices)
-        self.rows = QSplitter(Qt.Orientation.Vertical, self)
+        self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
         self.rows.addWidget(self.view_stack)
         self.rows.addWidget(self.strip)
         self.rows.setStretchFactor(0, 1)

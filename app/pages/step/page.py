@@ -208,6 +208,10 @@ class StepPage(Page):
         """Show the stage at hand in the view that was chosen for it, or else in its own."""
         self.main_area.show_own_view()
 
+    def focus_panes(self) -> list[QWidget]:
+        """Return the views' row, the run, the inspector, and what is at the side."""
+        return [self.main_area, self.timeline, self.column, self]
+
     def view_names(self) -> list[str]:
         """Return the names of the main views."""
         return self.main_area.view_names()
@@ -302,6 +306,10 @@ class StepPage(Page):
         has_pin = self.session.pin is not None
         self.session.set_pin(None)
         return has_pin
+
+    def is_busy(self) -> bool:
+        """Return whether it plays."""
+        return self.timeline.is_playing()
 
     def leave(self) -> None:
         """Play no further."""

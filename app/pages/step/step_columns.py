@@ -4,8 +4,9 @@ from math import isfinite
 
 from PySide6.QtCore import QByteArray, Qt, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSplitter, QWidget
+from PySide6.QtWidgets import QWidget
 
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
 
 WIDTHS = (22.0, 26.5)
@@ -17,7 +18,7 @@ SIDES_AT_MOST = 0.66
 """Largest part of the page that both take together."""
 
 
-class StepColumns(QSplitter):
+class StepColumns(PaneSplitter):
     """Columns whose sides keep their widths in heights of the text: larger type makes them wider."""
 
     def __init__(self, side: QWidget, main: QWidget, inspector: QWidget, parent: QWidget) -> None:

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from app.pages.stability.records import cell_kinds
 from app.window.main_window import MainWindow
 from widgets.atlas.canvas import cell_pixmap
+from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, Theme
 from widgets.timeline.bar import TimelineBar
@@ -122,6 +123,20 @@ def test_letters_of_maps_can_be_read(qtbot: QtBot, styled: Theme) -> None:
         seen = luminance(cell_pixmap(kind, 60, styled, 1.0))
         fill = seen[6, 6]
         assert float(contrast(seen[4:-4, 4:-4], fill).max()) >= 4.5, kind.title
+
+
+@BOTH
+def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
+    """A border has a line with 3:1 to its ground, in both directions."""
+    for direction in (Qt.Orientation.Horizontal, Qt.Orientation.Vertical):
+        panes = PaneSplitter(direction)
+        qtbot.addWidget(panes)
+        for _ in range(2):
+            panes.addWidget(QWidget())
+        panes.resize(300, 200)
+        panes.show()
+        seen = luminance(panes.handle(1).grab())
+        assert int((contrast(seen, float(seen[0, 0])) >= 3).sum()) >= 24
 
 
 @BOTH

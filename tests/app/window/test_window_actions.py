@@ -47,6 +47,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         QGuiApplication.clipboard().image().size().width(),
         window.statusBar().currentMessage(),
         window.pages.current_name,
+        window.focusWidget(),
     )
 
 

@@ -1,0 +1,69 @@
+"""The way of the keyboard through the window: Tab from stop to stop, F6 from pane to pane, Escape to the main view."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QWidget
+
+from widgets.basics.focus_order import give_focus, next_stop, tab_stops
+
+if TYPE_CHECKING:
+    from app.window.main_window import MainWindow
+
+
+class FocusWalk(QObject):
+    """Gives the keyboard to what comes next; nothing that is covered or folded away gets it."""
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__(window)
+        self._last: dict[QWidget, QWidget] = {}
+        """The stop that had the keyboard last in each pane."""
+
+    @property
+    def window(self) -> "MainWindow":
+        """The window; not an attribute, since a window in a cycle would not be deleted when it is released."""
+        return self.parent()  # type: ignore[return-value]
+
+    def panes(self) -> list[QWidget]:
+        """Return what Tab walks through: the page of keys alone where it is open, else the main view first."""
+        window = self.window
+        if window.overlays.key_help.isVisible():
+            return [window.overlays.key_help]
+        panes = [window.pages.current.main_view(), *window.pages.current.focus_panes()]
+        panes = [window.overlays.ask_bar, window.messages, *panes]
+        return [*panes, window.help.dock] if window.help.dock is not None else panes
+
+    def go(self, *, is_forward: bool) -> bool:
+        """Go to the next stop, or back to the one before; return whether there is one."""
+        stop = next_stop(tab_stops(self.panes()), self.window.focusWidget(), is_forward=is_forward)
+        if stop is not None:
+            give_focus(stop)
+        return stop is not None
+
+    def go_pane(self, direction: int) -> None:
+        """Go to the pane after this one (1) or before it (-1): to where the keyboard was there last."""
+        seen: set[QWidget] = set()
+        groups: list[tuple[QWidget, list[QWidget]]] = []
+        for pane in self.panes():
+            own = [stop for stop in tab_stops([pane]) if stop not in seen]
+            seen.update(own)
+            if own:
+                groups.append((pane, own))
+        now = self.window.focusWidget()
+        place = next((k for k, (_, own) in enumerate(groups) if now in own), -1)
+        if place >= 0 and now is not None:
+            self._last[groups[place][0]] = now
+        if groups:
+            start = place if place >= 0 or direction > 0 else 0
+            pane, own = groups[(start + direction) % len(groups)]
+            last = self._last.get(pane)
+            give_focus(last if last in own else own[0])
+
+    def go_home(self) -> bool:
+        """Give the keyboard back to the main view; return whether something else had it."""
+        own = tab_stops([self.window.pages.current.main_view()])
+        now = self.window.focusWidget()
+        if not own or now is None or now is self.window or now in own:
+            return False
+        give_focus(own[0])
+        return True

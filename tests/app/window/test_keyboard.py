@@ -1,0 +1,136 @@
+"""Everything by keyboard: Tab reaches every stop and shows it, F6 walks the panes, Escape comes back."""
+
+import pytest
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.window.main_window import MainWindow
+from widgets.basics.focus_order import ArrowGroup, tab_stops
+
+EVERY_PAGE = pytest.mark.parametrize("page", ["step", "compare", "stability", "plan"])
+
+
+def name_of(widget: QWidget) -> str:
+    """Return a widget in words."""
+    return f"{type(widget).__name__} {widget.accessibleName()}"
+
+
+def walk(window: MainWindow, key: Qt.Key, modifier: Qt.KeyboardModifier) -> list[QWidget]:
+    """Return what has the focus after each press of a key, until it comes round."""
+    found: list[QWidget] = []
+    while len(found) < 150:
+        QTest.keyClick(window.focusWidget() or window, key, modifier)
+        now = window.focusWidget()
+        assert now is not None
+        if now in found:
+            break
+        found.append(now)
+    return found
+
+
+def keyboard_widgets(window: MainWindow) -> list[QWidget]:
+    """Return everything on the page that takes the keyboard by Tab; of several that arrows join, one will do."""
+    found = []
+    for widget in window.pages.current.findChildren(QWidget):
+        takes_tab = bool(widget.focusPolicy() & Qt.FocusPolicy.TabFocus) and widget.focusProxy() is None
+        if not (
+            takes_tab and widget.isVisible() and widget.isEnabled() and widget.width() and widget.height()
+        ):
+            continue
+        group = widget.group() if isinstance(widget, QAbstractButton) else None
+        is_one_of_several = isinstance(widget.property("arrow group"), ArrowGroup) or (
+            group is not None and group.exclusive()
+        )
+        if not is_one_of_several and not widget.isWindow():
+            found.append(widget)
+    return found
+
+
+def is_seen(window: MainWindow, widget: QWidget) -> bool:
+    """Return whether a widget can be seen in the window: a part of it is there and nothing lies over that."""
+    area, above = QRect(widget.mapTo(window, QPoint(0, 0)), widget.size()), widget.parentWidget()
+    while above is not None and above is not window:
+        area &= QRect(above.mapTo(window, QPoint(0, 0)), above.size())
+        above = above.parentWidget()
+    on_top = window.childAt(area.center()) if area.isValid() else None
+    return on_top is not None and (
+        on_top is widget or widget.isAncestorOf(on_top) or on_top.isAncestorOf(widget)
+    )
+
+
+@EVERY_PAGE
+def test_tab_reaches_every_stop_and_shift_tab_is_its_mirror(window: MainWindow, page: str) -> None:
+    """Forward and backward the same stops in opposite order, all that take the keyboard, all in sight."""
+    window.run_action(f"page_{page}")
+    QApplication.processEvents()
+    tab_stops([window.pages.current.main_view()])[0].setFocus(Qt.FocusReason.TabFocusReason)
+    forward = walk(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.NoModifier)
+    hidden = []
+    for stop in forward:
+        stop.setFocus(Qt.FocusReason.TabFocusReason)
+        window.focus_walk.go(is_forward=True)
+        now = window.focusWidget()
+        assert now is not None
+        if not is_seen(window, now):
+            hidden.append(name_of(now))
+    assert hidden == []
+    forward[-1].setFocus(Qt.FocusReason.TabFocusReason)
+    backward = walk(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.ShiftModifier)
+    assert [*backward[-1:], *backward[:-1]] == forward[::-1]
+    assert [name_of(each) for each in keyboard_widgets(window) if each not in forward] == []
+    assert len(forward) <= 30
+    main = tab_stops([window.pages.current.main_view()])
+    assert forward[-1] in main or set(forward[: len(main)]) & set(main)
+
+
+def test_tab_stays_in_the_page_of_keys(window: MainWindow) -> None:
+    """While the page of keys lies over the rest, only its own stops get the keyboard."""
+    window.run_action("show_keys")
+    stops = walk(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.NoModifier)
+    assert stops
+    assert all(window.overlays.key_help.isAncestorOf(stop) and is_seen(window, stop) for stop in stops)
+
+
+@EVERY_PAGE
+def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow, page: str) -> None:
+    """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
+    window.run_action(f"page_{page}")
+    QApplication.processEvents()
+    main = tab_stops([window.pages.current.main_view()])
+    main[0].setFocus(Qt.FocusReason.TabFocusReason)
+    forward = walk(window, Qt.Key.Key_F6, Qt.KeyboardModifier.NoModifier)
+    assert len(forward) >= 2
+    assert forward[-1] in main
+    backward = walk(window, Qt.Key.Key_F6, Qt.KeyboardModifier.ShiftModifier)
+    assert backward == forward[::-1]  # one press more has come round
+    forward[0].setFocus(Qt.FocusReason.TabFocusReason)
+    window.run_action("unpin")
+    assert window.focusWidget() in main
+
+
+def test_arrows_go_through_a_row_of_buttons(window: MainWindow) -> None:
+    """The buttons that step and play are one stop; Left and Right go from one to the next."""
+    buttons = window.page.timeline.transport_buttons()
+    stops = [stop for stop in tab_stops([window.page.timeline]) if stop in buttons]
+    assert len(stops) == 1
+    position = window.session.cursor.position
+    stops[0].setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(stops[0], Qt.Key.Key_Right)
+    assert window.focusWidget() is buttons[1]
+    assert window.session.cursor.position == position
+
+
+def test_borders_move_by_keyboard(window: MainWindow, qtbot: QtBot) -> None:
+    """A border has the focus and arrows move it."""
+    window.run_action("page_compare")
+    border = next(
+        each
+        for each in window.pages.current.findChildren(QSplitterHandle)
+        if each.isVisible() and each.orientation() == Qt.Orientation.Horizontal
+    )
+    border.setFocus(Qt.FocusReason.TabFocusReason)
+    before = border.x()
+    QTest.keyClick(border, Qt.Key.Key_Right)
+    assert border.x() > before

@@ -1,0 +1,82 @@
+"""Panes side by side with borders that can be seen, and moved by mouse and keyboard."""
+
+from typing import Any
+
+from PySide6.QtCore import QEvent, QRect, Qt
+from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSplitter, QSplitterHandle
+
+from widgets.basics.key_claim import FocusRing
+from widgets.basics.theme import current_theme
+
+KEY_STEP = 16
+"""Pixels by which an arrow key moves a border."""
+_GRIP = 36
+"""Length of the line that shows where to take hold."""
+
+
+class _Border(QSplitterHandle):
+    """One border: a short line in its middle; arrows move it while it has the keyboard, Home and End all the way."""
+
+    spoken_role = QAccessible.Role.Splitter
+
+    def __init__(self, direction: Qt.Orientation, splitter: QSplitter) -> None:
+        super().__init__(direction, splitter)
+        self._ring = FocusRing(self)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setAccessibleName("Border between panes")
+        self.setToolTip("Drag, or use the arrow keys after Tab: move the border")
+
+    def _place(self) -> int:
+        return self.x() if self.orientation() == Qt.Orientation.Horizontal else self.y()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move the border."""
+        less, more = (
+            (Qt.Key.Key_Left, Qt.Key.Key_Right)
+            if self.orientation() == Qt.Orientation.Horizontal
+            else (Qt.Key.Key_Up, Qt.Key.Key_Down)
+        )
+        bounds: Any = self.splitter().getRange(self.splitter().indexOf(self))
+        low, high = bounds
+        targets = {
+            less: self._place() - KEY_STEP,
+            more: self._place() + KEY_STEP,
+            Qt.Key.Key_Home: low,
+            Qt.Key.Key_End: high,
+        }
+        key = Qt.Key(event.key())
+        if key in targets:
+            self.moveSplitter(min(max(targets[key], low), high))
+        else:
+            event.ignore()
+
+    def event(self, event: QEvent) -> bool:
+        """Paint anew when the pointer comes and goes."""
+        if event.type() in (QEvent.Type.HoverEnter, QEvent.Type.HoverLeave):
+            self.update()
+        return super().event(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the line, longer under the pointer, and the focus ring."""
+        del event
+        theme = current_theme()
+        with QPainter(self) as painter:
+            painter.fillRect(self.rect(), QColor(theme.window))
+            is_upright = self.orientation() == Qt.Orientation.Horizontal
+            room = self.height() if is_upright else self.width()
+            length = room if self.underMouse() else min(_GRIP, room)
+            middle = self.rect().center()
+            line = QRect(middle.x(), middle.y() - length // 2, 2, length)
+            if not is_upright:
+                line = QRect(middle.x() - length // 2, middle.y(), length, 2)
+            painter.fillRect(line, QColor(theme.muted_text))
+            self._ring.paint(painter, self.rect())
+
+
+class PaneSplitter(QSplitter):
+    """A splitter with such borders."""
+
+    def createHandle(self) -> QSplitterHandle:
+        """Make a border."""
+        return _Border(self.orientation(), self)
