@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QThreadPool, Signal, Slot
+from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from app.background.freeing import Freeing
 from app.background.progress import WorkProgress
 from app.background.workers import Job, Progress
 from app.files.file_names import is_text
@@ -20,7 +21,6 @@ from app.pages.step.page import StepPage
 from app.session.tracing import trace_now
 from app.window.message_words import sentences
 from core import STAGES, Trace
-from core.numeric.buffers import give_back
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
@@ -46,6 +46,8 @@ class FileActions(QObject):
         """What was to be opened last."""
         self.job = Job(self)
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
+        self.freeing = Freeing(self)
+        page.session.tracing.traced.connect(self.freeing.ask)
         self.progress.opening_cancelled.connect(self._tell_cancelled)
         self.job.succeeded.connect(self._show_result)
         self.job.failed.connect(self._tell_failed)
@@ -91,8 +93,7 @@ class FileActions(QObject):
     def _show_result(self, result: tuple[Opened, Trace]) -> None:
         opened, trace = result
         self.show_opened(opened, trace)
-        # It may take a tenth of a second: not on the GUI thread.
-        QThreadPool.globalInstance().start(give_back)
+        self.freeing.ask()
         self._messages.clear()
         if opened.warnings:
             outside = opened.left_outside
@@ -134,6 +135,7 @@ class FileActions(QObject):
 
     def shut_down(self) -> None:
         """Cancel opening and wait until its thread has ended."""
+        self.freeing.shut_down()
         self.job.shut_down()
 
     # Saving.

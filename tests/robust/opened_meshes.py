@@ -52,5 +52,6 @@ for number in range(int(sys.argv[1])):
     wait_until(lambda path=path: window.session.document.path == path)  # type: ignore[misc]
     window.session.set_setting("fill", ("blocks", "scanline")[number % 2])
     wait_until(lambda: not window.files.progress.is_busy and not window.page.views.is_drawing)
+    wait_until(lambda: not window.files.freeing.is_waiting)
     print(resident_bytes(), flush=True)
 window.close()
