@@ -3,6 +3,7 @@
 import math
 import re
 from collections import OrderedDict
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module, resources
@@ -83,16 +84,26 @@ def _typesetting() -> ModuleType:
 
 
 def is_typesetter_loaded() -> bool:
-    """Return whether typesetting can begin at once; loading takes a fifth of a second, once."""
-    return _typesetting.cache_info().currsize > 0
+    """Return whether typesetting can begin at once; loading takes a fifth of a second, once.
+
+    Where loading has failed it can begin, too: then every cell says why it is plain text.
+    """
+    has_begun = load_typesetter.cache_info().currsize > 0
+    return _typesetting.cache_info().currsize > 0 or (has_begun and not load_typesetter().is_alive())
 
 
 @cache
 def load_typesetter() -> Thread:
     """Begin to load the typesetter off the GUI thread, which it would hold up; only the first call does anything."""
-    loading = Thread(target=_typesetting, name="typesetter", daemon=True)
+    loading = Thread(target=_load, name="typesetter", daemon=True)
     loading.start()
     return loading
+
+
+def _load() -> None:
+    # Each cell that cannot be typeset for the same reason tells it.
+    with suppress(Exception):
+        _typesetting()
 
 
 def typesetter_font() -> Path:
