@@ -219,6 +219,18 @@ LOCAL_KEYS = (
         "step",
         KeyAction("value_origin", ("Return",), "In Variables: go to the step that made the number", STEPPING),
         KeyAction(
+            "go_to_row",
+            ("Up", "Down"),
+            "In Variables, Pixel history and the listing: go to the neighbouring row",
+            STEPPING,
+        ),
+        KeyAction(
+            "go_to_tab",
+            ("Left", "Right"),
+            "In a row of tabs: go to the neighbouring tab; in Variables: fold",
+            STEPPING,
+        ),
+        KeyAction(
             "choose_chapter",
             ("Left", "Right", "Return"),
             "In the chapters: choose a stage and enter it",

@@ -100,7 +100,6 @@ class MainWindow(QMainWindow):
     def _connect(self) -> None:
         session, page, menus = self.session, self.page, self.menus
         session.document_changed.connect(self._show_document)
-        session.history_changed.connect(self._show_history)
         session.hover_changed.connect(self._show_pointed)
         session.pin_changed.connect(self._show_pointed)
         session.cursor_changed.connect(self._show_pointed)
@@ -171,8 +170,8 @@ class MainWindow(QMainWindow):
             "show_keys": self.overlays.toggle_keys,
             "next_pane": lambda: self.focus_walk.go_pane(1),
             "previous_pane": lambda: self.focus_walk.go_pane(-1),
-            "undo": self.session.undo,
-            "redo": self.session.redo,
+            "undo": self.undo,
+            "redo": self.redo,
             "fit_region": self.fit_to_triangle,
             "toggle_shared": self.edits.toggle_shared,
             "focus_all": self.edits.focus_all,
@@ -249,6 +248,20 @@ class MainWindow(QMainWindow):
         elif self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home():
             self.pages.current.dismiss()
 
+    def undo(self) -> None:
+        """Take the last edit back, or say that there is none."""
+        if self.session.can_undo:
+            self.session.undo()
+        else:
+            self.tell("There is no edit to undo.")
+
+    def redo(self) -> None:
+        """Do the edit again that was undone last, or say that there is none."""
+        if self.session.can_redo:
+            self.session.redo()
+        else:
+            self.tell("There is no edit to redo.")
+
     def fit_to_triangle(self) -> None:
         """Fit the raster to the triangle in focus, and the 3D view too where that is shown."""
         self.edits.fit_region()
@@ -320,18 +333,12 @@ class MainWindow(QMainWindow):
         shared = isinstance(document.scene, ClipScene) and document.scene.shared is not None
         self.menus.show_checked("toggle_shared", shared or not isinstance(document.scene, ClipScene))
         self.menus.show_checked("toggle_cleared", document.before == "cleared")
-        self._show_history()
         self._show_pointed()
 
     @Slot()
     def _show_bookmarks(self) -> None:
         bookmarks = self.page.stepping.bookmarks
         self.menus.show_bookmarks([bookmarks.text(index) for index in range(len(bookmarks.marks))])
-
-    @Slot()
-    def _show_history(self) -> None:
-        self.menus.show_enabled("undo", self.session.can_undo)
-        self.menus.show_enabled("redo", self.session.can_redo)
 
     @Slot()
     def _show_pointed(self) -> None:

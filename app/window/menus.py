@@ -164,7 +164,7 @@ class Menus(QObject):
                 self.show_checked(entry.name, entry.name == f"page_{name}")
         for title, menu in self._menus.items():
             pages = {entry.page for entry in ACTIONS if entry.menu == title}
-            menu.menuAction().setEnabled(bool(pages & {"", name}))
+            menu.menuAction().setVisible(bool(pages & {"", name}))
 
     @Slot(object)
     def show_recent(self, paths: Sequence[str]) -> None:

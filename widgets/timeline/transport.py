@@ -30,6 +30,15 @@ __all__ = ["SPEEDS", "Timeline", "TimelineRun"]
 SPEEDS = (1.0, 2.0, 4.0, 10.0, 30.0, 60.0)
 """Steps a second that can be chosen."""
 
+_AT_LAST = "The picture is finished."
+_BUTTONS = (
+    ("Go to the start", "Home", "The stage is at its start."),
+    ("Step back", "Left", "Nothing comes before this."),
+    ("Play", "Space", _AT_LAST),
+    ("Step forward", "Right", _AT_LAST),
+    ("Go to the end", "End", "The stage is at its end."),
+)
+"""Name, key and why it cannot be used, of the buttons that step and play."""
 _LEVEL_NAMES = {
     Level.STAGE: "Stage",
     Level.TRIANGLE: "Triangle",
@@ -68,11 +77,8 @@ class Timeline(QWidget):
         self.chapters = ChapterRow(self)
         self.bar = TimelineBar(self)
         self.bar.position_requested.connect(self.position_requested)
-        self.first_button = self._button("Go to the start", "Home")
-        self.back_button = self._button("Step back", "Left")
-        self.play_button = self._button("Play", "Space")
-        self.forward_button = self._button("Step forward", "Right")
-        self.last_button = self._button("Go to the end", "End")
+        buttons = [self._button(name) for name, _, _ in _BUTTONS]
+        self.first_button, self.back_button, self.play_button, self.forward_button, self.last_button = buttons
         self.first_button.clicked.connect(self._go_first)
         self.back_button.clicked.connect(self._step_back)
         self.play_button.clicked.connect(self.toggle_play)
@@ -199,11 +205,10 @@ class Timeline(QWidget):
         """Return the buttons that step and play, from left to right."""
         return self.first_button, self.back_button, self.play_button, self.forward_button, self.last_button
 
-    def _button(self, name: str, key: str) -> QToolButton:
+    def _button(self, name: str) -> QToolButton:
         button = QToolButton(self)
         button.setProperty("flat", True)
         button.setAccessibleName(name)
-        button.setToolTip(f"{name} ({key})")
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         return button
 
@@ -259,6 +264,9 @@ class Timeline(QWidget):
         self.forward_button.setEnabled(self._can_go_on())
         self.last_button.setEnabled(is_before_end)
         self.play_button.setEnabled(self._can_go_on())
+        for button, (name, key, why) in zip(self.transport_buttons(), _BUTTONS, strict=True):
+            if button is not self.play_button:
+                button.setToolTip(f"{name} ({key})" + ("" if button.isEnabled() else f"\n{why}"))
         if not (self.position_box.hasFocus() and self.position_box.isModified()):
             self.position_box.setText(str(self._position))
         self._follow_play()
@@ -268,7 +276,8 @@ class Timeline(QWidget):
         self.play_button.setIcon(self._icons["pause" if is_playing else "play"])
         name = "Pause" if is_playing else "Play"
         self.play_button.setAccessibleName(name)
-        self.play_button.setToolTip(f"{name} (Space)")
+        why = "" if self.play_button.isEnabled() else f"\n{_AT_LAST}"
+        self.play_button.setToolTip(f"{name} (Space){why}")
 
     @Slot()
     def _tick(self) -> None:

@@ -12,6 +12,7 @@ from widgets.timeline.transport import Timeline
 
 def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timeline) -> Handlers:
     """Return the handlers by the names of ``app.window.keys.ACTIONS``."""
+    attempt = stepping.attempt
     return {
         **{f"stage_{k}": partial(stepping.choose_stage, k) for k in range(len(STAGES))},
         **{f"bookmark_{k}": partial(stepping.bookmarks.go_to, k) for k in range(BOOKMARKS)},
@@ -26,8 +27,8 @@ def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timel
         "toggle_play": stepping.toggle_play,
         "faster": lambda: timeline.change_speed(1),
         "slower": lambda: timeline.change_speed(-1),
-        "visited_back": session.go_back,
-        "visited_forward": session.go_forward,
+        "visited_back": partial(attempt, session.go_back, "No jump to go back from."),
+        "visited_forward": partial(attempt, session.go_forward, "No jump was gone back from."),
         "next_at_pin": lambda: stepping.run_to_pin(1),
         "previous_at_pin": lambda: stepping.run_to_pin(-1),
         "next_event": lambda: stepping.run_to_event(1),
@@ -36,10 +37,10 @@ def step_handlers(session: Session, stepping: SteppingPresenter, timeline: Timel
         "run_back": lambda: stepping.run_to_breakpoint(-1),
         "toggle_breakpoint": stepping.toggle_pixel_breakpoint,
         "toggle_bookmark": stepping.bookmarks.toggle,
-        "next_stage": lambda: session.next_stage(1),
-        "previous_stage": lambda: session.next_stage(-1),
-        "pin_left": lambda: session.nudge_pin(-1, 0),
-        "pin_right": lambda: session.nudge_pin(1, 0),
-        "pin_up": lambda: session.nudge_pin(0, 1),
-        "pin_down": lambda: session.nudge_pin(0, -1),
+        "next_stage": partial(attempt, partial(session.next_stage, 1), "This is the last stage."),
+        "previous_stage": partial(attempt, partial(session.next_stage, -1), "This is the first stage."),
+        **{
+            f"pin_{way}": partial(attempt, partial(session.nudge_pin, *by), "The stepped pixels end here.")
+            for way, by in (("left", (-1, 0)), ("right", (1, 0)), ("up", (0, 1)), ("down", (0, -1)))
+        },
     }

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
@@ -174,15 +175,24 @@ class SteppingPresenter(QObject):
     # Moving.
 
     @Slot(int)
-    def step(self, direction: int) -> None:
-        """Step once at the present level, from stage to stage; playing stops at the end of the last one."""
+    def step(self, direction: int, level: Level | None = None) -> None:
+        """Step once at the present level or another, from stage to stage; playing stops at the end of the last one."""
         before = self._session.cursor
-        if self.stepped_alone(direction, before.level):
+        level = before.level if level is None else level
+        if self.stepped_alone(direction, level):
             return
-        self._session.step(direction)
+        self.attempt(
+            partial(self._session.step, direction, level), LAST_STEP if direction > 0 else FIRST_STEP
+        )
         if self._session.cursor == before:
             self._timeline.show_playing(False)
-            self.tell(LAST_STEP if direction > 0 else FIRST_STEP)
+
+    def attempt(self, action: Callable[[], object], otherwise: str) -> None:
+        """Do something that moves the cursor or the pin, or say why it moves neither."""
+        before = self._session.cursor, self._session.pin
+        action()
+        if (self._session.cursor, self._session.pin) == before:
+            self.tell(otherwise)
 
     @Slot(int)
     def go_to_end(self, direction: int) -> None:
@@ -223,12 +233,12 @@ class SteppingPresenter(QObject):
         level = self._session.cursor.level + direction
         if Level.STAGE <= level <= Level.OPERATION:
             self._session.set_level(Level(level))
+        else:
+            self.tell("There are no smaller steps." if direction > 0 else "There are no larger steps.")
 
     def step_larger(self, direction: int) -> None:
         """Step at the level above the present one."""
-        level = Level(max(self._session.cursor.level - 1, Level.STAGE))
-        if not self.stepped_alone(direction, level):
-            self._session.step(direction, level)
+        self.step(direction, Level(max(self._session.cursor.level - 1, Level.STAGE)))
 
     def run_to_pin(self, direction: int) -> None:
         """Go to the next or last step at the pinned pixel."""
