@@ -1,7 +1,6 @@
 """The glossary: the terms of the field in plain English, and where they stand in a text."""
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -30,6 +29,8 @@ class Term:
 @cache
 def glossary() -> Mapping[str, Term]:
     """Return all terms by key, in alphabetical order."""
+    import tomllib  # Not before a term is asked for: the window opens sooner.
+
     rows = tomllib.loads((FOLDER / "glossary.toml").read_text(encoding="utf-8"))["term"]
     found = [Term(row["name"], row["text"], tuple(row.get("also", ()))) for row in rows]
     return {term.key: term for term in sorted(found, key=lambda term: term.name.lower())}

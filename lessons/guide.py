@@ -1,6 +1,5 @@
 """The guide of five minutes: what to do, step by step, with links that do it."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -22,5 +21,7 @@ class GuideStep:
 @cache
 def guide() -> tuple[GuideStep, ...]:
     """Return the steps in order."""
+    import tomllib  # As the glossary.
+
     rows = tomllib.loads((FOLDER / "guide.toml").read_text(encoding="utf-8"))["step"]
     return tuple(GuideStep(row["title"], row["text"], row["links"]) for row in rows)

@@ -26,9 +26,9 @@ def home_page() -> HelpPage:
         f"{link('do:action/show_keys', 'Keys')}: everything that a key does on this page.",
     )
     hint = (
-        "Underlined words in a stage card open their entry. In Variables, the context menu asks “What is this?”. In "
-        f"Methods, the button i explains a method. {_keys_of('help')} explains what has the keyboard, or what the "
-        "mouse points at."
+        "Underlined words in a stage card open their entry. A right click on the sentence, on a tab, a button or a "
+        "variable asks what it is. In Methods, the button i explains a method. "
+        f"{_keys_of('help')} explains what the mouse points at, or what has the keyboard."
     )
     return HelpPage("Help", f"{bullets(rows)}<p>{escape(hint)}</p>")
 

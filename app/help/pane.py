@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPoint, Qt, QTimer, Slot
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QApplication, QDockWidget, QTabBar, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
 
 from app.help.markup import linked
+from app.help.term_menu import term_menu, terms_of
 from app.window.keys import ACTIONS
 from core.methods import table
 from core.settings import FIELDS
 from core.stages.declared import STAGES
-from lessons.glossary import find_terms
 
 if TYPE_CHECKING:
     from app.window.main_window import MainWindow
@@ -27,6 +27,8 @@ class HelpPane(QObject):
         self.dock: QDockWidget | None = None
         page = window.page
         page.card.set_markup(linked)
+        # Its menu is the window's, as that of all other texts; it copies too.
+        page.sentence.setContextMenuPolicy(Qt.ContextMenuPolicy.NoContextMenu)
         page.card.link_chosen.connect(self._open_link)
         page.variables.meaning_requested.connect(self._explain_variable)
         page.settings_panel.reference_requested.connect(self._explain_setting)
@@ -63,6 +65,19 @@ class HelpPane(QObject):
     def is_visible(self) -> bool:
         """Return whether the pane is shown."""
         return self.dock is not None and self.dock.isVisible()
+
+    def open_menu(self, place: QPoint, widget: QWidget | None) -> bool:
+        """Ask what the terms of a widget are, in a menu at a place on the screen; return whether it has any."""
+        if widget is None:
+            return False
+        menu = term_menu(widget, widget.mapFromGlobal(place), self._show_term, self.window)
+        if menu is not None:
+            menu.popup(place)
+        return menu is not None
+
+    def _show_term(self, address: str, is_checked: bool = False) -> None:
+        """Show a page that a menu's entry names; Qt says whether it is checked."""
+        self.show_page(address)
 
     @Slot()
     def close(self) -> None:
@@ -172,25 +187,7 @@ def address_of(window: QWidget) -> str:
     pointed = QApplication.widgetAt(QCursor.pos())
     for widget in (pointed, window.focusWidget()):
         if widget is not None and window.isAncestorOf(widget):
-            keys = dict.fromkeys(term.key for text in texts_of(widget) for _, _, term in find_terms(text))
+            keys = [term.key for term in terms_of(widget)]
             if keys:
-                return f"term/{next(iter(keys))}" if len(keys) == 1 else f"here/{','.join(keys)}"
+                return f"term/{keys[0]}" if len(keys) == 1 else f"here/{','.join(keys)}"
     return ""
-
-
-def texts_of(widget: QWidget) -> list[str]:
-    """Return what a widget says: its text, the tab or choice that is shown, its tip, and its name."""
-    point = widget.mapFromGlobal(QCursor.pos())
-    shown = [_tab_text(widget, point)]
-    for name in ("text", "currentText", "toolTip", "accessibleName"):
-        value = widget.property(name)
-        shown.append(value if isinstance(value, str) else "")
-    return [text for text in shown if text]
-
-
-def _tab_text(widget: QWidget, point: QPoint) -> str:
-    """Return the text of the tab under the pointer; empty: it has no tabs."""
-    if not isinstance(widget, QTabBar):
-        return ""
-    index = widget.tabAt(point)
-    return widget.tabText(index if index >= 0 else widget.currentIndex())

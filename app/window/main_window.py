@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 
 from PySide6.QtCore import QEvent, Qt, Slot
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QStatusBar, QWidget
 
 from app.background.workers import ending_within
@@ -429,6 +429,12 @@ class MainWindow(QMainWindow):
         """Remember whether the focus was given by a click: then the keys go on stepping."""
         if now is not None and now.window() is self:
             self._has_mouse_focus = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Ask what the terms of a text are: a widget without a menu of its own leaves the click to the window."""
+        is_by_key = event.reason() == QContextMenuEvent.Reason.Keyboard
+        widget = self.focusWidget() if is_by_key else self.childAt(event.pos())
+        event.setAccepted(self.help.open_menu(event.globalPos(), widget))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""

@@ -178,7 +178,7 @@ class SettingsPanel(QWidget):
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-            combo.setMinimumContentsLength(7)
+            combo.setMinimumContentsLength(5)
             combo.setAccessibleName(setting.label)
             combo.setObjectName(setting.family)
             combo.activated.connect(self._choose)

@@ -1,8 +1,10 @@
 """The pane of Help in a window: keys, links that do something, and words on screen that lead to their entries."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QAction, QContextMenuEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QMenu, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.help import pane
@@ -97,3 +99,32 @@ def test_the_pages_of_results_lead_to_the_reference_of_their_methods(window: Mai
     window.help.follow("stability/z-fighting-range")
     window.pages.current.reference_button.click()
     assert window.help.view.address() == "family/depth"
+
+
+def open_menu(window: MainWindow, widget: QWidget, point: QPoint) -> list[QAction]:
+    """Click with the right button; return the entries of the menu."""
+    place = widget.mapToGlobal(point)
+    event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, point, place)
+    QApplication.sendEvent(widget, event)
+    menu = QApplication.activePopupWidget()
+    return menu.actions() if isinstance(menu, QMenu) else []
+
+
+def test_a_right_click_on_a_text_asks_what_its_terms_are(window: MainWindow) -> None:
+    window.page.sentence.setText("Pixel (3, 2) is covered.")
+    entries = open_menu(window, window.page.sentence, QPoint(4, 4))
+    assert [entry.text() for entry in entries] == ["What is “pixel”?", "What is “coverage”?", "", "Copy"]
+    entries[-1].trigger()
+    assert QApplication.clipboard().text() == "Pixel (3, 2) is covered."
+    entries[1].trigger()
+    assert window.help.view.browser.documentTitle() == "Coverage"
+    QApplication.activePopupWidget().close()
+    bar, index = next(
+        (bar, k)
+        for bar in window.page.findChildren(QTabBar)
+        for k in range(bar.count())
+        if bar.tabText(k) == "Clip space"
+    )
+    entries = open_menu(window, bar, bar.tabRect(index).center())
+    assert entries[0].text() == "What is “clip space”?"
+    QApplication.activePopupWidget().close()
