@@ -56,6 +56,13 @@ class DocumentEdits(QObject):
         """Bring a triangle into focus."""
         self.edit(focus_on(self._session.latest, triangle))
 
+    def step_triangle(self, direction: int) -> None:
+        """Bring the next (1) or previous (-1) triangle into focus, round and round."""
+        document = self._session.latest
+        last = -1 if direction > 0 else 0
+        before = last if document.triangle is None else document.triangle
+        self.focus_triangle((before + direction) % document.triangle_count)
+
     def toggle_cleared(self) -> None:
         """Start from cleared buffers, or as the earlier triangles left them."""
         document = self._session.latest

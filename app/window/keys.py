@@ -50,6 +50,8 @@ MAPS = "Maps"
 CHARTS = "Charts"
 PLANNING = "Planning"
 
+WAYS = (("left", "to the left"), ("right", "to the right"), ("up", "up"), ("down", "down"))
+
 ACTIONS: tuple[KeyAction, ...] = (
     *_on(
         "step",
@@ -97,6 +99,12 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
         KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
         KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
+        KeyAction("zoom_in", ("Alt++", "Alt+="), "Magnify the view, or the timeline in it", VIEWING, "View"),
+        KeyAction("zoom_out", ("Alt+-",), "Magnify less", VIEWING, "View"),
+        *(
+            KeyAction(f"view_{way}", (f"Ctrl+{way.capitalize()}",), f"Look further {where}", VIEWING)
+            for way, where in WAYS
+        ),
     ),
     KeyAction("unpin", ("Escape",), "Close the top pane, stop work, or remove the pin", VIEWING),
     *_on(
@@ -139,6 +147,19 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("help_glossary", (), "Glossary", HELP, "Help"),
     KeyAction("help_methods", (), "Methods: sources, limits, listings", HELP, "Help"),
     KeyAction("show_keys", ("?",), "All keys", HELP, "Help"),
+    *_on(
+        "step",
+        KeyAction("next_triangle", ("Alt+J",), "Next triangle", EDITING, "Raster"),
+        KeyAction("previous_triangle", ("Alt+K",), "Previous triangle", EDITING, "Raster"),
+        KeyAction("go_to_triangle", ("Ctrl+Shift+G",), "Go to triangle…", EDITING, "Raster"),
+        KeyAction("next_vertex", ("Alt+N",), "Choose the next vertex to move", EDITING, "Edit"),
+        *(
+            KeyAction(
+                f"vertex_{way}", (f"Ctrl+Shift+{way.capitalize()}",), f"Move the vertex {where}", EDITING
+            )
+            for way, where in WAYS
+        ),
+    ),
     KeyAction("undo", ("Ctrl+Z",), "Undo", EDITING, "Edit"),
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
     *_on(

@@ -125,6 +125,7 @@ class MainWindow(QMainWindow):
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
+        self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
         self.files.message_sent.connect(self._show_message)
@@ -157,6 +158,9 @@ class MainWindow(QMainWindow):
             "edit_condition": self.overlays.ask_condition,
             "note_bookmark": self.overlays.ask_note,
             "go_to_pixel": self.overlays.ask_pixel,
+            "go_to_triangle": self.overlays.ask_triangle,
+            "next_triangle": lambda: self.edits.step_triangle(1),
+            "previous_triangle": lambda: self.edits.step_triangle(-1),
             "unpin": self.dismiss,
             "predict": self.toggle_predict,
             "toggle_theme": self.appearance.toggle_theme,

@@ -1,6 +1,6 @@
 """What lies over the page: the page of all keys, and the bar that asks for a pixel or a condition."""
 
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.pages.step.page import StepPage
@@ -12,6 +12,9 @@ from widgets.basics.key_help import KeyEntry, KeyHelp
 
 class Overlays(QObject):
     """Shows, places and closes the overlays, and takes what is typed into them."""
+
+    triangle_requested = Signal(int)
+    """The user wants this triangle in focus."""
 
     def __init__(self, page: StepPage, below: QWidget, window: QWidget) -> None:
         """Lie in ``window``, inside of its part ``below``."""
@@ -59,6 +62,10 @@ class Overlays(QObject):
         hint = f"Column {first_column} to {end_column - 1}, row {first_row} to {end_row - 1}, as 12, 7."
         self._ask("pixel", "Go to pixel", hint)
 
+    def ask_triangle(self) -> None:
+        """Ask for a triangle to bring into focus."""
+        self._ask("triangle", "Go to triangle", f"Number 0 to {self._session.document.triangle_count - 1}.")
+
     def ask_condition(self) -> None:
         """Ask for the condition of a breakpoint."""
         names = ", ".join(variable_names(self._session.stage_trace))
@@ -81,6 +88,8 @@ class Overlays(QObject):
         try:
             if name == "pixel":
                 self._go_to_pixel(text)
+            elif name == "triangle":
+                self._go_to_triangle(text)
             elif name == "note":
                 self._page.stepping.bookmarks.describe(text.strip())
             else:
@@ -91,6 +100,12 @@ class Overlays(QObject):
         else:
             self.ask_bar.hide()
             self._page.grid.setFocus()
+
+    def _go_to_triangle(self, text: str) -> None:
+        last = self._session.document.triangle_count - 1
+        if not text.strip().isdecimal() or int(text) > last:
+            raise ValueError(f"Enter a triangle's number, 0 to {last}; got “{text}”.")
+        self.triangle_requested.emit(int(text))
 
     def _go_to_pixel(self, text: str) -> None:
         parts = text.replace(",", " ").split()

@@ -94,6 +94,42 @@ class PixelGrid(GridDisplay):
             middle = pinned if placement.viewport.contains(pinned.toPoint()) else middle
         self._change_view(zoomed(placement, middle, factor, self.devicePixelRatioF()))
 
+    def move_view(self, across: int, up: int) -> None:
+        """Look further to one side by an eighth of what is seen, as the user's wish."""
+        placement = self.placement()
+        step = 0.125 * min(placement.viewport.width(), placement.viewport.height())
+        self._change_view(panned(placement, self._view, QPointF(-step * across, step * up)))
+
+    def choose_next_vertex(self) -> int | None:
+        """Mark the next vertex that can be moved, as if the pointer were on it; ``None``: there is none."""
+        geometry = self._geometry
+        if geometry is None or not geometry.draggable or geometry.focus < 0 or not len(geometry.triangles):
+            return None
+        own = geometry.triangles[geometry.focus].tolist()
+        self._vertex = own[(own.index(self._vertex) + 1) % 3] if self._vertex in own else own[0]
+        self.update()
+        return self._vertex
+
+    def nudge_vertex(self, across: float, up: float) -> bool:
+        """Move the marked vertex by pixels, as a whole drag does; return whether one is marked."""
+        vertex, geometry = self._vertex, self._geometry
+        if vertex is None or geometry is None or not geometry.draggable or self._drag is not _Drag.NONE:
+            return False
+        x, y = geometry.vertices[vertex].tolist()
+        self.vertex_drag_started.emit(vertex)
+        self.vertex_dragged.emit(vertex, x + across, y + up)
+        self.vertex_drag_finished.emit(vertex)
+        return True
+
+    def vertex_text(self) -> str:
+        """Return the marked vertex and its place; empty: none is marked."""
+        vertex, geometry = self._vertex, self._geometry
+        if vertex is None or geometry is None:
+            return ""
+        own = geometry.triangles[geometry.focus].tolist()
+        x, y = geometry.vertices[vertex].tolist()
+        return f"Vertex {own.index(vertex) if vertex in own else vertex} at ({x:.4g}, {y:.4g})"
+
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Click a pixel, take a vertex, or begin to pan."""
         position, button = event.position(), event.button()

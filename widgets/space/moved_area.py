@@ -64,6 +64,14 @@ class MovedArea(QWidget):
         """Return the caption that there is room for."""
         return self._drawn_caption() or ""
 
+    def zoom_by(self, factor: float) -> None:
+        """Magnify about the middle, as the user's wish."""
+        self._magnify(factor, None)
+
+    def move_view(self, across: int, up: int) -> None:
+        """Look further to one side, as the user's wish."""
+        self._go(across, -up, True)
+
     # Events.
 
     def paint_to(self, painter: QPainter) -> None:

@@ -115,6 +115,11 @@ class TimelineBar(QAbstractSlider):
         span = min(max((self._last - self._first) * factor, min(_SMALLEST_SPAN, whole)), whole)
         self._show_stretch(anchor - share * span, anchor + (1.0 - share) * span)
 
+    def move_view(self, direction: int) -> None:
+        """Show an eighth of what is in view further to the right (1) or left (-1)."""
+        step = 0.125 * direction * (self._last - self._first)
+        self._show_stretch(self._first + step, self._last + step)
+
     def sizeHint(self) -> QSize:
         """Room for the flags, the lanes of any stage and the ruler: a step that begins a lane must move nothing."""
         return QSize(400, flag_height() + lane_height() * LANES_AT_MOST + ruler_height())

@@ -19,6 +19,7 @@ from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.step_columns import StepColumns
 from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
+from app.pages.step.view_keys import view_handlers
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from widgets.basics.controls import column_layout, flat_button, row_layout
@@ -275,6 +276,7 @@ class StepPage(Page):
         """Return what the keys of this page do."""
         return {
             **step_handlers(self.session, self.stepping, self.timeline),
+            **view_handlers(self),
             "fit_view": self._fit,
             "next_view": self.main_area.next_view,
             **{f"pane_{name}": partial(self.toggle_pane, name) for name in PANES},

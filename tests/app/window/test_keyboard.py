@@ -1,5 +1,7 @@
 """Everything by keyboard: Tab reaches every stop and shows it, F6 walks the panes, Escape comes back."""
 
+from itertools import pairwise
+
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
@@ -8,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
+from widgets.space.scene_view import SceneView
 
 EVERY_PAGE = pytest.mark.parametrize("page", ["step", "compare", "stability", "plan"])
 
@@ -134,3 +137,46 @@ def test_borders_move_by_keyboard(window: MainWindow, qtbot: QtBot) -> None:
     before = border.x()
     QTest.keyClick(border, Qt.Key.Key_Right)
     assert border.x() > before
+
+
+def test_view_and_timeline_zoom_and_move_by_keys(window: MainWindow) -> None:
+    """Alt and plus magnifies the view, or the timeline while that has the keyboard; Ctrl and arrows move it."""
+    grid, bar = window.page.grid, window.page.timeline.bar
+    views, stretches = [grid.view()], [bar.visible_stretch()]
+    grid.setFocus()
+    for action in ("zoom_in", "view_right", "view_up"):
+        window.run_action(action)
+        views.append(grid.view())
+    bar.setFocus(Qt.FocusReason.TabFocusReason)
+    for action in ("zoom_in", "view_left", "zoom_out"):
+        window.run_action(action)
+        stretches.append(bar.visible_stretch())
+    for shown in (views, stretches):
+        assert all(before != after for before, after in pairwise(shown))
+    window.page.show_view("scene")
+    space = window.page.main_view()
+    assert isinstance(space, SceneView)
+    orbit = space.orbit()
+    space.setFocus(Qt.FocusReason.TabFocusReason)
+    window.run_action("zoom_in")
+    assert space.orbit() != orbit
+
+
+def test_triangles_and_vertices_by_keys(window: MainWindow, qtbot: QtBot) -> None:
+    """A triangle is chosen and its vertex moved by half a pixel a press; each press can be undone."""
+    session = window.session
+    window.run_action("next_triangle")
+    assert session.document.triangle == 0
+    window.run_action("previous_triangle")
+    assert session.document.triangle == 1
+    window.run_action("go_to_triangle")
+    window.overlays.ask_bar.text_entered.emit("triangle", "0")
+    assert session.document.triangle == 0
+    before = session.document.scene
+    window.run_action("next_vertex")
+    assert "Vertex 0" in window.page.grid.vertex_text()
+    place = window.page.grid.vertex_text()
+    window.run_action("vertex_right")
+    assert window.page.grid.vertex_text() != place
+    window.run_action("undo")
+    assert session.document.scene is before
