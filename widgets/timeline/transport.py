@@ -273,7 +273,10 @@ class Timeline(QWidget):
 
     def _follow_play(self) -> None:
         is_playing = self.clock.isActive()
-        self.play_button.setIcon(self._icons["pause" if is_playing else "play"])
+        icon = self._icons["pause" if is_playing else "play"]
+        if icon.cacheKey() == self.play_button.icon().cacheKey():
+            return  # A button that is given an icon has the whole window laid out again.
+        self.play_button.setIcon(icon)
         name = "Pause" if is_playing else "Play"
         self.play_button.setAccessibleName(name)
         why = "" if self.play_button.isEnabled() else f"\n{_AT_LAST}"

@@ -67,7 +67,7 @@ class InspectorPresenter(QObject):
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
         self._folded = set(STAGES)
-        self._ahead = FormulasAhead(session, formula_view, self)
+        self.ahead = FormulasAhead(session, formula_view, self)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)

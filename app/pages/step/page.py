@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from functools import partial
 
-from PySide6.QtCore import QCoreApplication, Qt, QThread, Signal, Slot
+from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import QComboBox, QScrollArea, QSplitter, QStackedWidget, QWidget
 
 from app.pages.page_bar import Caption, Handlers, Page
@@ -34,6 +34,8 @@ SIDE_PANES = (("scene", "Scene", "S"), ("methods", "Methods", "M"), ("overlays",
 PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "thumbnails")
 """Names of everything that can be shown or folded away."""
 PANES_AT_FIRST = ("inspector",)
+NESTED_LAYOUTS = 5
+"""Layouts around a part of the inspector, up to the window's."""
 
 
 class StepPage(Page):
@@ -97,6 +99,9 @@ class StepPage(Page):
             refusal.connect(self.edit_refused)
         self._lay_out()
         self.show_panes(PANES_AT_FIRST)
+        # At last: every presenter has said what it shows.
+        session.cursor_changed.connect(self._settle_layouts)
+        session.document_changed.connect(self._settle_layouts)
 
     # Layout.
 
@@ -117,6 +122,12 @@ class StepPage(Page):
         page.addLayout(row, 1)
         self._add_run_to()
         page.addWidget(self.timeline)
+
+    @Slot()
+    def _settle_layouts(self) -> None:
+        """Lay out now what has another size: each layout asks the one around it, and in between all is painted."""
+        for _ in range(NESTED_LAYOUTS):
+            QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
     def _scrolled(self, widget: QWidget) -> QScrollArea:
         scroll = QScrollArea(self)

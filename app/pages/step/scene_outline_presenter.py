@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, Signal, Slot
+from PySide6.QtWidgets import QWidget
 
 from app.session.document import Document, focus_on
 from app.session.scene_edits import outline, set_value
@@ -31,6 +32,10 @@ class SceneOutlinePresenter(QObject):
     ) -> None:
         super().__init__(parent)
         self._session, self._outline, self._panel = session, scene_outline, panel
+        self._shown: dict[QWidget, Document] = {}
+        """What each pane shows: while it is folded away, not the newest."""
+        for pane in (scene_outline, panel):
+            pane.installEventFilter(self)
         session.document_changed.connect(self.refresh)
         scene_outline.value_edited.connect(self._edit_value)
         scene_outline.row_selected.connect(scene_outline.show_selection)
@@ -39,12 +44,30 @@ class SceneOutlinePresenter(QObject):
 
     @Slot()
     def refresh(self) -> None:
-        """Show the document."""
+        """Show the document in the panes that are in sight, also where it is the same and something else was typed."""
+        self._shown.clear()
+        for pane in (self._outline, self._panel):
+            if pane.isVisible():
+                self._fill(pane)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Bring a pane up to date when it is unfolded."""
+        if event.type() == QEvent.Type.Show and watched in (self._outline, self._panel):
+            assert isinstance(watched, QWidget)
+            self._fill(watched)
+        return False
+
+    def _fill(self, pane: QWidget) -> None:
         document = self._session.document
-        size = document.traced_scene.size
-        groups = (_document_group(document), *outline(document.scene, document.triangle, size))
-        self._outline.show_groups(groups)
-        self._panel.show_settings(settings_records(document))
+        if self._shown.get(pane) is document:
+            return
+        self._shown[pane] = document
+        if pane is self._panel:
+            self._panel.show_settings(settings_records(document))
+        else:
+            size = document.traced_scene.size
+            groups = outline(document.scene, document.triangle, size)
+            self._outline.show_groups((_document_group(document), *groups))
 
     @Slot(str, float)
     def _edit_value(self, path: str, value: float) -> None:

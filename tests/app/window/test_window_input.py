@@ -83,6 +83,7 @@ def test_hovering_one_grid_reads_in_all(window: MainWindow, qtbot: QtBot) -> Non
 
 
 def test_values_are_typed(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.show_panes(["scene"])
     picture = window.session.trace.source.picture.primitive
     type_value(window, qtbot, "corner/0/0/x", "20.5")
     assert not np.array_equal(window.session.trace.source.picture.primitive, picture)
@@ -91,6 +92,7 @@ def test_values_are_typed(window: MainWindow, qtbot: QtBot) -> None:
 
 
 def test_nonsense_changes_nothing(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.show_panes(["scene"])
     for text in ["", "abc", "1e999", "nan", "--3", "1/0"]:
         document = window.session.document
         type_value(window, qtbot, "corner/0/0/x", text)
@@ -99,6 +101,7 @@ def test_nonsense_changes_nothing(window: MainWindow, qtbot: QtBot) -> None:
 
 
 def test_w_of_zero_is_refused_with_a_reason(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.show_panes(["scene"])
     document = window.session.document
     type_value(window, qtbot, "corner/0/0/w", "0")
     assert window.session.document is document
@@ -107,6 +110,7 @@ def test_w_of_zero_is_refused_with_a_reason(window: MainWindow, qtbot: QtBot) ->
 
 
 def test_bad_values_of_a_scene_are_told(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.show_panes(["scene"])
     for path, text, reason in [
         ("camera/range/near", "100", "near"),
         ("camera/range/far", "0.01", "far"),
@@ -126,6 +130,7 @@ def test_bad_values_of_a_scene_are_told(window: MainWindow, qtbot: QtBot) -> Non
 
 
 def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:
+    window.page.show_panes(["methods"])
     scene = make_scene("cube")
     assert isinstance(scene, Scene)
     flat = replace(scene, camera=replace(scene.camera, projection="orthographic"))
@@ -250,6 +255,7 @@ def test_playing_goes_to_the_end_and_stops(window: MainWindow, qtbot: QtBot) -> 
 
 
 def test_focus_raster_and_start_are_edits_like_others(window: MainWindow) -> None:
+    window.page.show_panes(["scene"])
     session = window.session
     session.open(open_document(make_scene("torus"), "Torus"))
     focused = session.document

@@ -1,0 +1,72 @@
+"""A step lays out once and paints once, and nothing outside of the panes that say something else."""
+
+from collections import Counter
+
+import pytest
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.window.main_window import MainWindow
+from core.records.steps import Level
+
+
+class EventCount(QObject):
+    """Counts layouts and paintings by widget."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.layouts: Counter[str] = Counter()
+        self.paints: Counter[QWidget] = Counter()
+        self.updates = 0
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if isinstance(watched, QWidget):
+            if event.type() == QEvent.Type.LayoutRequest:
+                self.layouts[type(watched).__name__] += 1
+            elif event.type() == QEvent.Type.Paint:
+                self.paints[watched] += 1
+            elif event.type() == QEvent.Type.UpdateRequest and watched.isWindow():
+                self.updates += 1
+        return False
+
+
+def events_of_a_step(window: MainWindow, qtbot: QtBot) -> EventCount:
+    """Return what one press of Right makes, once the formulas around are typeset."""
+    qtbot.waitUntil(lambda: window.page.formula.is_complete() and not window.page.inspector.ahead.is_working)
+    QApplication.processEvents()
+    count = EventCount()
+    application = QApplication.instance()
+    assert application is not None
+    application.installEventFilter(count)
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    for _ in range(3):
+        QApplication.processEvents()
+    application.removeEventFilter(count)
+    return count
+
+
+@pytest.mark.parametrize("stage", ["raster", "interpolate", "depth"])
+def test_a_step_is_laid_out_in_the_inspector_alone_and_painted_once(
+    window: MainWindow, qtbot: QtBot, stage: str
+) -> None:
+    session = window.session
+    session.set_stage(stage, 0)
+    session.set_level(Level.PIXEL)
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    for _ in range(3):
+        count = events_of_a_step(window, qtbot)
+        assert not {"MainWindow", "Pages", "StepPage", "Timeline", "MainArea"} & set(count.layouts)
+        assert count.updates == 1
+        assert {str(widget): times for widget, times in count.paints.items() if times > 1} == {}
+        assert not any(count.paints[pane] for pane in (window.page.outline, window.page.settings_panel))
+
+
+def test_panes_that_are_folded_away_are_filled_when_they_are_unfolded(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    assert not page.settings_panel.isVisible()
+    session.set_setting("fill", "blocks")
+    assert page.settings_panel.findChildren(QComboBox) == []
+    page.show_panes(["methods"])
+    assert page.settings_panel.findChildren(QComboBox) != []
