@@ -114,10 +114,11 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
         controls: RunControls,
         readout: Readout,
         page: QWidget,
+        first: str = "",
     ) -> None:
         super().__init__(job, controls, words, page)
         self._choices, self._entries, self._readout, self._run_words = choices, entries, readout, words
-        self._current = next(iter(choices))
+        self._current = first or next(iter(choices))
         self._running = ""
         """Name of what is being done; empty: nothing."""
         self._pace = PacedDrawing(page)

@@ -263,6 +263,12 @@ LOCAL_KEYS = (
             "In the chapters and the timeline: go on or back by a twentieth of the stage",
             STEPPING,
         ),
+        KeyAction(
+            "read_texel",
+            ("Shift+Left", "Shift+Right", "Shift+Up", "Shift+Down"),
+            "In the texture: read the next texel",
+            POINTING,
+        ),
     ),
     *_on(
         "compare",
@@ -271,6 +277,12 @@ LOCAL_KEYS = (
         ),
         KeyAction(
             "chart_choose", ("Return",), "In a chart: open the point’s pictures, as a click does", CHARTS
+        ),
+        KeyAction(
+            "picture_go",
+            ("Left", "Right", "Up", "Down"),
+            "In a picture: read the next pixel; with Shift the eighth",
+            CHARTS,
         ),
         KeyAction(
             "chart_add",

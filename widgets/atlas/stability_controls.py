@@ -16,6 +16,8 @@ class StabilityControls(RunPanel):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
             "Experiment and running it",
+            "When does a method go wrong? Choose an experiment at the left and press Run (F5): each method gets a map, "
+            "and each cell of it shows whether one run on a harder and harder scene was right.",
             "Run",
             "Run every method at every place of the grid (F5). It continues while you use other experiments and pages. "
             "The last maps of each experiment are kept for the next start.",

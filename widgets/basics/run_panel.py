@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
-from widgets.basics.labels import ElidedLabel
+from widgets.basics.labels import ElidedLabel, text_label
 from widgets.basics.message_bar import Progress
 
 Named = Sequence[tuple[str, str]]
@@ -29,9 +29,9 @@ class RunPanel(QWidget):
     cancel_requested = Signal()
 
     def __init__(
-        self, name: str, start: str, start_tip: str, cancel_tip: str, parent: QWidget | None
+        self, name: str, intro: str, start: str, start_tip: str, cancel_tip: str, parent: QWidget | None
     ) -> None:
-        """Make an empty panel; ``start`` is what the button says."""
+        """Make an empty panel; ``intro`` is what the page shows and how to begin, ``start`` what the button says."""
         super().__init__(parent)
         self.setProperty("role", "panel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -47,6 +47,8 @@ class RunPanel(QWidget):
         # An elided label takes any width by itself; here it keeps its own, so that a line that is full wraps.
         self.doing.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.rows = column_layout(self, 8, margins=(8, 8, 8, 8))
+        self.intro = text_label(intro, self, name="What this page shows", wraps=True, is_selectable=True)
+        self.rows.addWidget(self.intro)
         self.start_button.clicked.connect(self.start_requested)
         self.cancel_button.clicked.connect(self.cancel_requested)
 

@@ -11,7 +11,7 @@ from widgets.basics.drawn_text import LabelPlaces, paint_empty
 from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, faded, text_font
 from widgets.charts.canvas import ChartCanvas
-from widgets.charts.records import ChartEmpty, ChartMark, ChartPicture
+from widgets.charts.records import MOST_NAMED, ChartEmpty, ChartMark, ChartPicture, ChartSeries
 from widgets.charts.scale import axis_text
 from widgets.charts.series_marks import series_color
 
@@ -19,8 +19,6 @@ _NEAR = 18.0
 """Pixels within which a point is pointed at."""
 _CLICK = 5.0
 """Pixels that the pointer may move between press and release of a click."""
-_FEW = 16
-"""Series, up to which names keep clear of bars too; of more, a name on a bar is better than none."""
 _FURTHER = (1.0, 2.5, 5.0, 8.0, 12.0)
 """How far from its mark a name may stand, in halves of the mark's width; further off a line leads to it."""
 _ARROWS = {
@@ -245,10 +243,7 @@ class Chart(ChartCanvas):
                 painter.drawEllipse(at, reach, reach)
 
     def _paint_names(self, painter: QPainter, picture: ChartPicture) -> None:
-        """Write every series' name beside its last point, where there is room.
-
-        What is pointed at comes first, then what was chosen or stands out, then the front.
-        """
+        """Write the names of series beside their last points, where there is room."""
         theme = current_theme()
         font = text_font(theme, theme.small_px)
         metrics = QFontMetricsF(font)
@@ -258,17 +253,15 @@ class Chart(ChartCanvas):
         places = LabelPlaces(area.adjusted(2, 2, -2, -2))
         for _, at in self.places():
             places.take(QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach))
-        if len(picture.series) <= _FEW:
+        if len(picture.series) <= MOST_NAMED:  # Of more, a name on a bar is better than none.
             for bar in self.bars():
                 places.take(bar)
             for line in self.front_lines():
                 places.avoid(line)
-        first = ({self._pointed}, self._marks.keys(), set(picture.ringed), set(picture.front))
-        wanted = sorted(picture.series, key=lambda s: [s.key not in keys for keys in first])
-        for series in wanted:
+        for series in self.named_series():
             end = self.place_of(series.key, self._index if series.key == self._pointed else -1)
             letter = self._marks.get(series.key, "")
-            if end is None or not (picture.is_named or letter or series.key == self._pointed):
+            if end is None:
                 continue
             text = f"{letter}: {series.title}" if letter else series.title
             size = QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height())
@@ -280,6 +273,20 @@ class Chart(ChartCanvas):
             painter.fillRect(found, faded(theme.panel, 0.75))
             painter.setPen(QColor(theme.text if is_strong else series_color(series.number)))
             painter.drawText(found, int(Qt.AlignmentFlag.AlignCenter), text)
+
+    def named_series(self) -> list[ChartSeries]:
+        """Return the series whose names are written, `MOST_NAMED` at most; the list beside the chart has the others.
+
+        What is pointed at comes first, then what was chosen or stands out, then the front.
+        """
+        picture = self.picture
+        if picture is None:
+            return []
+        first = ({self._pointed}, self._marks.keys(), set(picture.ringed), set(picture.front))
+        wanted = sorted(picture.series, key=lambda s: [s.key not in keys for keys in first])
+        if not picture.is_named:
+            wanted = [series for series in wanted if series.key == self._pointed or series.key in self._marks]
+        return wanted[:MOST_NAMED]
 
     def _paint_leader(self, painter: QPainter, at: QPointF, label: QRectF, reach: float) -> None:
         """Draw a thin line from a point to a name that found its place further off."""

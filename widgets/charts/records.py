@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from core.records.arrays import Floats
 
+MOST_NAMED = 12
+"""Marks of a chart that are named beside them at once; of more series there is a list too."""
+
 
 @dataclass(frozen=True)
 class ChartAxis:

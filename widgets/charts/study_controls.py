@@ -43,6 +43,9 @@ class StudyControls(RunPanel):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
             "Work and measuring",
+            "Which method is fast, and which one is right? Choose a family at the left and press Measure (F5): all its "
+            "methods do the same work, and each gets a mark, further left if it is faster and lower if its error is "
+            "smaller.",
             "Measure",
             "Measure all methods on this work (F5). It continues while you use other families and pages. The last "
             "result of each family is kept for the next start.",

@@ -11,6 +11,8 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.linked_grids import PinnedPictures
 
 WORDS = ("Picture", "Reference", "Difference")
+EMPTY = ("What the method draws", "What an exact method draws", "Where they differ")
+"""What comes where there is no picture yet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +33,7 @@ class StudyPictures(PinnedPictures):
 
     divergence_requested = Signal()
     copy_requested = Signal()
-    hint = "Point at a pixel to read its values; click to pin it."
+    hint = "Point at a pixel to read its values; click it, or use the arrow keys, to pin one."
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(WORDS, "the pictures", parent)
@@ -79,7 +81,7 @@ class StudyPictures(PinnedPictures):
         self._buffers = None
         self._hover = None
         self.heading.setText(text)
-        self.linked.show_nothing()
+        self.linked.show_nothing(EMPTY)
         self._show_actions(None)
         self._show_pointing()
 

@@ -3,13 +3,18 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
+from widgets.basics.accessible import announce
 from widgets.basics.controls import closing_button
 from widgets.basics.labels import text_label
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
+
+
+NOTHING_YET = "Nothing to show yet"
 
 
 class LinkedGrids(QWidget):
@@ -48,9 +53,10 @@ class LinkedGrids(QWidget):
         for label, title in zip(self.titles, titles, strict=True):
             label.setText(title)
 
-    def show_nothing(self) -> None:
-        """Show no pictures."""
-        for label, name, grid in zip(self.titles, self._names, self.grids, strict=True):
+    def show_nothing(self, texts: Sequence[str] = ()) -> None:
+        """Show no pictures, and in their places ``texts`` that say what comes there."""
+        for place, (label, name, grid) in enumerate(zip(self.titles, self._names, self.grids, strict=True)):
+            grid.empty_text = texts[place] if texts else NOTHING_YET
             grid.show_buffer(None)
             grid.show_overlays(())
             label.setText(name)
@@ -73,6 +79,15 @@ class LinkedGrids(QWidget):
 
 
 Pixel = tuple[int, int]
+FURTHER = 8
+"""Pixels that an arrow key goes with Shift."""
+_ARROWS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Up: (0, 1),
+    Qt.Key.Key_Down: (0, -1),
+}
+"""Columns to the right and rows up."""
 
 
 def reading_at(pixel: Pixel, buffers: Sequence[GridBuffer]) -> str:
@@ -86,7 +101,7 @@ class PinnedPictures(QWidget):
 
     step_requested = Signal()
     closing_requested = Signal()
-    hint = "Point at a pixel to read its values."
+    hint = "Point at a pixel to read its values, or go to it with the arrow keys."
     """What stands there while no pixel is chosen."""
 
     def __init__(self, names: Sequence[str], closes: str, parent: QWidget | None = None) -> None:
@@ -107,6 +122,23 @@ class PinnedPictures(QWidget):
     def pin(self) -> Pixel | None:
         """The pinned pixel, column and row: one that the user has clicked, or that came with what is shown."""
         return self._pin
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Pin the neighbouring pixel with an arrow, with Shift one further off; the first arrow pins the middle."""
+        across, up = _ARROWS.get(Qt.Key(event.key()), (0, 0))
+        if self._buffers is None or not (across or up):
+            super().keyPressEvent(event)
+            return
+        columns, rows = self._buffers[0].columns, self._buffers[0].rows
+        if self._pin is None:
+            self._pin = columns // 2, rows // 2
+        else:
+            length = FURTHER if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1
+            column, row = self._pin[0] + length * across, self._pin[1] + length * up
+            self._pin = min(max(column, 0), columns - 1), min(max(row, 0), rows - 1)
+        self._hover = None
+        self._show_pointing()
+        announce(self, self.values.text())
 
     def _show_pointing(self) -> None:
         self.linked.show_pointing(self._pin, self._hover)

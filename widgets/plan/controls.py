@@ -22,6 +22,8 @@ class PlanControls(RunPanel):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
             "Tolerance and analysis",
+            "What does this scene need? Press Analyse (F5): for every stage it finds the cheapest method whose picture "
+            "stays within the tolerance, says why, and measures whether that was right.",
             "Analyse",
             "Analyse the scene, choose methods, and measure the result (F5)",
             "Stop the analysis; the previous plan is unchanged (Escape)",
@@ -54,7 +56,7 @@ class PlanControls(RunPanel):
             (
                 ("Tolerance", self.kind_box),
                 ("Colour", self.color_box),
-                ("allowed exceptions", self.pixels_box),
+                ("Allowed exceptions", self.pixels_box),
                 ("Rounds", self.rounds_box),
                 *(self.start_button, self.cancel_button, self.apply_button, self.chart_button),
                 *(self.progress, self.doing),

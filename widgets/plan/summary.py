@@ -16,6 +16,8 @@ from widgets.basics.theme import current_theme, theme_notifier
 class SummaryRecord:
     """A plan in short."""
 
+    applied: str
+    """What applying it has changed; empty: it is not applied."""
     headline: str
     details: str
     is_within: bool | None
@@ -36,6 +38,8 @@ class SummaryRecord:
 class PlanSummary(QWidget):
     """Shows a `SummaryRecord`; takes no room without one."""
 
+    undo_requested = Signal()
+    """The user wants the settings back that applying has replaced."""
     picture_requested = Signal()
     """The user wants to see where the whole choice differs from the reference settings."""
 
@@ -46,11 +50,11 @@ class PlanSummary(QWidget):
         self.setAccessibleName("Result of the plan")
         self._record: SummaryRecord | None = None
         self.mark, self.headline, self.details = QLabel(self), QLabel(self), QLabel(self)
-        self.about, self.stale = ElidedLabel(self), QLabel(self)
+        self.about, self.stale, self.applied = ElidedLabel(self), QLabel(self), QLabel(self)
         self.headline.setProperty("role", "title")
         self.about.setProperty("role", "muted")
         self.stale.setProperty("role", "bad")
-        for label in (self.headline, self.details, self.stale):
+        for label in (self.headline, self.details, self.stale, self.applied):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.picture_button = button_with_tip(
@@ -64,6 +68,12 @@ class PlanSummary(QWidget):
         layout = column_layout(self, 4, margins=(12, 8, 8, 8))
         layout.addWidget(self.stale)
         layout.addLayout(top)
+        self.undo_button = button_with_tip("Undo", "Put the settings back that applying has replaced", self)
+        self.undo_button.clicked.connect(self.undo_requested)
+        done = row_layout(spacing=8)
+        done.addWidget(self.applied, 1)
+        done.addWidget(self.undo_button, 0, Qt.AlignmentFlag.AlignTop)
+        layout.addLayout(done)
         layout.addWidget(self.details)
         layout.addWidget(self.about)
         theme_notifier().theme_changed.connect(self._show_mark)
@@ -80,9 +90,12 @@ class PlanSummary(QWidget):
             (self.details, record.details),
             (self.about, record.about),
             (self.stale, record.stale),
+            (self.applied, record.applied),
         ):
             label.setText(text)
         self.stale.setVisible(bool(record.stale))
+        for widget in (self.applied, self.undo_button):
+            widget.setVisible(bool(record.applied))
         self.details.setVisible(bool(record.details))
         set_role(self.details, "muted" if record.stale else "")
         self.picture_button.setEnabled(record.can_draw)

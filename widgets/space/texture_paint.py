@@ -55,6 +55,15 @@ class TexturePlacement:
         return QRectF(corner, QSizeF(columns * self.scale, rows * self.scale))
 
 
+def paint_read(painter: QPainter, placement: TexturePlacement, texel: tuple[int, int], theme: Theme) -> None:
+    """Outline the texel (column, row) that is being read."""
+    rect = placement.rect(*texel).adjusted(-1, -1, 1, 1)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for color, width in ((theme.panel, 4.0), (theme.focus, 2.0)):
+        painter.setPen(QPen(QColor(color), width))
+        painter.drawRect(rect)
+
+
 def outside_image(image: QImage, period: int) -> QImage:
     """Return what is repeated around a texture: itself, or two by two with mirror images."""
     if period != 2:

@@ -7,11 +7,12 @@ from PySide6.QtCore import QEvent, QPointF, Qt, Signal
 from PySide6.QtGui import QHelpEvent, QImage, QMouseEvent, QPainter, QPixmap
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from widgets.basics.accessible import announce
 from widgets.basics.image import buffer_image
 from widgets.basics.theme import Theme, current_theme
 from widgets.grid.buffer import GridBuffer
 from widgets.space.moved_area import MovedArea
-from widgets.space.texture_paint import TexturePlacement, outside_image, paint_texture
+from widgets.space.texture_paint import TexturePlacement, outside_image, paint_read, paint_texture
 from widgets.space.texture_picture import TexturePicture
 
 _KEY_PIXELS = 32.0
@@ -27,8 +28,8 @@ class TextureView(MovedArea):
     """Shows a :class:`~widgets.space.texture_picture.TexturePicture`.
 
     Drag: pan. Wheel: magnify about the pointer. Double click: the footprint, and again the whole texture.
-    With the keyboard's focus arrows pan, plus and minus magnify, Home shows the whole texture. A tooltip
-    gives the texel under the pointer in full.
+    With the keyboard's focus arrows pan, plus and minus magnify, Home shows the whole texture, and Shift with an
+    arrow goes from texel to texel. A tooltip gives the texel under the pointer, or the one gone to, in full.
     """
 
     view_changed = Signal()
@@ -48,6 +49,8 @@ class TextureView(MovedArea):
         """Logical pixels per texel; None: the whole texture."""
         self._is_on_footprint = False
         self._dragged_from: QPointF | None = None
+        self._read: tuple[int, int] | None = None
+        """The texel that the keyboard reads."""
         self.setAccessibleName("Texture space")
 
     def picture(self) -> TexturePicture | None:
@@ -65,6 +68,7 @@ class TextureView(MovedArea):
             self._make_images()
             self._scale = None
             self._is_on_footprint = False
+            self._read = None
         elif self._is_on_footprint:
             self._show_footprint()
         self.setAccessibleDescription(self.empty_text if picture is None else picture.caption)
@@ -106,6 +110,8 @@ class TextureView(MovedArea):
             placement = self.placement()
             image = self._image if placement.scale >= 1 or self._reduced.isNull() else self._reduced
             paint_texture(painter, self._picture, image, self._outside, placement, theme)
+            if self._read is not None:
+                paint_read(painter, placement, self._read, theme)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to pan."""
@@ -133,7 +139,29 @@ class TextureView(MovedArea):
             self.fit_footprint()
 
     def _go(self, across: int, down: int, is_shifted: bool) -> None:
-        self._pan(-_KEY_PIXELS * across, -_KEY_PIXELS * down)
+        if is_shifted:
+            self._read_next(across, -down)
+        else:
+            self._pan(-_KEY_PIXELS * across, -_KEY_PIXELS * down)
+
+    def _read_next(self, right: int, up: int) -> None:
+        """Mark the neighbouring texel and show its value; the first time the texel in the middle of the view."""
+        if self._picture is None:
+            return
+        column, row = self.texel_at(self.placement().area.center()) if self._read is None else self._read
+        if self._read is not None:
+            column, row = column + right, row + up
+        width, height = self._picture.size
+        column, row = min(max(column, 0), width - 1), min(max(row, 0), height - 1)
+        self._read = column, row
+        place = self.placement().to_widget(column + 0.5, row + 0.5)
+        if not self.placement().area.contains(place):
+            self._take(column + 0.5, row + 0.5, self.placement().scale)
+            place = self.placement().to_widget(column + 0.5, row + 0.5)
+        text = self._texel_text(place)
+        QToolTip.showText(self.mapToGlobal(place.toPoint()), text, self)
+        announce(self, text)
+        self.update()
 
     def _go_home(self) -> None:
         self.fit()

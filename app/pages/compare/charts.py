@@ -8,13 +8,10 @@ from core.explain.stage_texts import family_title
 from core.methods import table
 from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, pareto_front
 from core.study.accuracy.speed_accuracy import cost_dial
-from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
+from widgets.charts.records import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 
 TIME = "time"
 """The cost that is time on this machine; every other one is a name of `Point.counts`."""
-
-MOST_NAMED = 16
-"""Marks of a chart whose names find a place beside them; of more there is a list too."""
 
 
 def costs_of(points: Sequence[Point]) -> list[str]:

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from threading import Lock
 
 import numpy as np
 from PySide6.QtCore import QObject, Slot
 
 from app import __version__
+from app.background.turns import turns
 from app.background.workers import JobGroup, Progress
 from app.pages.page_bar import StepRequest
 from app.pages.step.opening_document import part_around
@@ -81,8 +81,6 @@ class StudyJobs(JobGroup):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        # A measurement that was cancelled may still be in its last run, which would disturb the next one.
-        self._turn = Lock()
         self.measuring = self.add_job()
         """Gives every ``Point`` as it is measured anew, and in the end a `StudyResult`."""
         self.drawing = self.add_job()
@@ -96,7 +94,7 @@ class StudyJobs(JobGroup):
         def work(
             progress: Progress, is_cancelled: Callable[[], bool], point_done: Callable[[Point], None]
         ) -> StudyResult:
-            with self._turn:
+            with turns.take("Compare", progress, is_cancelled):
                 study = measure(
                     order.family,
                     order.work,

@@ -7,7 +7,7 @@ from functools import partial
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
-from app.pages.compare.charts import MOST_NAMED, growth_of, numbers_of, scatter_of
+from app.pages.compare.charts import growth_of, numbers_of, scatter_of
 from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
 from app.pages.compare.figures import point_text, study_text, table_of
 from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult, chosen_points, plan_candidates
@@ -22,14 +22,17 @@ from widgets.basics.labels import Readout
 from widgets.charts.chart import Chart
 from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend
-from widgets.charts.records import ChartEmpty, ChartPicture
+from widgets.charts.records import MOST_NAMED, ChartEmpty, ChartPicture
 from widgets.charts.study_controls import StudyControls
 from widgets.charts.study_table import StudyTable, TableRecord
 
-NOTHING = "Error against cost, one mark for each method. Choose the work above, then press Measure (F5)."
-NO_GROWTH = (
-    "How cost grows with the size of the work, one line for each method. It is measured with the other chart."
+NOTHING = (
+    "Error against cost, one mark for each method, appears here. Measure (F5) takes a few seconds to half a minute; "
+    "marks appear as they are measured."
 )
+NO_GROWTH = "How cost grows with the size of the work appears here, one line for each method."
+FIRST = "line"
+"""The family that is shown first: its methods are few, and a student knows them."""
 GROWTH_COMES = ChartEmpty("Measured after the points of the other chart.")
 WORK_WORDS = ResultWords(
     cancelled="Measuring was cancelled",
@@ -72,7 +75,9 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         readout: Readout,
         page: QWidget,
     ) -> None:
-        super().__init__(jobs.measuring, WORK_WORDS, choices_of_all(), families, controls, readout, page)
+        super().__init__(
+            jobs.measuring, WORK_WORDS, choices_of_all(), families, controls, readout, page, FIRST
+        )
         self._session, self._jobs, self._controls = session, jobs, controls
         self._charts, self._legend, self._table = charts, legend, numbers
         self._measurement: Measurement | None = None

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Slot
 
+from app.background.turns import turns
 from app.background.workers import JobGroup, Progress
 from core.scene import AnyScene
 from core.settings import Settings
@@ -51,8 +51,6 @@ class PlanJobs(JobGroup):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        # What was cancelled may still be in its last drawing, which would disturb the times of the next.
-        self._turn = Lock()
         self.analysing = self.add_job()
         """Gives the ``Plan`` before it is measured, and in the end a ``PlanReport``."""
         self.drawing = self.add_job()
@@ -69,7 +67,7 @@ class PlanJobs(JobGroup):
                     raise StudyCancelledError("The analysis was cancelled.")
                 progress(done, doing)
 
-            with self._turn:
+            with turns.take("Plan", progress, is_cancelled):
                 chosen = plan(order.scene, order.tolerance, order.settings, watch)
                 planned(chosen)
                 return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)

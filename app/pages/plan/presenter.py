@@ -6,8 +6,18 @@ from PySide6.QtCore import QObject, Slot
 
 from app.background.background_task import BackgroundTask, WorkWords
 from app.pages.plan.jobs import PlanJobs, PlanOrder
-from app.pages.plan.words import EMPTY, about, advice_html, details, findings_html, headline, rows_of
+from app.pages.plan.words import (
+    EMPTY,
+    about,
+    advice_html,
+    applied_text,
+    details,
+    findings_html,
+    headline,
+    rows_of,
+)
 from app.session.session import Session
+from core.settings import Settings
 from core.study import Plan, PlanReport, Tolerance, reference_settings
 from widgets.basics.message_bar import Progress
 from widgets.plan.controls import PlanControls
@@ -51,9 +61,12 @@ class PlanPresenter(BackgroundTask):
         self._before: PlanShown | None = None
         """What comes back if that comes to nothing."""
         self.shown: PlanShown | None = None
+        self._replaced: Settings | None = None
+        """What the scene was drawn with before the plan that is shown was applied; ``None``: it was not."""
         controls.start_requested.connect(self.analyse)
         controls.cancel_requested.connect(self.cancel)
         controls.applying_requested.connect(self.apply)
+        summaries[0].undo_requested.connect(self.take_back)
         session.document_changed.connect(self.refresh)
         self.refresh()
 
@@ -114,7 +127,7 @@ class PlanPresenter(BackgroundTask):
     # Showing.
 
     def _show(self, shown: PlanShown | None) -> None:
-        self.shown = shown
+        self.shown, self._replaced = shown, None
         self.refresh()
         self.shown_changed.emit()
 
@@ -142,7 +155,10 @@ class PlanPresenter(BackgroundTask):
                 else "The settings have changed since. Run the analysis again (F5)."
             )
         facts = plan.findings.facts
+        settings = self._session.document.settings
+        is_applied = self._replaced is not None and settings == plan.settings
         return SummaryRecord(
+            applied=applied_text(self._replaced, settings) if is_applied and self._replaced else "",
             headline=headline(plan, report),
             details="" if report is None else details(plan, report),
             is_within=None if report is None else report.is_within,
@@ -175,4 +191,16 @@ class PlanPresenter(BackgroundTask):
         except (ValueError, MemoryError) as error:
             self.refused.emit(f"The plan cannot be stepped: {error} The settings are unchanged.")
         else:
-            self.message_sent.emit("Applied the planned settings. Ctrl+Z restores the old ones.")
+            self._replaced = document.settings
+            self.refresh()
+            said = applied_text(document.settings, shown.plan.settings)
+            self.message_sent.emit(f"{said} Ctrl+Z restores the old settings.")
+
+    @Slot()
+    def take_back(self) -> None:
+        """Draw the scene again with what it had before the plan was applied."""
+        before, self._replaced = self._replaced, None
+        if before is not None:
+            self._session.edit(replace(self._session.latest, settings=before))
+            self.message_sent.emit("The settings from before the plan are back.")
+            self.refresh()

@@ -8,16 +8,16 @@ from app.pages.words import digits, time_text
 from core.explain.stage_texts import family_title
 from core.methods import table
 from core.records.words import counted, joined
+from core.settings import Settings
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
 from core.study.planner.phrases import in_bytes
 from widgets.plan.rows import PlanRow, Verdict
 
 EMPTY = (
-    "What does this scene need? Analyse (F5) tries cheaper methods stage by stage and chooses the "
-    "cheapest whose error stays within the tolerance: clipping or none, a perspective divide or none, a depth buffer "
-    "or none, how many samples. Each choice has its reason and a predicted error. Then all of them are drawn and timed "
-    "against the picture with the reference settings, and wrong predictions are flagged. Apply uses these settings."
+    "The choices appear here, one for each stage, with the reason, the predicted and the measured error: clipping or "
+    "none, a depth buffer or none, how many samples. Analyse (F5) takes a few seconds, longer for a large scene. "
+    "Apply then uses the settings on the Step page."
 )
 
 
@@ -119,6 +119,20 @@ def details(plan: Plan, report: PlanReport) -> str:
     kept = f"Kept because cheaper methods are too inaccurate: {joined(needed)}."
     parts.append(kept if needed else "Nothing expensive is needed.")
     return " ".join(parts)
+
+
+def applied_text(before: Settings, after: Settings) -> str:
+    """Return which methods a plan has put in the place of which others."""
+    changes = before.differences(after)
+    parts = [
+        f"{family_title(name)}: {_method_title(name, value)} instead of {_method_title(name, getattr(before, name))}"
+        for name, value in changes.items()
+    ]
+    return f"Applied. {'; '.join(parts)}."
+
+
+def _method_title(family: str, value: str | int) -> str:
+    return table.get(family, value).title if isinstance(value, str) else str(value)
 
 
 def findings_html(findings: Findings) -> str:

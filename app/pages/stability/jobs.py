@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Slot
 
 from app import __version__
+from app.background.turns import turns
 from app.background.workers import JobGroup, Progress
 from app.pages.stability.choices import AtlasResult
 from core import Frame, render
@@ -101,15 +102,16 @@ class StabilityJobs(JobGroup):
                     row_done(tuple(row))
                     row.clear()
 
-            atlas = stress(
-                order.experiment,
-                seed=order.seed,
-                axes=order.axes,
-                progress=progress,
-                is_cancelled=is_cancelled,
-                machine=machine(__version__),
-                cell_done=cell_done,
-            )
+            with turns.take("Stability", progress, is_cancelled):
+                atlas = stress(
+                    order.experiment,
+                    seed=order.seed,
+                    axes=order.axes,
+                    progress=progress,
+                    is_cancelled=is_cancelled,
+                    machine=machine(__version__),
+                    cell_done=cell_done,
+                )
             return AtlasResult(atlas)
 
         self.running.start_in_parts(work)

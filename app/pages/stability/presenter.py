@@ -43,10 +43,7 @@ from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartEmpty, ChartPicture
 
-NOTHING = (
-    "One map for each method. Each cell is the outcome of one real run. Press Run (F5); cells appear as "
-    "they are run."
-)
+NOTHING = "One map for each method appears here. Run (F5) takes a few seconds to a minute; cells appear as they are run."
 WORK_WORDS = ResultWords(
     cancelled="Running was cancelled",
     failed="It could not be run",
@@ -155,6 +152,7 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         else:
             self._curves.show_picture(picture)
         self._legend.show_series(picture.series if isinstance(picture, ChartPicture) else ())
+        self._legend.setVisible(isinstance(picture, ChartPicture))
 
     def _severities(self) -> dict[str, Floats]:
         """Return by method the severities (N,) along the first axis, NaN where nothing has been run."""

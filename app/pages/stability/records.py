@@ -13,6 +13,7 @@ from app.pages.stability.jobs import CaseFound, ShrunkFound
 from app.pages.words import machine_words
 from core import Frame
 from core.explain.number_text import number_text
+from core.explain.stage_texts import family_title
 from core.framebuffer.display import to_display
 from core.records.arrays import Floats
 from core.records.words import counted
@@ -58,8 +59,14 @@ def method_titles(methods: tuple[str, ...]) -> dict[str, str]:
     """Return what each method is called: its names alone where all are of the same families."""
     families = {tuple(part.split("=", 1)[0] for part in method.split()) for method in methods}
     if len(families) > 1:
-        return {method: method for method in methods}
+        return {method: _settings_text(method) for method in methods}
     return {method: ", ".join(part.split("=", 1)[1] for part in method.split()) for method in methods}
+
+
+def _settings_text(method: str) -> str:
+    """Return a method's settings in words: ``Fill: spans, Number format: float32``."""
+    parts = (part.split("=", 1) for part in method.split())
+    return ", ".join(f"{family_title(family)}: {name}" for family, name in parts)
 
 
 def values_at(info: ExperimentInfo, place: CellPlace) -> tuple[float, ...]:
@@ -118,11 +125,12 @@ def experiment_text(choice: ExperimentChoice) -> str:
 def method_lines(choice: ExperimentChoice) -> tuple[str, ...]:
     """Return the methods; of an experiment that has been run with what was measured, most failures first."""
     if choice.result is None:
-        return choice.info.methods
+        return tuple(method_titles(choice.info.methods).values())
     fails = failure_counts(choice.result)
     size = {each.method: each.outcome.size for each in choice.result.atlas.maps}
     worst = sorted(fails, key=lambda method: -fails[method])
-    return tuple(f"{method}: {fails[method]:,} of {size[method]:,} fail" for method in worst)
+    titles = method_titles(tuple(fails))
+    return tuple(f"{titles[method]}: {fails[method]:,} of {size[method]:,} fail" for method in worst)
 
 
 def cell_text(

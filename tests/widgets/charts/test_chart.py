@@ -231,3 +231,14 @@ def test_a_point_of_a_line_is_told_with_its_number(chart: Chart, qtbot: QtBot) -
     assert chosen.args == ["line", 1]
     chart.show_pointed("line", 0)
     assert chart.pointed == "line"
+
+
+def test_twelve_are_named_the_pointed_chosen_and_front_ones_first(chart: Chart) -> None:
+    series = tuple(one(f"m{k}", k, 1e-6 * (k + 1), 0.1 * (k + 1)) for k in range(30))
+    axes = ChartAxis("Time", "s"), ChartAxis("Error", "px")
+    chart.show_picture(ChartPicture(*axes, series, ("m20", "m21")))
+    chart.show_marks({"m25": "A"})
+    chart.show_pointed("m29")
+    named = [each.key for each in chart.named_series()]
+    assert named[:4] == ["m29", "m25", "m20", "m21"]
+    assert len(named) == 12

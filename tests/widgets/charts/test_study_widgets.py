@@ -284,6 +284,22 @@ def test_one_pixel_is_read_in_all_three_pictures(pictures: StudyPictures) -> Non
     assert [each.pin() for each in pictures.linked.grids] == [(1, 0)] * 3
 
 
+def test_arrows_read_pixel_by_pixel(pictures: StudyPictures) -> None:
+    grid = pictures.linked.grids[2]
+    grid.setFocus()
+    seen = []
+    for key, modifier in (
+        (Qt.Key.Key_Right, Qt.KeyboardModifier.NoModifier),
+        (Qt.Key.Key_Right, Qt.KeyboardModifier.NoModifier),
+        (Qt.Key.Key_Up, Qt.KeyboardModifier.NoModifier),
+        (Qt.Key.Key_Left, Qt.KeyboardModifier.ShiftModifier),
+    ):
+        QTest.keyClick(grid, key, modifier)
+        seen.append(pictures.pin)
+    assert seen == [(2, 1), (3, 1), (3, 2), (0, 2)]
+    assert pictures.values.text() == "pixel (0, 2): picture 8, reference 5, difference 3"
+
+
 def test_zooming_one_picture_zooms_all(pictures: StudyPictures) -> None:
     pictures.linked.grids[0].zoom_by(3.0)
     views = {grid.view() for grid in pictures.linked.grids}

@@ -170,3 +170,15 @@ def test_other_shapes_are_refused():
         TexelFootprint(
             np.zeros((4, 2)), np.zeros(2), np.zeros((1, 2), int), np.zeros((1, 2), int), np.ones(2)
         )
+
+
+def test_shift_and_arrows_read_texel_by_texel(view, monkeypatch):
+    shown = []
+    monkeypatch.setattr("widgets.space.texture_view.QToolTip.showText", lambda *args: shown.append(args[1]))
+    before = view.placement()
+    for key in (Qt.Key.Key_Right, Qt.Key.Key_Right, Qt.Key.Key_Up):
+        QTest.keyClick(view, key, Qt.KeyboardModifier.ShiftModifier)
+    places = [text.split(",  ")[0].split("), ")[0] for text in shown]
+    assert all(text.startswith("Texel (") and "linear" in text for text in shown)
+    assert len(set(places)) == 3
+    assert view.placement() == before

@@ -16,6 +16,7 @@ from app.pages.compare.page import ComparePage
 from app.pages.plan.page import PlanPage
 from app.pages.plan.words import details, headline, rows_of
 from app.window.main_window import MainWindow
+from core.explain.stage_texts import family_title
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
 from core.study.accuracy.family import Candidate, settings_of
 from core.study.accuracy.whole_picture import PIPELINE
@@ -68,7 +69,8 @@ def test_the_page_is_reached_from_step_and_compare(window: MainWindow) -> None:
 
 
 def test_empty_it_says_what_it_is_for(page: PlanPage) -> None:
-    assert "What does this scene need?" in page.rows.empty.text()
+    assert "What does this scene need?" in page.controls.intro.text()
+    assert "a few seconds" in page.rows.empty.text()
     assert page.rows.empty.isVisible()
     assert not page.summary.isVisible()
     assert not page.controls.apply_button.isEnabled()
@@ -127,6 +129,23 @@ def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: Pla
     window.session.undo()
     assert window.session.document is before
     assert combo.currentData() == before.settings.visibility
+
+
+def test_applying_says_what_changed_and_undo_is_beside_it(
+    window: MainWindow, page: PlanPage, qtbot: QtBot
+) -> None:
+    report = looked(page, qtbot)
+    before = window.session.document.settings
+    changed = before.differences(report.plan.settings)
+    assert changed
+    assert not page.summary.undo_button.isVisible()
+    QTest.mouseClick(page.controls.apply_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(page.summary.undo_button.isVisible, timeout=60000)
+    for family in changed:
+        assert f"{family_title(family)}: " in page.summary.applied.text()
+    QTest.mouseClick(page.summary.undo_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.session.document.settings == before, timeout=60000)
+    assert not page.summary.undo_button.isVisible()
 
 
 def test_another_scene_leaves_the_results_as_those_of_the_earlier(
