@@ -13,7 +13,6 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 
-
 NOTHING_YET = "Nothing to show yet"
 
 
