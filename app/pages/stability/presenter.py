@@ -43,7 +43,9 @@ from widgets.charts.family_list import FamilyList
 from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartEmpty, ChartPicture
 
-NOTHING = "One map for each method appears here. Run (F5) takes a few seconds to a minute; cells appear as they are run."
+NOTHING = (
+    "One map for each method appears here. Run (F5) takes a few seconds to a minute; cells appear row by row."
+)
 WORK_WORDS = ResultWords(
     cancelled="Running was cancelled",
     failed="It could not be run",

@@ -136,7 +136,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
     assert page.results.choice.chosen == canvas.chosen
-    assert canvas.accessibleDescription().startswith("fill=scanline-lecture, grid steps of the corners")
+    assert canvas.accessibleDescription().startswith("Fill: scanline-lecture, grid steps of the corners")
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert not canvas.hasFocus(), "before the first map Shift+Tab leaves the maps"
 
