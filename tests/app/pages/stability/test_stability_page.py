@@ -113,7 +113,7 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
     run(page, qtbot)
     place = page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).center()
     QTest.mouseMove(page.maps.canvas, place)
-    for wanted in (EXCLUSIVE, "Outcome: <b>hole</b>", "of 1,024 pixels missing", "Severity"):
+    for wanted in ("Fill rule: exclusive", "Outcome: <b>hole</b>", "of 1,024 pixels missing", "Severity"):
         assert wanted in page.readout.text()
     QTest.mouseMove(page.maps.canvas, QPoint(1, 1))
     text = page.readout.text()
