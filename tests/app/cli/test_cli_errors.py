@@ -254,7 +254,7 @@ def test_a_window_without_a_display_says_so(monkeypatch):
 @pytest.mark.parametrize(
     ("field", "value", "wanted"),
     [
-        ("version", 2, "it is of version 2, and this Rasterscope opens version 1"),
+        ("version", 3, "it is of version 3, and this Rasterscope opens versions 1 to 2"),
         ("position", "ten", "position must be a valid integer, got 'ten'"),
         ("scene.camera.near", 90.0, "scene.camera: near must be less than far, got near 90"),
         ("scene.camera.far", float("nan"), "scene.camera.far must be a finite number, got nan"),
