@@ -46,6 +46,12 @@ class DocumentEdits(QObject):
             document = replace(document, triangle=0)
         self.edit(fit_region(document))
 
+    def show_whole(self) -> None:
+        """Show the whole picture on a small raster; the triangle in focus stays."""
+        document = self._session.latest
+        if document.raster.origin is not None:
+            self.edit(replace(document, raster=same_view(document.scene, 64, 48)))
+
     def focus_all(self) -> None:
         """Step all triangles instead of the one in focus."""
         document = self._session.latest

@@ -26,7 +26,7 @@ from app.views.scene_picture import (
 )
 from app.views.scene_worker import SceneWorker
 from app.views.step_marks import is_scene_lit, step_marks
-from app.views.view_space import ViewSpace, make_space, move_corner_to, with_triangles
+from app.views.view_space import LARGEST_WITH_CAMERA, ViewSpace, make_space, move_corner_to, with_triangles
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
 from core.records.words import counted
@@ -67,6 +67,8 @@ class Scene3dPresenter(QObject):
         self._rate = FrameRate()
         self._has_new_figures = False
         self._drags = 0
+        self._entered: int | None = None
+        """A triangle that was clicked to go into it, until it is in focus."""
         self._band_workers, self._backs, self._thinning = BandWorkers(1), HiddenBacks(), Thinning()
         self._worker, self._picker = SceneWorker(self), SceneWorker(self)
         self._worker.done.connect(self._take_drawn)
@@ -104,6 +106,7 @@ class Scene3dPresenter(QObject):
             self._begin_anew()
         self._view.set_caption(self._caption())
         self.refresh_marks()
+        self._enter_picked()
         self._draw()
 
     def _state(self) -> tuple[bool, bytes]:
@@ -124,6 +127,11 @@ class Scene3dPresenter(QObject):
             width, height = self._view.picture_size()
             self._view.set_orbit(fitted(self._view.orbit(), (x, y, z), 2 * reach, width / height))
             self._draw()
+
+    def look_home(self) -> None:
+        """Show the whole scene from where it is first seen."""
+        self._go_home()
+        self._draw()
 
     def refresh_marks(self) -> None:
         """Show pin, hover and corners over the present picture."""
@@ -287,7 +295,8 @@ class Scene3dPresenter(QObject):
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:
-            parts.append("Drag a corner to move it; click another triangle to choose it.")
+            parts.append("Drag a corner to move it. F goes into the triangle, Shift+F back.")
+            parts.append("Click another triangle to choose it.")
         else:
             parts.append("Click a triangle to choose it.")
         if count > MOST_TRIANGLES:
@@ -333,8 +342,20 @@ class Scene3dPresenter(QObject):
 
     @Slot(object)
     def _take_picked(self, triangle: int) -> None:
-        if triangle >= 0:
+        if triangle < 0:
+            return
+        is_model = self._session.document.triangle_count > LARGEST_WITH_CAMERA
+        self._entered = triangle if is_model else None
+        if triangle == self.focus:
+            self._enter_picked()
+        else:
             self.triangle_picked.emit(triangle)
+
+    def _enter_picked(self) -> None:
+        """Magnify a triangle of a model that was clicked, once it is in focus: the model is too large to see it."""
+        if self._entered is not None and self._entered == self.focus:
+            self._entered = None
+            self.look_at_focus()
 
     @Slot(int, float, float)
     def _drag(self, index: int, x: float, y: float) -> None:

@@ -90,6 +90,10 @@ class StageViews(QObject):
         """Magnify the triangle in focus in the 3D view."""
         self._scene_presenter.look_at_focus()
 
+    def look_home(self) -> None:
+        """Show the whole scene in the 3D view again."""
+        self._scene_presenter.look_home()
+
     def stop(self) -> None:
         """End drawing in the background."""
         self._scene_presenter.stop()

@@ -23,6 +23,8 @@ from widgets.space.orbit import Orbit
 
 FIELD_OF_VIEW = 0.7
 """Vertical opening angle of the viewing camera, radians."""
+LARGEST_WITH_CAMERA = 100
+"""Triangles of a scene that is first seen together with its camera; a larger one is a model, which fills the view."""
 EYE_REACH = 25.0
 """An eye farther away than so many radii of the meshes is left out of the whole view."""
 
@@ -85,7 +87,9 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
     assert vertices.world is not None
     low, high = vertices.world[:, :3].min(axis=0), vertices.world[:, :3].max(axis=0)
     size = float(np.linalg.norm(high - low)) / 2
-    if np.linalg.norm(camera.eye - (low + high) / 2) < EYE_REACH * max(size, 1e-12):
+    if scene_triangle_count(scene) > LARGEST_WITH_CAMERA:
+        size = float(np.linalg.norm(vertices.world[:, :3] - (low + high) / 2, axis=1).max())
+    elif np.linalg.norm(camera.eye - (low + high) / 2) < EYE_REACH * max(size, 1e-12):
         low, high = np.minimum(low, camera.eye), np.maximum(high, camera.eye)
         size = float(np.linalg.norm(high - low)) / 2
     x, y, z = ((low + high) / 2).tolist()

@@ -119,6 +119,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pane_thumbnails", ("T",), "Thumbnails of all buffers", VIEWING, "View", is_checkable=True),
         KeyAction("flip", ("X",), "Swap the pictures of A and B while held", VIEWING),
         KeyAction("divergence", ("D",), "First divergence of A and B", VIEWING, "View"),
+        KeyAction("pane_navigator", ("G",), "Navigator", VIEWING, "View", is_checkable=True),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     ),
     KeyAction("page_start", ("Alt+0",), "Start page", PAGES, "Help"),
@@ -164,7 +165,8 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo", EDITING, "Edit"),
     *_on(
         "step",
-        KeyAction("fit_region", ("F",), "Fit region to triangle", EDITING, "Raster"),
+        KeyAction("fit_region", ("F",), "Go into the triangle", EDITING, "Raster"),
+        KeyAction("whole_picture", ("Shift+F",), "Back to the whole picture", EDITING, "Raster"),
         KeyAction(
             "toggle_shared", ("Ctrl+J",), "Shared vertices move together", EDITING, "Edit", is_checkable=True
         ),

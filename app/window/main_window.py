@@ -177,6 +177,7 @@ class MainWindow(QMainWindow):
             "undo": self.undo,
             "redo": self.redo,
             "fit_region": self.fit_to_triangle,
+            "whole_picture": self.show_whole_picture,
             "toggle_shared": self.edits.toggle_shared,
             "focus_all": self.edits.focus_all,
             "toggle_cleared": self.edits.toggle_cleared,
@@ -271,6 +272,12 @@ class MainWindow(QMainWindow):
         self.edits.fit_region()
         if self.page.current_view() == "scene":
             self.page.views.look_at_focus()
+
+    def show_whole_picture(self) -> None:
+        """Show all of the picture in the grid, and all of the model in the 3D view."""
+        self.edits.show_whole()
+        self.page.grid.fit()
+        self.page.views.look_home()
 
     def toggle_predict(self) -> None:
         """Ask before showing, or stop asking."""

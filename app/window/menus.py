@@ -24,7 +24,7 @@ BEFORE_SEPARATORS = (
     "redo",
     "visited_forward",
     "compare",
-    "pane_thumbnails",
+    "pane_navigator",
     "predict",
     "page_plan",
     "previous_pane",

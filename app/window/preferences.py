@@ -37,7 +37,7 @@ class Preferences(BaseModel):
     """Place and size of the window, as Qt saves them, in base 64."""
     layout: dict[str, Base64] = {}
     """Sizes of panes by name, as Qt saves them, in base 64."""
-    shown_panes: list[str] = ["inspector"]
+    shown_panes: list[str] = ["inspector", "navigator"]
     """Panes of the Step page that are shown; the others are folded away."""
     folded_cards: list[str] = list(STAGES)
     """Stages whose card is folded."""

@@ -83,7 +83,7 @@ class PixelGrid(GridDisplay):
 
     def fit(self) -> None:
         """Show all pixels that the grid has, as the user's wish."""
-        self._change_view(FIT)
+        self.change_view(FIT)
 
     def zoom_by(self, factor: float) -> None:
         """Magnify by a factor about the pinned pixel, or else the middle, as the user's wish."""
@@ -92,13 +92,13 @@ class PixelGrid(GridDisplay):
         if self._pin is not None:
             pinned = placement.cells_rect(*self._pin).center()
             middle = pinned if placement.viewport.contains(pinned.toPoint()) else middle
-        self._change_view(zoomed(placement, middle, factor, self.devicePixelRatioF()))
+        self.change_view(zoomed(placement, middle, factor, self.devicePixelRatioF()))
 
     def move_view(self, across: int, up: int) -> None:
         """Look further to one side by an eighth of what is seen, as the user's wish."""
         placement = self.placement()
         step = 0.125 * min(placement.viewport.width(), placement.viewport.height())
-        self._change_view(panned(placement, self._view, QPointF(-step * across, step * up)))
+        self.change_view(panned(placement, self._view, QPointF(-step * across, step * up)))
 
     def choose_next_vertex(self) -> int | None:
         """Mark the next vertex that can be moved, as if the pointer were on it; ``None``: there is none."""
@@ -177,7 +177,7 @@ class PixelGrid(GridDisplay):
         if not self._has_moved:
             return
         if self._drag is _Drag.PAN:
-            self._change_view(panned(self.placement(), self._view, delta))
+            self.change_view(panned(self.placement(), self._view, delta))
         elif (
             self.buffer() is not None
         ):  # Else there are no pixels to place it by, until there is a picture again.
@@ -214,7 +214,7 @@ class PixelGrid(GridDisplay):
             return
         placement, position = self.placement(), event.position()
         factor = _WHEEL_FACTOR**notches
-        self._change_view(zoomed(placement, position, factor, self.devicePixelRatioF()))
+        self.change_view(zoomed(placement, position, factor, self.devicePixelRatioF()))
         self._point_at(position)
         event.accept()
 
@@ -330,7 +330,7 @@ class PixelGrid(GridDisplay):
         self._has_moved = False
         self._update_cursor()
 
-    def _change_view(self, view: GridView) -> None:
+    def change_view(self, view: GridView) -> None:
         """Take over a view that the user chose."""
         if view != self._view:
             self._view = view

@@ -14,6 +14,7 @@ from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
 from app.pages.step.main_area import MainArea
 from app.pages.step.narrator import StepNarrator
+from app.pages.step.navigator_presenter import NavigatorPresenter
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
@@ -26,14 +27,15 @@ from widgets.basics.controls import column_layout, flat_button, row_layout
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.side_tabs import SideTabs
+from widgets.grid.navigator import Navigator
 from widgets.grid.overlay_legend import OverlayLegend
 from widgets.timeline.transport import Timeline
 
 SIDE_PANES = (("scene", "Scene", "S"), ("methods", "Methods", "M"), ("overlays", "Overlays", "O"))
 """Name, title and key of the panes that open beside the strip at the left, one at a time."""
-PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "thumbnails")
+PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "thumbnails", "navigator")
 """Names of everything that can be shown or folded away."""
-PANES_AT_FIRST = ("inspector",)
+PANES_AT_FIRST = ("inspector", "navigator")
 NESTED_LAYOUTS = 5
 """Layouts around a part of the inspector, up to the window's."""
 
@@ -79,6 +81,9 @@ class StepPage(Page):
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
         self.narrator = StepNarrator(session, self.sentence, self.formula, self.listing, self.grid, self)
+        self.navigator = Navigator(self.grid)
+        self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
+        self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
@@ -179,6 +184,7 @@ class StepPage(Page):
             side: True,
             "inspector": not self.column.isHidden(),
             "thumbnails": self.main_area.thumbnails_button.isChecked(),
+            "navigator": self.navigation.is_wanted,
         }
         return [name for name in PANES if is_shown.get(name)]
 
@@ -193,6 +199,7 @@ class StepPage(Page):
         self.side_tabs.show_open(side)
         self.column.setVisible("inspector" in names)
         self.main_area.show_thumbnails("thumbnails" in names)
+        self.navigation.set_wanted("navigator" in names)
         self.columns.spread()
         self.panes_changed.emit()
 
@@ -277,7 +284,7 @@ class StepPage(Page):
             if self.formula.is_complete():
                 break
             QThread.msleep(10)
-        while self.views.is_drawing:
+        while self.views.is_drawing or self.navigation.is_drawing:
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -333,6 +340,7 @@ class StepPage(Page):
         self.timeline.show_playing(False)
         self.comparing.stop()
         self.views.stop()
+        self.navigation.stop()
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes."""

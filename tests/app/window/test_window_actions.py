@@ -82,6 +82,8 @@ def prepare(window: MainWindow, name: str) -> None:
         window.pages.show_page("compare")
     elif name == "text_smaller":
         window.appearance.set_text_size(110)
+    elif name == "whole_picture":
+        page.grid.zoom_by(3.0)
     elif name == "copy_view":
         QGuiApplication.clipboard().clear()
 

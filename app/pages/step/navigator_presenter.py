@@ -1,0 +1,212 @@
+"""The navigator over the grid: the whole picture, and which part of it the grid magnifies."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, QTimer, Slot
+
+from app.session.document import Document
+from app.session.latest_call import LatestCall
+from app.session.session import Session
+from app.views.scene_worker import SceneWorker
+from core.fast_path import Picture, draw_picture
+from core.records.arrays import Floats
+from core.scene import AnyScene
+from core.settings import Settings
+from widgets.basics.image import display_image
+from widgets.grid.navigator import Navigator
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import GridView
+
+LONGER_SIDE = 320
+"""Pixels of the small picture's longer side."""
+DRAWN_AFTER_MS = 150
+"""The picture is drawn anew when nothing has changed for so long: not at every move of a drag."""
+MARGIN = 8
+
+
+class NavigatorPresenter(QObject):
+    """Shows the navigator while the grid shows less than the whole picture, and moves what it shows."""
+
+    def __init__(
+        self, session: Session, navigator: Navigator, grid: PixelGrid, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._navigator, self._grid = session, navigator, grid
+        self._is_wanted = True
+        self._gestures = 0
+        self._drawn: tuple[AnyScene, Settings] | None = None
+        self._worker = SceneWorker(self)
+        self._worker.done.connect(self._take_picture)
+        self._pause = QTimer(self)
+        self._pause.setSingleShot(True)
+        self._pause.setInterval(DRAWN_AFTER_MS)
+        self._pause.timeout.connect(self._draw)
+        self._moves = LatestCall(self._move, self)
+        navigator.region_moved.connect(self._moves.call)
+        navigator.drag_ended.connect(self._end_move)
+        navigator.hide()
+        grid.installEventFilter(self)
+        grid.view_changed.connect(self.refresh)
+        session.document_changed.connect(self.refresh)
+        session.predicting_changed.connect(self.refresh)
+
+    def set_wanted(self, is_wanted: bool) -> None:
+        """Show it where there is something to navigate, or never."""
+        self._is_wanted = is_wanted
+        self.refresh()
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether it is shown where there is something to navigate."""
+        return self._is_wanted
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether the picture is still to come."""
+        return self._pause.isActive() or self._worker.is_busy
+
+    def stop(self) -> None:
+        """Draw no more."""
+        self._pause.stop()
+        self._worker.stop()
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Keep to the corner of the grid."""
+        if watched is self._grid and event.type() in (QEvent.Type.Resize, QEvent.Type.Show):
+            self.refresh()
+        return False
+
+    @Slot()
+    def refresh(self) -> None:
+        """Show what the grid shows of the picture; nothing of it where that is all, or is to be predicted."""
+        region = self._seen()
+        is_whole = region.width() > 0.999 and region.height() > 0.999
+        is_shown = self._is_wanted and not is_whole and not self._session.is_predicting
+        self._navigator.setVisible(is_shown)
+        if not is_shown:
+            return
+        document = self._session.document
+        width, height = document.scene.size
+        self._navigator.show_aspect(width / height)
+        self._navigator.show_region(region, _words(region, document))
+        self._navigator.show_triangle(self._focus_corners())
+        self._place()
+        if self._drawn != (document.scene, document.settings):
+            self._pause.start()
+
+    def _seen(self) -> QRectF:
+        """Return the part of the picture that the grid shows."""
+        document, view = self._session.document, self._grid.view()
+        placement = self._grid.placement()
+        column0, row0, column1, row1 = placement.visible_cells()
+        left, bottom, columns, rows = _region_of(document)
+        if view.zoom <= 1.0:
+            return QRectF(left, bottom, columns, rows)
+        raster = document.raster
+        part = QRectF(
+            column0 / raster.columns,
+            row0 / raster.rows,
+            (column1 - column0) / raster.columns,
+            (row1 - row0) / raster.rows,
+        )
+        return QRectF(
+            left + part.left() * columns,
+            bottom + part.top() * rows,
+            part.width() * columns,
+            part.height() * rows,
+        )
+
+    def _focus_corners(self) -> Floats | None:
+        """Return the corners (3, 2) of the triangle in focus as parts of the picture, if it has a place there."""
+        document = self._session.document
+        if document.triangle is None:
+            return None
+        vertices = self._session.trace.source.geometry.vertices
+        corners = vertices.corners[document.triangle]
+        window: Floats = vertices.window[corners, :2] / document.traced_scene.size
+        is_seen = (vertices.clip[corners, 3] > 0).all() and np.abs(window).max() < 100
+        return window if is_seen else None
+
+    def _place(self) -> None:
+        """Put it into the corner of the grid where it hides least of the triangle in focus."""
+        navigator, placement = self._navigator, self._grid.placement()
+        inside = placement.viewport.adjusted(MARGIN, MARGIN, -MARGIN, -MARGIN)
+        box = navigator.rect()
+        triangle, corners = QRectF(), self._focus_corners()
+        if corners is not None:
+            own = corners * self._session.document.traced_scene.size - np.array(placement.origin)
+            low, high = (placement.to_widget(*own_ends.tolist()) for own_ends in (own.min(0), own.max(0)))
+            triangle = QRectF(low, high).normalized()
+        places = [
+            QPoint(x, y)
+            for x in (inside.right() - box.width() + 1, inside.left())
+            for y in (inside.top(), inside.bottom() - box.height() + 1)
+        ]
+
+        def hidden(place: QPoint) -> float:
+            part = triangle.intersected(QRectF(place, box.size()))
+            return part.width() * part.height()
+
+        navigator.move(min(places, key=hidden))
+        navigator.raise_()
+
+    @Slot()
+    def _draw(self) -> None:
+        document = self._session.document
+        scale = LONGER_SIDE / max(document.scene.size)
+        width, height = (max(round(side * min(scale, 1.0)), 1) for side in document.scene.size)
+        self._drawn = document.scene, document.settings
+        self._worker.start(
+            partial(draw_picture, replace(document.scene, size=(width, height)), document.settings)
+        )
+
+    @Slot(object)
+    def _take_picture(self, picture: Picture) -> None:
+        self._navigator.show_picture(display_image(picture.pixels))
+
+    # Acting.
+
+    def _move(self, x: float, y: float) -> None:
+        """Bring the middle of what is seen to a place of the picture: pan the grid, and move its region."""
+        document, view = self._session.latest, self._grid.view()
+        left, bottom, columns, rows = _region_of(document)
+        if document.raster.origin is not None:
+            width, height = document.scene.size
+            raster = document.raster
+            origin = (
+                _kept(round(x * width - view.x * raster.columns), width - raster.columns),
+                _kept(round(y * height - view.y * raster.rows), height - raster.rows),
+            )
+            if origin != raster.origin:
+                moved = replace(document, raster=replace(raster, origin=origin))
+                self._session.edit(moved, f"move the region {self._gestures}")
+        else:
+            self._grid.change_view(GridView((x - left) / columns, (y - bottom) / rows, view.zoom))
+
+    @Slot()
+    def _end_move(self) -> None:
+        self._moves.flush()
+        self._gestures += 1
+
+
+def _region_of(document: Document) -> tuple[float, float, float, float]:
+    """Return left, bottom, width and height of the raster as parts of the picture."""
+    region = document.region
+    if region is None:
+        return 0.0, 0.0, 1.0, 1.0
+    width, height = document.scene.size
+    return region[0] / width, region[1] / height, region[2] / width, region[3] / height
+
+
+def _kept(place: int, most: int) -> int:
+    return min(max(place, 0), most)
+
+
+def _words(region: QRectF, document: Document) -> str:
+    """Say which pixels a region holds."""
+    width, height = document.traced_scene.size
+    columns = round(region.left() * width), round(region.right() * width) - 1
+    rows = round(region.top() * height), round(region.bottom() * height) - 1
+    return f"Columns {columns[0]} to {columns[1]} of {width}, rows {rows[0]} to {rows[1]} of {height}"

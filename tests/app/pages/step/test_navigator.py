@@ -1,0 +1,112 @@
+"""The way from a whole model into a triangle and back: opening, going in, the navigator."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.session.document import open_document
+from app.views.scene_picture import fractions
+from app.window.main_window import MainWindow
+from lessons.scenes import built_in_scene
+
+
+@pytest.fixture
+def model(window: MainWindow) -> MainWindow:
+    """Return the window with a mesh of many triangles, as it opens."""
+    scene = built_in_scene("torus")
+    window.session.open(open_document(scene.make(), scene.title))
+    window.session.set_stage("transform", 0)
+    window.page.show_own_view()
+    QApplication.processEvents()
+    return window
+
+
+def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
+    assert model.page.current_view() == "scene"
+    presenter = model.page.views.scene_presenter
+    space = presenter.space
+    assert space is not None
+    view = model.page.main_view()
+    places = fractions(space, view.orbit(), view.picture_size(), space.vertices.world[:, :3])  # type: ignore[attr-defined, index]
+    size = np.ptp(places, axis=0)
+    assert size.max() >= 0.5
+    assert places.min() >= 0
+    assert places.max() <= 1
+
+
+def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
+    view = model.page.main_view()
+    home = view.orbit()  # type: ignore[attr-defined]
+    model.run_action("fit_region")
+    assert view.orbit().extent < home.extent / 4  # type: ignore[attr-defined]
+    model.page.show_view("pixels")
+    document = model.session.document
+    assert document.raster.origin is not None
+    assert model.page.navigator.isVisible()
+    model.run_action("whole_picture")
+    assert model.session.document.raster.origin is None
+    assert model.session.document.triangle == document.triangle
+    assert not model.page.navigator.isVisible()
+    assert view.orbit() == home  # type: ignore[attr-defined]
+
+
+def test_a_click_on_a_model_goes_into_the_triangle(model: MainWindow) -> None:
+    view, presenter = model.page.main_view(), model.page.views.scene_presenter
+    home = view.orbit()  # type: ignore[attr-defined]
+    presenter._take_picked(700)
+    assert model.session.document.triangle == 700
+    assert view.orbit().extent < home.extent / 4  # type: ignore[attr-defined]
+
+
+def test_the_navigator_moves_the_region(model: MainWindow, qtbot: QtBot) -> None:
+    page = model.page
+    page.show_view("pixels")
+    QApplication.processEvents()
+    navigator = page.navigator
+    qtbot.waitUntil(lambda: not page.navigation.is_drawing)
+    before = model.session.document.raster
+    width = model.session.document.scene.size[0]
+    region = navigator.region()
+    assert region.width() == pytest.approx(before.columns / width)
+    start = navigator._box().center().toPoint()
+    QTest.mousePress(navigator, Qt.MouseButton.LeftButton, pos=start)
+    QTest.mouseMove(navigator, QPointF(start.x() - 20, start.y() + 10).toPoint())
+    QTest.mouseRelease(navigator, Qt.MouseButton.LeftButton, pos=start)
+    qtbot.waitUntil(lambda: model.session.document.raster != before)
+    after = model.session.document.raster
+    assert after.origin is not None
+    assert before.origin is not None
+    assert after.origin[0] < before.origin[0]
+    assert after.origin[1] < before.origin[1]
+    page.grid.setFocus()
+    navigator.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(navigator, Qt.Key.Key_Right)
+    qtbot.waitUntil(lambda: model.session.document.raster != after)
+    moved = model.session.document.raster.origin
+    assert moved is not None
+    assert moved[0] > after.origin[0]
+    model.session.undo()
+    model.session.undo()
+    assert model.session.document.raster == before
+
+
+def test_the_navigator_pans_a_magnified_grid_and_can_be_hidden(window: MainWindow) -> None:
+    page = window.page
+    assert not page.navigator.isVisible()
+    page.grid.zoom_by(4.0)
+    assert page.navigator.isVisible()
+    before = page.grid.view()
+    page.navigator.region_moved.emit(0.2, 0.5)
+    assert page.grid.view().x < before.x
+    assert page.grid.view().zoom == before.zoom
+    assert "of 64" in page.navigator.accessibleDescription()
+    page.navigator.close_button.click()
+    assert not page.navigator.isVisible()
+    assert "navigator" not in page.shown_panes()
+    window.run_action("pane_navigator")
+    assert page.navigator.isVisible()
+    window.toggle_predict()
+    assert not page.navigator.isVisible()
