@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPoint, Qt, QTimer, Slot
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QDockWidget, QWidget
 
 from app.help.markup import linked
 from app.help.term_menu import term_menu, terms_of
@@ -183,10 +183,12 @@ class HelpPane(QObject):
 
 
 def address_of(window: QWidget) -> str:
-    """Return the page of the terms that the widget under the pointer, or else the one with the keyboard, shows."""
+    """Return the page of what the widget under the pointer shows, or else the one with the keyboard."""
     pointed = QApplication.widgetAt(QCursor.pos())
     for widget in (pointed, window.focusWidget()):
         if widget is not None and window.isAncestorOf(widget):
+            if isinstance(widget, QComboBox) and widget.objectName() in table.families:
+                return f"method/{widget.objectName()}/{widget.currentData()}"
             keys = [term.key for term in terms_of(widget)]
             if keys:
                 return f"term/{keys[0]}" if len(keys) == 1 else f"here/{','.join(keys)}"

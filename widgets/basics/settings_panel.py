@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
+from widgets.basics.focus_order import ArrowGroup
 from widgets.basics.labels import text_label
 
 MORE, FEWER = "More methods", "Fewer methods"
@@ -190,7 +191,10 @@ class SettingsPanel(QWidget):
             self._combos[setting.family] = combo
             self._labels[setting.family] = label
             button = flat_button(
-                "i", f"About {setting.label}", f"What {setting.label} is, and what this method does", body
+                "i",
+                f"About {setting.label}",
+                f"What {setting.label} is, and what this method does (F1 on the choice)",
+                body,
             )
             button.setObjectName(setting.family)
             button.setMinimumSize(24, 24)
@@ -198,6 +202,7 @@ class SettingsPanel(QWidget):
             grid.addWidget(button, row, 2)
             self._buttons[setting.family] = button
             row += 1
+        ArrowGroup(list(self._buttons.values()), body, is_upright=True)
         self._layout.insertWidget(0, body)
 
     def _shown_value(self, family: str) -> str:

@@ -66,8 +66,9 @@ class StartPage(Page):
         self._recent = QWidget(self)
         self._recent_rows = column_layout(self._recent, 4)
         row = row_layout(self, 16, margins=(16, 8, 8, 8))
-        row.addWidget(_scrolled(self._side(), "Begin"))
-        row.addWidget(_scrolled(self._scenes(), "Scenes"), 1)
+        self._panes = _scrolled(self._side(), "Begin"), _scrolled(self._scenes(), "Scenes")
+        row.addWidget(self._panes[0])
+        row.addWidget(self._panes[1], 1)
         session.document_changed.connect(self._show_document)
         self._show_document()
         self.show_recent(())
@@ -190,6 +191,14 @@ class StartPage(Page):
     @Slot()
     def _open_recent(self) -> None:
         self.open_requested.emit(self.sender().objectName())
+
+    def main_view(self) -> QWidget:
+        """Return where the keyboard begins."""
+        return self._panes[0]
+
+    def focus_panes(self) -> list[QWidget]:
+        """Return what F6 goes through after that."""
+        return [self._panes[1]]
 
     def leave(self) -> None:
         """Draw no further: what is missing is drawn when the page is shown again."""

@@ -37,6 +37,16 @@ def test_f1_explains_what_has_the_keyboard(window: MainWindow) -> None:
     assert window.help.view.address().endswith("edge-function")
 
 
+def test_f1_on_a_choice_of_methods_explains_the_method(window: MainWindow) -> None:
+    combo = window.page.settings_panel.combo("shading")
+    window.page.show_panes(["methods"])
+    window.session.set_setting("shading", "flat")
+    combo.setEnabled(True)
+    combo.setFocus()
+    QTest.keyClick(window, Qt.Key.Key_F1)
+    assert window.help.view.address() == "method/shading/flat"
+
+
 def test_typing_finds_and_a_link_shows_the_entry_with_a_way_back(window: MainWindow) -> None:
     window.help.show_page("guide")
     view = window.help.view

@@ -140,7 +140,7 @@ def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
 
 
 @BOTH
-@pytest.mark.parametrize("page", ["step", "compare", "stability", "plan"])
+@pytest.mark.parametrize("page", ["start", "step", "compare", "stability", "plan"])
 def test_the_focus_can_be_seen(window: MainWindow, styled: Theme, page: str) -> None:
     """Whatever takes the keyboard shows by 3:1 that it has it, along a line as long as its shorter side."""
     window.session.set_stage("raster", 0)  # nothing has been done yet: the formula is empty

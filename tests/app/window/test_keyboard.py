@@ -12,7 +12,7 @@ from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
 
-EVERY_PAGE = pytest.mark.parametrize("page", ["step", "compare", "stability", "plan"])
+EVERY_PAGE = pytest.mark.parametrize("page", ["start", "step", "compare", "stability", "plan"])
 
 
 def name_of(widget: QWidget) -> str:
