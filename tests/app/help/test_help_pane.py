@@ -38,8 +38,9 @@ def test_f1_explains_what_has_the_keyboard(window: MainWindow) -> None:
 
 
 def test_f1_on_a_choice_of_methods_explains_the_method(window: MainWindow) -> None:
-    combo = window.page.settings_panel.combo("shading")
     window.page.show_panes(["methods"])
+    QApplication.processEvents()
+    combo = window.page.settings_panel.combo("shading")
     window.session.set_setting("shading", "flat")
     combo.setEnabled(True)
     combo.setFocus()
