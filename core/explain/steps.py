@@ -14,6 +14,7 @@ from core.explain.step_values import StepValues, key_fields, row_key
 from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText
 from core.records.words import joined
 from core.trace import Explanation, StageTrace
+from core.trace.stage_trace import KEPT_EXPLANATIONS
 
 SUBJECTS = (
     *("transform", "culling", "clipping", "number_formats", "edges", "binning", "spans", "fills"),
@@ -36,6 +37,7 @@ def row_of(key: str) -> Row | None:
     return find_row(row_key(key))
 
 
+@lru_cache(KEPT_EXPLANATIONS)
 def account(
     explanation: Explanation, triangle: int, pixel: tuple[int, int] | None
 ) -> tuple[str, Formula | None]:
@@ -77,7 +79,7 @@ def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | N
     return account(explanation, triangle, pixel)[0]
 
 
-@lru_cache(maxsize=8)
+@lru_cache(KEPT_EXPLANATIONS)
 def formula(explanation: Explanation) -> Formula | None:
     """Return the formula of a step: where it only copies or stores, the last one of its row, which decided."""
     _, made = _said(StepValues(explanation))
@@ -115,6 +117,7 @@ def _plain_account(step: StepValues) -> str:
     return f"{done}: {joined(found)}." if found else f"{done}."
 
 
+@lru_cache(KEPT_EXPLANATIONS)
 def variables(explanation: Explanation) -> tuple[Variable, ...]:
     """Return the variables after a step: those given, those known by now; those just changed have another value before.
 

@@ -16,6 +16,8 @@ from core.records.steps import Steps
 Value = float | int | bool | str | NDArray[Any]
 MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")
 """Kinds of marks on the timeline."""
+KEPT_EXPLANATIONS = 16
+"""Of the last steps that were asked for: all that is said of a step is made from the same one, once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +117,21 @@ class StageTrace:
             found[name] = value if isinstance(value, np.ndarray) else value.item()
         return found
 
+    @cached_property
+    def _explained(self) -> dict[int, Explanation | None]:
+        return {}
+
     def explain(self, position: int) -> Explanation | None:
         """Explain the operation that was done last; ``None`` at the initial state."""
+        explained = self._explained.get(position)
+        if explained is None:
+            explained = self._explain(position)
+            if len(self._explained) >= KEPT_EXPLANATIONS:
+                self._explained.clear()
+            self._explained[position] = explained
+        return explained
+
+    def _explain(self, position: int) -> Explanation | None:
         row, operation = self.steps.row_at(position)
         if row < 0:
             return None

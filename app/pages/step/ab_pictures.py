@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.pages.step.grid_records import buffers_of, mask_overlays
-from app.pages.step.inspector_presenter import sentence_at
 from app.pages.step.step_mark import step_mark
+from app.pages.step.steps_ahead import sentence_at
 from app.session.session import Cursor
 from core import Trace
 from core.records.arrays import Flags

@@ -5,16 +5,14 @@ from collections.abc import Iterable
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QLabel
 
-from app.pages.step.formulas_ahead import FormulasAhead
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
+from app.pages.step.steps_ahead import StepsAhead, sentence_at
 from app.session.session import Session
 from core import STAGES
-from core.explain import formula, initial_sentence, sentence, stage_card, summary_sentence, variables
+from core.explain import formula, stage_card, variables
 from core.explain.records import Variable
 from core.records.listing import Listing
-from core.records.steps import Level
-from core.trace import StageTrace
 from core.trace.origins import origin
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import HINT as NO_HISTORY
@@ -25,21 +23,6 @@ from widgets.timeline.stage_card import StageCardView
 
 HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
 NO_LISTING = "This step copies what is known; it has no algorithm to list."
-
-
-def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
-    """Return the sentence of the step of a level just done at a position; one larger than a row is summed up."""
-    row, _ = trace.steps.row_at(position)
-    if row < 0:
-        return initial_sentence(trace.stage)
-    triangle = int(trace.triangle[row])
-    first = trace.steps.rows_done(trace.steps.back(position, level))
-    if level <= Level.GROUP and row > first:
-        return summary_sentence(trace.stage, level, trace.summary(first, row + 1), triangle)
-    explanation = trace.explain(position)
-    assert explanation is not None
-    pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
-    return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
 
 
 class InspectorPresenter(QObject):
@@ -67,7 +50,7 @@ class InspectorPresenter(QObject):
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
         self._folded = set(STAGES)
-        self.ahead = FormulasAhead(session, formula_view, self)
+        self.ahead = StepsAhead(session, formula_view, self)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)

@@ -2,7 +2,7 @@
 
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.formulas_ahead import STEPS_AHEAD, FormulasAhead
+from app.pages.step.steps_ahead import STEPS_AHEAD, StepsAhead
 from app.session.document import open_document
 from app.session.session import Session
 from core.explain import formula
@@ -16,7 +16,7 @@ def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
     session = Session(open_document(built_in_scene("shared-edge").make(), ""))
     view = FormulaView(typesetter=Typesetter())
     qtbot.addWidget(view)
-    ahead = FormulasAhead(session, view)
+    ahead = StepsAhead(session, view)
     session.set_stage("edges", 0)
     session.set_level(Level.OPERATION)
     qtbot.waitUntil(lambda: not ahead.is_working, timeout=10000)

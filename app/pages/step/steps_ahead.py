@@ -1,9 +1,11 @@
-"""Formulas typeset before they are shown: those of the next steps, while the user looks at this one."""
+"""What the next steps say, made before they are shown, while the user looks at this one."""
 
 from PySide6.QtCore import QObject, QTimer, Slot
 
 from app.session.session import Session
-from core.explain import formula
+from core.explain import formula, initial_sentence, sentence, summary_sentence, variables
+from core.records.steps import Level
+from core.trace import StageTrace
 from widgets.inspector.formula_view import Formula, FormulaView
 
 QUIET_MS = 20
@@ -13,8 +15,23 @@ FIRST_MS = 300
 STEPS_AHEAD = 3
 
 
-class FormulasAhead(QObject):
-    """Typesets the formulas around the session's cursor, one cell whenever the event loop is free."""
+def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
+    """Return the sentence of the step of a level just done at a position; one larger than a row is summed up."""
+    row, _ = trace.steps.row_at(position)
+    if row < 0:
+        return initial_sentence(trace.stage)
+    triangle = int(trace.triangle[row])
+    first = trace.steps.rows_done(trace.steps.back(position, level))
+    if level <= Level.GROUP and row > first:
+        return summary_sentence(trace.stage, level, trace.summary(first, row + 1), triangle)
+    explanation = trace.explain(position)
+    assert explanation is not None
+    pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
+    return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+
+
+class StepsAhead(QObject):
+    """Explains the steps around the session's cursor and typesets their formulas, a cell when nothing else is due."""
 
     def __init__(self, session: Session, view: FormulaView, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -51,8 +68,12 @@ class FormulasAhead(QObject):
         if self._formula is None:
             if not self._positions:
                 return
-            explanation = self._session.stage_trace.explain(self._positions.pop(0))
-            self._formula = None if explanation is None else formula(explanation)
+            trace, position = self._session.stage_trace, self._positions.pop(0)
+            sentence_at(trace, position, self._session.cursor.level)
+            explanation = trace.explain(position)
+            if explanation is not None:
+                variables(explanation)
+                self._formula = formula(explanation)
         elif self._view.prepare(self._formula):
             self._formula = None
         self._timer.start(0 if self._view.can_prepare() else QUIET_MS)
