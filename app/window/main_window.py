@@ -378,17 +378,20 @@ class MainWindow(QMainWindow):
         if message.action == READ_OUTSIDE:
             self.open_path(self.files.target, allows_outside=True)
         elif message.action == CLOSE_UNSAVED:
-            self._closes_unsaved = True
-            self.close()
+            self.close_anyway()
         else:
             self.open_path(self._offered)
 
     @Slot(int)
     def end_by_signal(self, number: int) -> None:
         """Close, and end the program with the exit code that a shell has for a program ended by this signal."""
+        self.close_anyway()
+        the_application().exit(BY_SIGNAL + number)
+
+    def close_anyway(self) -> None:
+        """Close, also where what is open cannot be saved: that is one line on stderr then."""
         self._closes_unsaved = True
         self.close()
-        the_application().exit(BY_SIGNAL + number)
 
     def _tell_unsaved(self, reason: str) -> None:
         text = sentences(

@@ -94,7 +94,7 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
         window.open_path(target, allows_outside)
     code = application.exec()
     sys.excepthook = sys.__excepthook__
-    window.close()
+    window.close_anyway()
     signals.stop()
     if is_work_left():
         # Python would wait for its threads; everything is saved, and no result is wanted any more.

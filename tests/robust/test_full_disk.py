@@ -100,6 +100,16 @@ def test_a_window_can_be_closed_without_saving(
     assert not list(preferences_folder().glob(".*.part"))
 
 
+def test_what_ends_the_program_closes_on_a_full_disk_too(
+    window: MainWindow, disk: Disk, capfd: pytest.CaptureFixture[str]
+) -> None:
+    window.memory.autosave.begin(None)
+    disk.is_full = True
+    window.close_anyway()
+    assert window.isHidden()
+    assert "what is open could not be saved" in capfd.readouterr().err
+
+
 def test_files_that_the_user_saves_stay_whole(window: MainWindow, disk: Disk, tmp_path: Path) -> None:
     window.resize(900, 600)
     state, picture = tmp_path / "a.rasterscope", tmp_path / "a.png"
