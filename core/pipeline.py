@@ -334,7 +334,8 @@ def draw_multisampled(
     values = interpolate(geometry, wide, seen[0], counts["interpolate"])
 
     # Colours: one for every triangle in a pixel, whichever of its samples it has.
-    is_mixed, rule = resolve(settings).is_mixed, resolve(settings).blend_method.function
+    resolved = resolve(geometry.settings)
+    is_mixed, rule = resolved.is_mixed, resolved.blend_method.function
     shaded = [of_sample.decided.passing for of_sample in visible if of_sample.decided] if is_mixed else seen
     source, number = shade_once(scene, geometry, wide, shaded, counts)
     color = np.empty((len(visible), len(visible[0].depth), 4), np.float32)

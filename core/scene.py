@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import isfinite, pi
+from typing import ClassVar
 
 import numpy as np
 
@@ -216,6 +217,8 @@ class Scene:
     """(width, height) of the raster in pixels."""
     background: Floats = field(default_factory=lambda: np.zeros(4))
     """(4,) float64 linear colour that the frame is cleared to."""
+    corner_count: ClassVar[int] = 3
+    """How many corners a primitive has."""
 
     def __post_init__(self) -> None:
         if isinstance(self.meshes, Mesh):
@@ -228,12 +231,20 @@ class Scene:
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
 
 
+CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3}
+"""Kinds of primitives and how many corners each has; all else is assembled from them (`core.assembly`)."""
+
+
 @dataclass(frozen=True, eq=False)
 class ClipScene:
-    """Triangles given in clip space: typed 2D triangles, recorded cases. Drawn and stepped like any scene."""
+    """Triangles, segments or points given in clip space: typed ones, recorded cases. Drawn and stepped like any scene.
+
+    Segments and points have no area: they are drawn as lines by the method of the family ``line``. The pixel of a
+    segment's second end is drawn unless another segment begins at a corner of the same name.
+    """
 
     clip: Floats
-    """(T, 3, 4) float64 clip-space x, y, z, w of every corner."""
+    """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points."""
     attributes: Floats | None = None
     """(T, 3, K) float64 to interpolate; the first four are the colour, or the first two the texture coordinates."""
     size: tuple[int, int] = (512, 512)
@@ -241,24 +252,34 @@ class ClipScene:
     background: Floats = field(default_factory=lambda: np.zeros(4))
     shared: Integers | None = None
     """(T, 3) int64 names of corners: corners of one name move together in the window. ``None``: all separate."""
+    kind: str = "triangles"
+    """One of `CORNER_COUNTS`."""
+    corner_count: int = field(init=False)
+    """How many corners a primitive has."""
 
     def __post_init__(self) -> None:
-        clip = checked("clip", self.clip, ("T", 3, 4), limit=COORDINATE_LIMIT)
+        if self.kind not in CORNER_COUNTS:
+            raise ValueError(f"kind must be one of {', '.join(CORNER_COUNTS)}, got {self.kind}")
+        corners = CORNER_COUNTS[self.kind]
+        object.__setattr__(self, "corner_count", corners)
+        clip = checked("clip", self.clip, ("T", corners, 4), limit=COORDINATE_LIMIT)
         object.__setattr__(self, "clip", clip)
         if self.attributes is None:
-            color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), 3, 4))
-            object.__setattr__(self, "attributes", checked("attributes", color, ("T", 3, "K")))
+            color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), corners, 4))
+            object.__setattr__(self, "attributes", checked("attributes", color, ("T", corners, "K")))
         else:
-            attributes = checked("attributes", self.attributes, ("T", 3, "K"))
+            attributes = checked("attributes", self.attributes, ("T", corners, "K"))
             if len(attributes) != len(clip):
-                raise ValueError(f"attributes must be ({len(clip)}, 3, K), got {attributes.shape}")
+                raise ValueError(f"attributes must be ({len(clip)}, {corners}, K), got {attributes.shape}")
             if self.texture is not None and attributes.shape[2] < 2:
-                raise ValueError(f"a texture needs attributes (T, 3, 2 or more), got {attributes.shape}")
+                raise ValueError(
+                    f"a texture needs attributes (T, {corners}, 2 or more), got {attributes.shape}"
+                )
             object.__setattr__(self, "attributes", attributes)
         if self.shared is not None:
-            shared = checked("shared", self.shared, ("T", 3), np.int64)
+            shared = checked("shared", self.shared, ("T", corners), np.int64)
             if len(shared) != len(clip):
-                raise ValueError(f"shared must be ({len(clip)}, 3), got {shared.shape}")
+                raise ValueError(f"shared must be ({len(clip)}, {corners}), got {shared.shape}")
             object.__setattr__(self, "shared", shared)
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))

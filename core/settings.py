@@ -322,6 +322,18 @@ DEFAULTS = Settings()
 """What runs where nothing is chosen."""
 
 
+def without_area(settings: Settings, corner_count: int) -> Settings:
+    """Return the settings that segments (2 corners) or points (1) are drawn with: as lines, facing nowhere."""
+    divides = table.get("clipping", settings.clipping).function().divides
+    return replace(
+        settings,
+        polygon_mode="wireframe",
+        cull="none",
+        clipping="homogeneous" if divides else settings.clipping,
+        line="bresenham" if corner_count == 1 else settings.line,
+    )
+
+
 def import_methods(settings: Settings) -> None:
     """Import all methods that settings choose: before the stages are timed, so that no stage's time contains it."""
     for family in families():

@@ -20,7 +20,7 @@ from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import DEFAULTS, Settings
+from core.settings import DEFAULTS, Settings, without_area
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 
@@ -85,6 +85,8 @@ def draw_picture(
     than snapping moves it and has corners much alike, ``corners`` stay between these, where `render` extrapolates.
     """
     settings = settings or DEFAULTS
+    if scene.corner_count < 3:
+        settings = without_area(settings, scene.corner_count)
     raster = make_raster(scene.size, settings.pixel_center, region)
     if encoding not in ENCODINGS:
         raise ValueError(f"encoding must be one of {', '.join(ENCODINGS)}, got {encoding}")

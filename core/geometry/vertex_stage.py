@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.matrices import projection, transform, viewport, world_to_camera
-from core.records.arrays import Floats, Integers, Scalar, read_only
+from core.records.arrays import Flags, Floats, Integers, Scalar, read_only
 from core.records.cached import cached_property
 from core.records.primitives import own_corners
 from core.scene import ClipScene, Mesh, Scene
@@ -74,6 +74,10 @@ class VertexStage:
     """(4, 4) float64, P."""
     view_range: tuple[float, float] | None = None
     """Near and far of a perspective camera, for which w is the distance along the view; ``None``: it is not."""
+    corner_count: int = 3
+    """Corners of a primitive that are its own: 2 of segments, 1 of points, see ``own_corners``."""
+    draws_last: Flags | None = None
+    """(T,) bool, the pixel of a segment's second end is drawn, see ``ClipScene``; ``None`` of triangles."""
 
     @property
     def clip_rows(self) -> Floats:
@@ -154,9 +158,11 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         count = len(scene.clip)
         return VertexStage(
             clip=_record(scene.clip.reshape(-1, 4).T),
-            corners=_record(own_corners(np.arange(count))),
+            corners=_record(own_corners(np.arange(count), scene.corner_count)),
             mesh=np.zeros(count, np.int64),
             size=scene.size,
+            corner_count=scene.corner_count,
+            draws_last=None if scene.corner_count == 3 else _ends_alone(scene),
         )
     width, height = scene.size
     view = world_to_camera(scene.camera)
@@ -177,6 +183,13 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         projection=project,
         view_range=view_range(scene),
     )
+
+
+def _ends_alone(scene: ClipScene) -> Flags:
+    """Return (T,) bool: no other segment begins where a segment ends; so it is with all points."""
+    if scene.shared is None or scene.corner_count == 1:
+        return np.ones(len(scene.clip), bool)
+    return ~np.isin(scene.shared[:, 1], scene.shared[:, 0])
 
 
 def view_range(scene: Scene) -> tuple[float, float] | None:

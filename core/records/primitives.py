@@ -170,9 +170,12 @@ def index_corners(primitives: Primitives) -> IndexedPrimitives:
     )
 
 
-def own_corners(number: Integers) -> Integers:
-    """Return (3, P): the corners of triangles (P,) where triangle t has the vertices 3 t, 3 t + 1 and 3 t + 2."""
-    return 3 * number + np.arange(3)[:, None]
+def own_corners(number: Integers, count: int = 3) -> Integers:
+    """Return (3, P): the corners of primitives (P,) of which each has ``count`` vertices of its own, in their order.
+
+    A segment's third corner is its second once more, and all of a point's are the same.
+    """
+    return count * number + np.minimum(np.arange(3), count - 1)[:, None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,7 +35,7 @@ class OutlineClip:
         return replace(
             kept,
             drawn=self.lines.segments.take(self.kept, axis=0),
-            is_cut=self.lines.cut_by[:, 1].take(self.kept) >= 0,
+            draws_last=(self.whole.draws_last | (self.lines.cut_by[:, 1] >= 0)).take(self.kept),
         )
 
 

@@ -197,9 +197,19 @@ class Geometry:
 
         with self.count:
             outlines = set_up_outlines(
-                self.primitives.gathered(), self.corners, self._corner_shares(), self.vertices.size
+                self.primitives.gathered(),
+                self.corners,
+                self._corner_shares(),
+                self.vertices.size,
+                self.draws_last,
             )
             return run_rightwards(outlines) if has_intensities(self.settings.line) else outlines
+
+    @property
+    def draws_last(self) -> Flags | None:
+        """(P,) bool, the last pixel of a segment or point is drawn; ``None``: the primitives are triangles."""
+        draws_last = self.vertices.draws_last
+        return None if draws_last is None else draws_last.take(self.primitives.triangle)
 
     def _corner_shares(self) -> Floats | None:
         """Return the shares (P, 3, 3) of a triangle's corners in those of its pieces; ``None``: nothing is cut."""
@@ -209,7 +219,7 @@ class Geometry:
         whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
         clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
-        return clipping.clip(whole, distances).primitives.varyings
+        return clipping.clip(whole, distances, self.vertices.corner_count).primitives.varyings
 
 
 def all_projected(window: WindowVertices, corner: Integers) -> Flags:

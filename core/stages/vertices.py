@@ -21,7 +21,7 @@ from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene
-from core.settings import Settings, families, no_effect
+from core.settings import Settings, families, no_effect, without_area
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances
 
@@ -73,6 +73,8 @@ def process_geometry(
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
+    if scene.corner_count < 3:
+        settings = without_area(settings, scene.corner_count)
     settings = resolve(settings).settings
     if chosen is not None or (raster is not None and raster.region is not None):
         return _process(scene, settings, counts, chosen, raster)
@@ -102,7 +104,8 @@ def _process(
 
     with counts["cull"]:
         window, outcode = place(assembled, scene.size, settings)
-        facing = face(assembled, window, scene.size, settings)
+        has_area = vertices.corner_count == 3
+        facing = face(assembled, window, scene.size, settings) if has_area else np.ones(triangle_count)
         culled = cull(assembled, outcode, facing, resolve(settings).drops_facing)
         drawing = drawing_order(vertices, settings)
         wanted = culled.kept if raster is None else culled.kept & ~is_beside(window, assembled.corner, raster)
@@ -116,7 +119,7 @@ def _process(
         counts["cull"].incoming, counts["cull"].outgoing = triangle_count, kept_count
 
     with counts["clip"]:
-        primitives, clipped, inserted = clip(kept, outcode, settings)
+        primitives, clipped, inserted = clip(kept, outcode, settings, vertices.corner_count)
         piece_count = kept_count if primitives is kept else kept_count + len(primitives) - len(kept)
         counts["clip"].incoming, counts["clip"].outgoing = kept_count, piece_count
         counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
@@ -125,7 +128,9 @@ def _process(
         counts["edges"].incoming = counts["edges"].outgoing = piece_count
         if primitives is not kept:
             window, outcode = place(primitives, scene.size, settings)
-            doubled_area = face(primitives, window, scene.size, settings)
+            doubled_area = (
+                face(primitives, window, scene.size, settings) if has_area else np.ones(len(primitives))
+            )
     return Geometry(
         vertices=vertices,
         assembled=assembled,
@@ -189,9 +194,10 @@ def corner_values(
 def _given_values(scene: ClipScene, triangle: Integers) -> CornerValues:
     """Return the attributes at the corners of triangles (P,)."""
     assert scene.attributes is not None
-    count, _, width = scene.attributes.shape
+    count, corners, width = scene.attributes.shape
     layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
-    return CornerValues(scene.attributes.reshape(3 * count, width), layout, own_corners(triangle))
+    rows = scene.attributes.reshape(count * corners, width)
+    return CornerValues(rows, layout, own_corners(triangle, scene.corner_count))
 
 
 def place(
@@ -252,7 +258,7 @@ def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: Dra
 
 
 def clip(
-    kept: IndexedPrimitives, outcode: Outcodes, settings: Settings
+    kept: IndexedPrimitives, outcode: Outcodes, settings: Settings, corner_count: int = 3
 ) -> tuple[IndexedPrimitives, Clipped | None, str]:
     """Clip what crosses a plane that the settings, or a method that they choose, have to be kept to.
 
@@ -261,6 +267,8 @@ def clip(
     kept : IndexedPrimitives
     outcode : (M,) uint8, of its vertices
     settings : Settings
+    corner_count : int
+        Less than 3 of segments and points.
 
     Returns
     -------
@@ -282,10 +290,10 @@ def clip(
     if inserted:
         crossing &= crosses_eye
     if crossing.any():
-        clipped = clipping.clip(kept.gathered(), clipping_distances(kept, inserted))
+        clipped = clipping.clip(kept.gathered(), clipping_distances(kept, inserted), corner_count)
         return index_corners(clipped.primitives), clipped, inserted
     none = kept.take(np.empty(0, np.int64))
-    clipped = clipping.clip(none.gathered(), plane_distances(none.clip))
+    clipped = clipping.clip(none.gathered(), plane_distances(none.clip), corner_count)
     return kept, replace(clipped, primitives=kept.gathered()), inserted
 
 

@@ -49,7 +49,8 @@ def outer_box(
 def trace_bin(source: TraceSource) -> StageTrace:
     """Return one row for the box of every primitive, followed by one for every block that is looked at."""
     geometry, boxes, blocks = source.geometry, source.boxes, source.runs.blocks
-    count, corners = len(geometry.edges), geometry.edges.corners
+    corners = geometry.edges.corners
+    count = len(geometry.edges) if geometry.vertices.corner_count == 3 else 0
     is_outer = geometry.edges.numbers.bounds_outward
     owner = np.arange(count)
     node = np.full(count, -1)

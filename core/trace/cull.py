@@ -14,7 +14,10 @@ KINDS = ("behind", "plane", "degenerate", "facing", "kept")
 
 
 def trace_cull(source: TraceSource) -> StageTrace:
-    """Return one row for every test: behind the eye, six planes, degenerate, facing; and one for a kept triangle."""
+    """Return one row for every test: behind the eye, six planes, degenerate, facing; and one for a kept triangle.
+
+    Segments and points have neither area nor facing.
+    """
     assembled, culled = source.geometry.assembled, source.geometry.culled
     projected = place_corners(assembled.clip, source.scene.size, source.settings.coverage).is_projected
     count = len(assembled)
@@ -27,8 +30,10 @@ def trace_cull(source: TraceSource) -> StageTrace:
     applies[:, 1:7] = outside
     applies[:, 7] = culled.facing == 0
     applies[:, 8] = (culled.verdict != KEPT) & (culled.verdict < DEGENERATE)
-    before = np.cumsum(applies, axis=1) - applies
-    which, test = np.nonzero(before == 0)
+    runs = np.cumsum(applies, axis=1) - applies == 0
+    if source.geometry.vertices.corner_count < 3:
+        runs[:, 7:9] = False
+    which, test = np.nonzero(runs)
     kind = np.array([0, *[1] * 6, 2, 3, 4])[test]
     plane = np.clip(test - 1, 0, 5)
     verdict = np.array(REASONS)[culled.verdict]

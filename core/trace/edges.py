@@ -62,11 +62,11 @@ def _unless_singular(label: str) -> Labels:
 
 
 def trace_edges(source: TraceSource) -> StageTrace:
-    """Return seven rows for every primitive: three corners, orientation, three edges."""
+    """Return seven rows for every triangle: three corners, orientation, three edges; lines have none."""
     geometry = source.geometry
     edges, corners, numbers = geometry.edges, geometry.edges.corners, geometry.edges.numbers
     ends = numbers.shown_ends(corners)
-    count = len(edges)
+    count = len(edges) if geometry.vertices.corner_count == 3 else 0
     primitive = np.repeat(np.arange(count), ROWS)
     place = np.tile(np.arange(ROWS), count)
     index = np.array([0, 1, 2, 0, 0, 1, 2])[place]

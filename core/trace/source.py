@@ -19,7 +19,7 @@ from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import Settings
+from core.settings import Settings, without_area
 from core.stages.declared import STAGES
 from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
@@ -42,6 +42,10 @@ class TraceSource:
     """(first column, first row, columns, rows) of the buffers; ``None``: the whole image."""
     before: str = "earlier"
     """Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``."""
+
+    def __post_init__(self) -> None:
+        if self.scene.corner_count < 3:
+            object.__setattr__(self, "settings", without_area(self.settings, self.scene.corner_count))
 
     @cached_property
     def raster(self) -> Raster:

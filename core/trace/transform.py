@@ -27,9 +27,10 @@ def trace_transform(source: TraceSource) -> StageTrace:
     """Return one row for every vertex and space; a scene given in clip space starts at the division."""
     vertices = source.geometry.vertices
     triangle = source.geometry.assembled.triangle
-    corners = vertices.corners[triangle].ravel()
-    owner = np.repeat(triangle, 3)
-    corner = np.tile([0, 1, 2], len(triangle))
+    count = vertices.corner_count
+    corners = vertices.corners[triangle][:, :count].ravel()
+    owner = np.repeat(triangle, count)
+    corner = np.tile(np.arange(count), len(triangle))
     kinds = (*(f"{a}-to-{b}" for _, a, b in MATRIX_SPACES), "divide", "viewport")
     first = 0 if vertices.object is not None else 3
     columns = {

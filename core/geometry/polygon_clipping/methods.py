@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from core.geometry.polygon_clipping.after_divide import clip_divided
+from core.geometry.polygon_clipping.segments import clip_segments
 from core.geometry.polygon_clipping.sutherland_hodgman import (
     ALL_PLANES,
     DEPTH_PLANES,
@@ -34,9 +35,10 @@ class PolygonClipping:
         """Whether anything is done at all."""
         return bool(self.planes) or self.divides
 
-    def clip(self, primitives: Primitives, distances: Floats) -> Clipped:
+    def clip(self, primitives: Primitives, distances: Floats, corner_count: int) -> Clipped:
         """Clip primitives whose corners have ``distances`` (P, 3, 6) from the six planes."""
-        return self.clip_by(primitives, distances, self.planes)
+        by = self.clip_by if corner_count == 3 else clip_segments
+        return by(primitives, distances, self.planes)
 
 
 DEPTH_CLIPPING = PolygonClipping(DEPTH_PLANES)

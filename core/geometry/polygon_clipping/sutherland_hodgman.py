@@ -137,7 +137,7 @@ def clip_chosen(
         k = place[of_clipped]
         corners = np.stack([polygon[at, 0], polygon[at, k + 1], polygon[at, k + 2]], axis=1)
         result.clip[of_clipped], result.varyings[of_clipped] = split(corners)
-    return Clipped(result, clipped, planes, _join(rows, polygon.shape[2]), tuple(polygons), tuple(counts))
+    return Clipped(result, clipped, planes, join_rows(rows, polygon.shape[2]), tuple(polygons), tuple(counts))
 
 
 def _split_corners(corners: Floats) -> tuple[Floats, Floats]:
@@ -212,7 +212,7 @@ def distance_from(position: Floats, plane: int) -> Floats:
     return np.asarray(position[..., 3] + sign * position[..., coordinate])
 
 
-def _join(parts: list[ClipRows], width: int) -> ClipRows:
+def join_rows(parts: list[ClipRows], width: int) -> ClipRows:
     """Put the rows of all planes in order: polygon by polygon, plane by plane."""
     if not parts:
         none, empty = np.empty(0, np.int64), np.empty(0)

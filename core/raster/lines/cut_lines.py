@@ -1,4 +1,4 @@
-"""Lines of which some were cut at their second end: the pixel there belongs to them."""
+"""Lines of which some draw their last pixel: those that were cut there, and those that no other line goes on from."""
 
 from dataclasses import fields, replace
 
@@ -10,18 +10,18 @@ from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers, read_only
 
 
-def draw_cut_lines(segments: Floats, is_cut: Flags, raster: Raster, line: str) -> LinePixels:
-    """Find the pixels of segments (L, 2, 2) as ``draw_lines`` does, and the last one of those that ``is_cut`` (L,).
+def draw_cut_lines(segments: Floats, draws_last: Flags, raster: Raster, line: str) -> LinePixels:
+    """Find the pixels of segments (L, 2, 2) as ``draw_lines`` does, with the last one where ``draws_last`` (L,).
 
     Notes
     -----
     An outline leaves out the last pixel of each edge because the next edge begins there. No edge begins where the
-    border of the raster cut one.
+    border of the raster cut one, and none where a segment by itself ends.
     """
     whole = check_segments(segments, raster.width, raster.height, raster.center)
-    if not is_cut.any():
+    if not draws_last.any():
         return draw_segments(whole, line, last_pixel=False)
-    of_part = [np.flatnonzero(~is_cut), np.flatnonzero(is_cut)]
+    of_part = [np.flatnonzero(~draws_last), np.flatnonzero(draws_last)]
     parts = [
         draw_segments(replace(whole, ends=whole.ends[index]), line, last_pixel)
         for last_pixel, index in zip((False, True), of_part, strict=True)

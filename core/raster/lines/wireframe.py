@@ -35,6 +35,8 @@ BATCH = 1 << 20
 """Pixels of segments that are drawn in one go, about."""
 SIDE_STARTS, SIDE_ENDS = np.array([0, 1, 2]), np.array([1, 2, 0])
 """The corners between which the sides of a triangle run, in drawing order."""
+ONLY_EDGE = 2
+"""The edge of a triangle that is all there is of a segment or point: from corner 0 to 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +61,8 @@ class Outlines:
     """(L, 2, 3) float64, the same in the window: they differ where the segment was cut."""
     drawn: Floats
     """(L, 2, 2) float64, the part that the line method draws: all of ``window``, or what line clipping left of it."""
-    is_cut: Flags
-    """(L,) bool, line clipping cut the second end: the pixel there is drawn, for the line goes on."""
+    draws_last: Flags
+    """(L,) bool, the pixel of the second end is drawn: line clipping cut the line there, or no other begins there."""
 
     def __len__(self) -> int:
         return len(self.primitive)
@@ -108,7 +110,11 @@ def trace_sides(shares: Floats, triangle: Integers) -> tuple[Flags, Integers]:
 
 
 def set_up_outlines(
-    primitives: Primitives, corners: CornerPositions, shares: Floats | None, size: tuple[int, int]
+    primitives: Primitives,
+    corners: CornerPositions,
+    shares: Floats | None,
+    size: tuple[int, int],
+    draws_last: Flags | None = None,
 ) -> Outlines:
     """Return the edges of primitives as segments that can be drawn.
 
@@ -119,6 +125,9 @@ def set_up_outlines(
     shares : (P, 3, 3) float64, optional
         See `trace_sides`; ``None``: nothing was clipped.
     size : (width, height)
+    draws_last : (P,) bool, optional
+        The primitives are segments or points, each one line from its first corner to its second, and where this holds
+        with its last pixel; ``None``: they are triangles.
 
     Notes
     -----
@@ -128,6 +137,8 @@ def set_up_outlines(
     if shares is None:
         shares = np.broadcast_to(np.eye(3), (count, 3, 3))
     is_drawn, edge = trace_sides(shares, primitives.triangle)
+    if draws_last is not None:
+        is_drawn &= edge == ONLY_EDGE
     primitive, side = np.nonzero(is_drawn)
     first, second = SIDE_STARTS[side], SIDE_ENDS[side]
 
@@ -170,7 +181,7 @@ def set_up_outlines(
         shares=of_corners(cut),
         window_shares=of_corners(window_cut),
         drawn=window[is_visible],
-        is_cut=np.zeros(int(is_visible.sum()), bool),
+        draws_last=(np.zeros(count, bool) if draws_last is None else draws_last)[primitive[is_visible]],
     )
 
 
@@ -223,7 +234,7 @@ def draw_outlines(
     left, bottom, right, top = raster.bounds
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         part = slice(int(first), int(end))
-        drawn = draw_cut_lines(outlines.drawn[part], outlines.is_cut[part], raster, line)
+        drawn = draw_cut_lines(outlines.drawn[part], outlines.draws_last[part], raster, line)
         (column, row), segment = drawn.pixels.T, drawn.owner + first
         intensity = drawn.intensities if has_intensities(line) else None
         fragments = LineFragments(outlines.primitive.take(segment), column, row, segment, intensity)

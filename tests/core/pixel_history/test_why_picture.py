@@ -70,7 +70,8 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
     # Of several samples and of areas it is the history of the centre.
     at_centers = replace(settings, antialiasing="none")
     frame, source = render(scene, at_centers), TraceSource(scene, settings)
-    has_pale_pixels = settings.polygon_mode == "wireframe" and has_intensities(settings.line)
+    drawn = source.settings
+    has_pale_pixels = drawn.polygon_mode == "wireframe" and has_intensities(drawn.line)
     for column, row in pixels:
         history = why(source, column, row)
         at = row, column

@@ -1,0 +1,134 @@
+"""Segments and points: pixels, clipping, stages, and the agreement of picture, trace, history and fast path."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core import ClipScene, Settings, draw_lines, render, trace
+from core.geometry.culling import plane_distances
+from core.geometry.polygon_clipping.segments import clip_segments
+from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES
+from core.methods import table
+from core.records.primitives import Primitives
+from core.scene import CORNER_COUNTS
+from tests.core.agreement import Case, check_case, random_case
+from tests.core.strategies import clip_of_window
+
+SIZE = (16, 16)
+"""Powers of two: the way to clip space and back is exact."""
+EIGHTHS = st.integers(0, 8 * 12).map(lambda number: number / 8)
+
+
+def segments(ends, **more) -> ClipScene:
+    """Return the scene of segments with ends (T, 2, 2) in the window."""
+    return ClipScene(clip_of_window(np.asarray(ends, float), SIZE), size=SIZE, kind="segments", **more)
+
+
+@given(
+    ends=st.lists(st.lists(st.tuples(EIGHTHS, EIGHTHS), min_size=2, max_size=2), min_size=1, max_size=5),
+    line=st.sampled_from(table.names("line")),
+)
+def test_a_segment_has_the_pixels_of_its_line_to_the_last(ends, line):
+    drawn = draw_lines(np.array(ends, float), *SIZE, line=line, last_pixel=True)
+    inside = ((drawn.pixels >= 0) & (drawn.pixels < SIZE)).all(axis=1)
+    count = np.zeros((SIZE[1], SIZE[0]), int)
+    np.add.at(count, tuple(drawn.pixels[inside].T[::-1]), 1)
+    assert np.array_equal(render(segments(ends), Settings(line=line)).cover_count, count)
+
+
+def test_a_strip_draws_the_pixels_of_its_vertices_once():
+    corners = np.array([[1.5, 1.5], [9.5, 3.5], [3.5, 10.5]])
+    index = np.array([[0, 1], [1, 2]])
+    assert render(segments(corners[index], shared=index)).cover_count.max() == 1
+    assert render(segments(corners[index])).cover_count.max() == 2
+
+
+@pytest.mark.parametrize("line", ["bresenham", "wu"])
+def test_a_point_is_the_pixel_that_contains_it(line):
+    clip = clip_of_window(np.array([[[1.25, 2.75]], [[15.99, 0.5]], [[16.5, 3.5]]]), SIZE)
+    frame = render(ClipScene(clip, size=SIZE, kind="points"), Settings(line=line))
+    assert list(zip(*np.nonzero(frame.primitive >= 0), strict=True)) == [(0, 15), (2, 1)]
+
+
+NUMBERS = st.integers(-16, 16).map(lambda number: number / 8)
+
+
+@given(ends=st.lists(st.lists(NUMBERS, min_size=4, max_size=4), min_size=2, max_size=2))
+def test_a_clipped_segment_is_the_part_inside_of_all_planes(ends):
+    first, last = Fraction(0), Fraction(1)
+    is_empty = False
+    for start, end in np.array([plane_distances(np.array(end)) for end in ends]).T.tolist():
+        start, end = Fraction(start), Fraction(end)
+        is_empty |= start < 0 and end < 0
+        if start < 0 <= end:
+            first = max(first, start / (start - end))
+        if end < 0 <= start:
+            last = min(last, start / (start - end))
+    corners = np.array(ends)[[0, 1, 1]][None]
+    whole = Primitives(corners, np.array([[[0.0], [1.0], [1.0]]]), np.zeros(1, int), np.zeros(1, int), {})
+    found = clip_segments(whole, plane_distances(corners), ALL_PLANES)
+    if is_empty or first > last:
+        # Of a segment that only touches, rounding may leave a point.
+        assert len(found.primitives) == 0 or abs(first - last) < 1e-12
+        return
+    if len(found.primitives) == 0:
+        assert last - first < 1e-12
+        return
+    assert found.primitives.varyings[0, :, 0] == pytest.approx([float(first), float(last), float(last)])
+    assert (plane_distances(found.primitives.clip) >= -1e-12).all()
+
+
+@pytest.mark.parametrize("kind", ["segments", "points"])
+def test_every_stage_has_its_steps_and_those_of_areas_have_none(kind):
+    scene = ClipScene(
+        np.array([[[-0.5, -0.5, 0, 1], [0.9, 1.4, -1.5, -0.6]]])[:, : CORNER_COUNTS[kind]],
+        size=SIZE,
+        kind=kind,
+    )
+    run = trace(scene, Settings(clipping="sutherland-hodgman"))
+    counts = {
+        stage: len(run.stage(stage).triangle) for stage in ("transform", "cull", "clip", "edges", "bin")
+    }
+    lines = kind == "segments"
+    assert counts == {
+        "transform": 4 if lines else 2,
+        "cull": 8,
+        "clip": 6 if lines else 1,
+        "edges": 0,
+        "bin": 0,
+    }
+    assert {run.stage("cull").kind_of(row) for row in range(8)} == {"behind", "plane", "kept"}
+
+
+def of_kind(case: Case, kind: str) -> Case:
+    """Return the case with the first corners of its triangles."""
+    scene, count = case.scene, CORNER_COUNTS[kind]
+    assert isinstance(scene, ClipScene)
+    assert scene.attributes is not None
+    cut = ClipScene(
+        scene.clip[:, :count],
+        scene.attributes[:, :count],
+        scene.size,
+        scene.texture,
+        scene.background,
+        kind=kind,
+    )
+    return Case(cut, case.settings, case.pixels)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_picture_trace_history_and_fast_path_agree(seed):
+    case = random_case(seed)
+    if isinstance(case.scene, ClipScene):
+        for kind in ("segments", "points"):
+            check_case(of_kind(case, kind))
+
+
+def test_a_wrong_kind_and_a_wrong_shape_are_refused():
+    with pytest.raises(ValueError, match="kind must be one of points, segments, triangles, got lines"):
+        ClipScene(np.zeros((1, 2, 4)), kind="lines")
+    with pytest.raises(ValueError, match=r"clip must be \(T, 2, 4\)"):
+        ClipScene(np.ones((1, 3, 4)), kind="segments")
