@@ -21,6 +21,7 @@ DESCRIPTION = """Save a picture of the window with FILE open, without showing th
 EXAMPLES = """examples:
   rasterscope screenshot shared-edge -o edge.png
   rasterscope screenshot teapot.obj -o teapot.png --theme dark --size 1600x1000
+  rasterscope screenshot cube -o slide.png --theme presenter --size 1920x1080
   rasterscope screenshot near-plane -o clip.svg --stage clip --step 4
   rasterscope screenshot cube -o samples.png --stage resolve --set antialiasing=msaa-4
   rasterscope screenshot cube -o lines.png --page compare --show line --work pixel-ends --choose line=dda
@@ -75,7 +76,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of the window (1280x800)",
     )
     parser.add_argument(
-        "--theme", choices=("light", "dark"), default="light", help="theme of the window (light)"
+        "--theme",
+        choices=("light", "dark", "presenter", "presenter-dark"),
+        default="light",
+        help="theme of the window (light); those of the presenter fill it with the picture and the step",
     )
     parser.add_argument("--stage", choices=STAGES, metavar="NAME", help=f"stage to show: {', '.join(STAGES)}")
     parser.add_argument(

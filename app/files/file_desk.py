@@ -19,6 +19,7 @@ from app.pages.page_table import page_endings
 from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
 from app.session.tracing import trace_now
+from app.window.appearance import Appearance
 from app.window.message_words import sentences
 from core import STAGES, Trace
 from core.records.steps import Level
@@ -38,8 +39,11 @@ class FileActions(QObject):
     path_chosen = Signal(str)
     """Path of a file that the user wants to open."""
 
-    def __init__(self, page: StepPage, pages: Pages, messages: MessageBar, window: QWidget) -> None:
+    def __init__(
+        self, page: StepPage, pages: Pages, messages: MessageBar, appearance: Appearance, window: QWidget
+    ) -> None:
         super().__init__(window)
+        self._appearance = appearance
         self._page, self._session, self._messages = page, page.session, messages
         self._pages = pages
         self.target = ""
@@ -118,6 +122,7 @@ class FileActions(QObject):
         session.set_stage(state.stage, state.position)
         session.set_pin(state.pin)
         show_look(page, state.look)
+        self._appearance.grow_text_to(state.look.text_size)
 
     @Slot(object)
     def _tell_failed(self, error: Exception) -> None:
@@ -151,7 +156,7 @@ class FileActions(QObject):
             pin=self._session.pin,
             bookmarks=tuple(self._page.stepping.bookmarks.marks),
             breakpoints=self._page.stepping.breakpoints(),
-            look=look_of(self._page),
+            look=look_of(self._page, self._appearance.text_size),
         )
 
     def ask_save(self) -> None:

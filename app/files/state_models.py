@@ -170,6 +170,7 @@ def _rises(ends: tuple[float, float]) -> tuple[float, float]:
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
 Range = Annotated[tuple[float, float], AfterValidator(_rises)]
+TextSize = Literal[0, 100, 110, 125, 150, 175, 200]
 StageName = Annotated[str, _one_of(*STAGES)]
 ViewName = Annotated[str, _one_of(*VIEWS)]
 
@@ -238,6 +239,8 @@ class Look(Record):
     """Buffer in which A and B are compared."""
     panes: list[str] | None = None
     """Names of the panes that are not folded away; ``None``: those of the window that opens it."""
+    text_size: TextSize = 100
+    """Percent; 0: as large as the desktop's text. A window with larger text keeps its own."""
     event: str = "covered"
     """Kind of event that N runs to."""
 

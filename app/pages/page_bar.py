@@ -177,11 +177,12 @@ class Pages(QWidget):
         for kind in kinds:
             index = self.bar.addTab(kind.title)
             self.bar.setTabToolTip(index, kind.tip)
-        row = row_layout(margins=(8, 0, 8, 0))
+        self._row = QWidget(self)
+        row = row_layout(self._row, margins=(8, 0, 8, 0))
         row.addWidget(self.bar)
         row.addWidget(hints, 1)
         layout = column_layout(self, 0)
-        layout.addLayout(row)
+        layout.addWidget(self._row)
         layout.addWidget(self._stack, 1)
         self._messages = messages
         messages.setParent(self)
@@ -242,6 +243,10 @@ class Pages(QWidget):
         """Show a page by its name; a name that no page has shows nothing else."""
         if name in self.names:
             self.bar.setCurrentIndex(self.names.index(name))
+
+    def show_bar(self, is_shown: bool) -> None:
+        """Show the row of names above the pages, or give its room to the page."""
+        self._row.setVisible(is_shown)
 
     def show_next(self, direction: int) -> None:
         """Show the page to the right (1) or to the left (-1), round and round."""

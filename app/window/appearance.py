@@ -1,14 +1,26 @@
-"""How the window looks: its theme, and full screen with large type for presenting."""
+"""The look of the window: light or dark, at a desk or for presenting, and the size of its text."""
 
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QFontDatabase, QFontInfo
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.files.state_models import TextSize
 from widgets.basics.style_sheet import apply_theme
-from widgets.basics.theme import DARK, LIGHT, PRESENTER, Theme, current_theme, with_text_size
+from widgets.basics.theme import (
+    DARK,
+    LIGHT,
+    PRESENTER,
+    PRESENTER_DARK,
+    Theme,
+    current_theme,
+    for_screen,
+    with_text_size,
+)
 
-THEMES = {"light": LIGHT, "dark": DARK, "presenter": PRESENTER}
-TEXT_SIZES = (100, 110, 125, 150, 175, 200)
+THEMES = {"light": LIGHT, "dark": DARK, "presenter": PRESENTER, "presenter-dark": PRESENTER_DARK}
+DESK_THEMES = ("light", "dark")
+"""Those that the menu offers; the others come with the presenter's arrangement."""
+TEXT_SIZES: tuple[TextSize, ...] = (100, 110, 125, 150, 175, 200)
 """Sizes of the text in percent of 13 pixels."""
 
 
@@ -18,7 +30,7 @@ def the_application() -> QApplication:
     return found if isinstance(found, QApplication) else QApplication(["rasterscope"])
 
 
-def system_text_size() -> int:
+def system_text_size() -> TextSize:
     """Return the size of the desktop's text in percent of the program's own: the nearest of `TEXT_SIZES`."""
     system = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
     percent = 100 * QFontInfo(system).pixelSize() / LIGHT.text_px
@@ -26,39 +38,45 @@ def system_text_size() -> int:
 
 
 def sized_theme(name: str, text_size: int) -> Theme:
-    """Return a theme by its name, with text of a size in percent; 0: as large as the desktop's.
-
-    That of the presenter has its own size, for a projector.
-    """
-    theme = THEMES[name]
-    return theme if name == "presenter" else with_text_size(theme, text_size or system_text_size())
+    """Return a theme by its name, with text of a size in percent; 0: as large as the desktop's."""
+    return with_text_size(THEMES[name], text_size or system_text_size())
 
 
 class Appearance(QObject):
-    """Changes the theme and the size of the text, and goes to full screen and back."""
+    """Changes the theme of a window and the size of its text; a presenter's type follows the window's height."""
 
     theme_changed = Signal(str)
     """Name of the theme, of ``THEMES``."""
     text_size_changed = Signal(int)
-    """Percent, of ``TEXT_SIZES``; 0: as large as the desktop's text."""
+    """Percent; 0: as large as the desktop's text."""
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self._theme_before = ""
-        self._text_size = 100
+        self._name = current_theme().name
+        self._text_size: TextSize = 100
+
+    @property
+    def name(self) -> str:
+        """Name of the theme, of ``THEMES``."""
+        return self._name
+
+    @property
+    def text_size(self) -> TextSize:
         """Percent that was chosen; 0: as large as the desktop's text."""
+        return self._text_size
 
     @Slot(str)
     def set_theme(self, name: str) -> None:
         """Show the window in a theme by its name."""
-        apply_theme(the_application(), sized_theme(name, self._text_size))
+        self._name = name
+        self._apply()
         self.theme_changed.emit(name)
 
     @Slot(int)
-    def set_text_size(self, percent: int) -> None:
+    def set_text_size(self, percent: TextSize) -> None:
         """Write everything in a size in percent; 0: as large as the desktop's text."""
         self._text_size = percent
-        apply_theme(the_application(), sized_theme(current_theme().name, percent))
+        self._apply()
         self.text_size_changed.emit(percent)
 
     def change_text_size(self, steps: int) -> None:
@@ -66,20 +84,30 @@ class Appearance(QObject):
         place = TEXT_SIZES.index(self._text_size or system_text_size()) + steps
         self.set_text_size(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)])
 
-    def toggle_theme(self) -> None:
-        """Change between light and dark."""
-        self.set_theme("light" if current_theme().is_dark else "dark")
+    def grow_text_to(self, percent: TextSize) -> None:
+        """Write everything at least as large as another window did; smaller text is for the user alone to choose."""
+        if (percent or system_text_size()) > (self._text_size or system_text_size()):
+            self.set_text_size(percent)
 
-    def toggle_presenter(self) -> None:
-        """Fill the screen with large type, or go back to the window."""
+    def toggle_theme(self) -> None:
+        """Change between light and dark; at a desk and presenting each has its own."""
+        places = list(THEMES)
+        self.set_theme(places[places.index(self._name) ^ 1])
+
+    def follow_height(self) -> None:
+        """Give a presenter's type the size that the window's height wants now."""
+        if self._name not in DESK_THEMES:
+            self._apply()
+
+    def _apply(self) -> None:
         window = (
             self.parent()
         )  # Not an attribute: a window in a cycle would not be deleted when it is released.
         assert isinstance(window, QWidget)
-        if window.isFullScreen():
-            window.showNormal()
-            self.set_theme(self._theme_before or "light")
-        else:
-            self._theme_before = current_theme().name
-            window.showFullScreen()
-            self.set_theme("presenter")
+        is_at_desk = self._name in DESK_THEMES
+        theme = (
+            sized_theme(self._name, self._text_size)
+            if is_at_desk
+            else for_screen(THEMES[self._name], window.height())
+        )
+        apply_theme(the_application(), theme)

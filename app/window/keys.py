@@ -44,6 +44,7 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Pages",
 )
 HELP = "Help"
+PRESENTING = "Presenting"
 MEASURING = "Measuring"
 EXPERIMENTS = "Experiments"
 MAPS = "Maps"
@@ -120,6 +121,8 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("flip", ("X",), "Swap the pictures of A and B while held", VIEWING),
         KeyAction("divergence", ("D",), "First divergence of A and B", VIEWING, "View"),
         KeyAction("pane_navigator", ("G",), "Navigator", VIEWING, "View", is_checkable=True),
+        KeyAction("pane_details", ("H",), "Variables and pixel history", VIEWING, "View", is_checkable=True),
+        KeyAction("pane_run", ("R",), "Run: stages and timeline", VIEWING, "View", is_checkable=True),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
     ),
     KeyAction("page_start", ("Alt+0",), "Start page", PAGES, "Help"),
@@ -238,6 +241,9 @@ LOCAL_KEYS = (
     KeyAction("next_control", ("Tab", "Shift+Tab"), "Next, previous control", PAGES),
     KeyAction("next_button", ("Left", "Right"), "In a row of buttons: the neighbouring button", PAGES),
     KeyAction("move_border", ("Left", "Right", "Up", "Down"), "On a border between panes: move it", PAGES),
+    KeyAction("clicker_next", ("PgDown", "PgUp"), "Presenting: step forward, back", PRESENTING),
+    KeyAction("clicker_start", ("F5",), "Presenting: start of the run", PRESENTING),
+    KeyAction("clicker_black", ("B", "."), "Presenting: black screen, and back", PRESENTING),
     *_on(
         "step",
         KeyAction("value_origin", ("Return",), "In Variables: go to the step that made the number", STEPPING),

@@ -29,6 +29,7 @@ from app.window.menus import Menus
 from app.window.message_words import sentence_case, sentences
 from app.window.overlays import Overlays
 from app.window.preferences import Preferences
+from app.window.presenter import Presenter
 from app.window.remembering import Remembering
 from core.scene import ClipScene
 from widgets.basics.accessible import announce, install_roles
@@ -66,10 +67,11 @@ class MainWindow(QMainWindow):
         self._lay_out()
         self.menus = Menus(self)
         self.appearance = Appearance(self)
+        self.presenter = Presenter(self)
         self.edits = DocumentEdits(self.session, self)
         self.overlays = Overlays(self.page, self.pages, self)
         self.help = HelpPane(self)
-        self.files = FileActions(self.page, self.pages, self.messages, self)
+        self.files = FileActions(self.page, self.pages, self.messages, self.appearance, self)
         self.exports = ExportActions(self.pages, self)
         self.memory = Remembering(self, preferences or Preferences())
         self.menus.show_recent(self.memory.preferences.recent_files)
@@ -117,6 +119,7 @@ class MainWindow(QMainWindow):
         menus.recent_chosen.connect(self.open_path)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.appearance.set_theme)
+        self.presenter.presenting_changed.connect(self._show_presenting)
         self.appearance.theme_changed.connect(self.memory.remember_theme)
         self.appearance.theme_changed.connect(self.menus.show_theme)
         menus.text_size_chosen.connect(self.appearance.set_text_size)
@@ -166,7 +169,7 @@ class MainWindow(QMainWindow):
             "toggle_theme": self.appearance.toggle_theme,
             "text_larger": lambda: self.appearance.change_text_size(1),
             "text_smaller": lambda: self.appearance.change_text_size(-1),
-            "presenter": self.toggle_presenter,
+            "presenter": self.presenter.toggle,
             "help": self.help.toggle,
             "help_guide": lambda: self.help.show_page("guide"),
             "help_glossary": lambda: self.help.show_page("glossary"),
@@ -244,14 +247,15 @@ class MainWindow(QMainWindow):
 
     def dismiss(self) -> None:
         """Close what is open on top, stop what runs, or else take the pin away."""
-        if self.overlays.close_top() or self.help.dismiss():
+        if self.presenter.end_black() or self.overlays.close_top() or self.help.dismiss():
             return
         if self.files.progress.is_busy:
             self.files.progress.cancel()
         elif self.messages.isVisible():
             self.messages.dismiss()
         elif self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home():
-            self.pages.current.dismiss()
+            if not self.pages.current.dismiss():
+                self.presenter.leave()
 
     def undo(self) -> None:
         """Take the last edit back, or say that there is none."""
@@ -294,11 +298,6 @@ class MainWindow(QMainWindow):
         """Print the view with what the page says of it, under the title of the scene."""
         self.exports.print_view(self.session.document.title)
 
-    def toggle_presenter(self) -> None:
-        """Fill the screen with large type, or go back to the window."""
-        self.appearance.toggle_presenter()
-        self.menus.show_checked("presenter", self.isFullScreen())
-
     # Pages.
 
     @Slot(object)
@@ -336,6 +335,10 @@ class MainWindow(QMainWindow):
         shown = self.page.shown_panes()
         for name in PANES:
             self.menus.show_checked(f"pane_{name}", name in shown)
+
+    @Slot(bool)
+    def _show_presenting(self, is_presenting: bool) -> None:
+        self.menus.show_checked("presenter", is_presenting)
 
     @Slot()
     def _show_document(self) -> None:
@@ -406,6 +409,7 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember window, panes and scene, end all work, then close; stay open where the scene cannot be saved."""
+        self.presenter.leave()
         with ending_within(SECONDS_TO_END):
             unsaved = self.memory.save_open(self._closes_unsaved)
             if unsaved and not self._closes_unsaved:
@@ -424,6 +428,7 @@ class MainWindow(QMainWindow):
         """Keep inside what lies over the page."""
         super().resizeEvent(event)
         self.overlays.place()
+        self.presenter.place()
 
     def focusNextPrevChild(self, is_next: bool) -> bool:
         """Let Tab and Shift+Tab go the same way, forth and back."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMainWindow, QMenu
 from app.files.export_desk import SCALES
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
-from app.window.appearance import TEXT_SIZES, THEMES
+from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.keys import ACTIONS, KeyAction, key_text
 from app.window.preferences import preferences_folder
 from lessons.scenes import CATALOGUE
@@ -24,7 +24,7 @@ BEFORE_SEPARATORS = (
     "redo",
     "visited_forward",
     "compare",
-    "pane_navigator",
+    "pane_run",
     "predict",
     "page_plan",
     "previous_pane",
@@ -65,10 +65,10 @@ class Menus(QObject):
         self._menus = menus
         for entry in ACTIONS:
             made = self._make_action(entry, window)
+            # Its key works while the menu bar is out of sight, too.
+            window.addAction(made)
             if entry.menu:
                 menus[entry.menu].addAction(made)
-            else:
-                window.addAction(made)
             if entry.name == "open_file":
                 menus["File"].addMenu(self.recent_menu)
                 menus["File"].addMenu(self.earlier_menu)
@@ -128,8 +128,8 @@ class Menus(QObject):
 
     def _add_themes(self, menu: QMenu) -> None:
         themes = menu.addMenu("Theme")
-        for name in THEMES:
-            made = themes.addAction({"presenter": "Presenter (large type)"}.get(name, name.capitalize()))
+        for name in DESK_THEMES:
+            made = themes.addAction(name.capitalize())
             made.setCheckable(True)
             made.setData(name)
             made.setChecked(current_theme().name == name)

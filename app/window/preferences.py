@@ -10,6 +10,7 @@ from PySide6.QtCore import QStandardPaths
 from app.files.file_writing import FileWriteError, make_folder, write_file
 from app.files.input_files import read_input
 from app.files.saved_records import field_problem
+from app.files.state_models import TextSize
 from core.stages.declared import STAGES
 
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
@@ -31,13 +32,13 @@ class Preferences(BaseModel):
     recent_files: list[str] = []
     """Absolute paths, the last opened first."""
     theme: Literal["system", "light", "dark", "presenter"] = "system"
-    text_size: Literal[0, 100, 110, 125, 150, 175, 200] = 0
+    text_size: TextSize = 0
     """Percent of the usual size of the text; 0: as large as the desktop's."""
     geometry: Base64 = ""
     """Place and size of the window, as Qt saves them, in base 64."""
     layout: dict[str, Base64] = {}
     """Sizes of panes by name, as Qt saves them, in base 64."""
-    shown_panes: list[str] = ["inspector", "navigator"]
+    shown_panes: list[str] = ["inspector", "details", "navigator", "run"]
     """Panes of the Step page that are shown; the others are folded away."""
     folded_cards: list[str] = list(STAGES)
     """Stages whose card is folded."""

@@ -8,6 +8,7 @@ from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 from app.files.autosave import Autosave
 from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
+from app.window.appearance import DESK_THEMES
 from app.window.preferences import Preferences, save_preferences, with_recent_file
 from core.records.steps import Level
 
@@ -61,8 +62,9 @@ class Remembering(QObject):
 
     @Slot(str)
     def remember_theme(self, name: str) -> None:
-        """Keep the theme."""
-        self.preferences = self.preferences.model_copy(update={"theme": name})
+        """Keep the theme; a presenter's goes with its arrangement."""
+        if name in DESK_THEMES:
+            self.preferences = self.preferences.model_copy(update={"theme": name})
 
     @Slot(int)
     def remember_text_size(self, percent: int) -> None:

@@ -15,7 +15,7 @@ from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
 from app.pages.page_table import page_of_file
 from app.session.document import open_document
-from app.window.appearance import THEMES, sized_theme, the_application
+from app.window.appearance import sized_theme, the_application
 from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
@@ -37,9 +37,10 @@ TITLE_ROOM = 40
 
 def theme_of(name: str, application: QApplication, text_size: int = 100) -> Theme:
     """Return the theme of a name, with text of a size in percent; ``system`` and 0 follow the desktop."""
-    if name not in THEMES:
-        name = "dark" if application.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"
-    return sized_theme(name, text_size)
+    is_dark = name.endswith("dark")
+    if name == "system":
+        is_dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
+    return sized_theme("dark" if is_dark else "light", text_size)
 
 
 def first_size(application: QApplication) -> QSize:
@@ -162,6 +163,8 @@ def grab_window(
     window.resize(*size)
     window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)
     window.show()
+    if theme.startswith("presenter"):
+        window.presenter.arrange()
     try:
         if is_saved or content is not None:
             _fill(window, target if is_saved else "", content)

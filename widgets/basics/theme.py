@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QColor, QFont
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontMetricsF
 from PySide6.QtWidgets import QApplication
 
 from core.framebuffer.display import linear_light
@@ -83,6 +83,12 @@ class Theme:
     """Rulers and values in cells."""
     title_px: int = 15
     """Names of pages and panels."""
+    code_px: int = 13
+    """Listings."""
+    formula_scale: float = 1.32
+    """Size of formulas relative to the text."""
+    formula_shrink: float = 0.85
+    """A formula shrinks by this much before it wraps."""
     unit: int = 4
     """The rhythm: every margin and gap is a multiple of it."""
 
@@ -169,12 +175,13 @@ PRESENTER = replace(
     text_px=20,
     small_px=16,
     title_px=26,
+    code_px=17,
 )
-"""Large type and high contrast for a projector."""
+"""High contrast and large type for a projector; `for_screen` has the type that a screen needs."""
 
 PRESENTER_DARK = replace(
     DARK,
-    name="presenter dark",
+    name="presenter-dark",
     window="#000000",
     panel="#0c0d0e",
     raised="#1c1f21",
@@ -186,8 +193,9 @@ PRESENTER_DARK = replace(
     text_px=20,
     small_px=16,
     title_px=26,
+    code_px=17,
 )
-"""Large type and high contrast for a projector in a dark room."""
+"""The same for a dark room."""
 
 THEMES = (LIGHT, DARK, PRESENTER, PRESENTER_DARK)
 """Every theme, in the order of a menu."""
@@ -195,9 +203,9 @@ THEMES = (LIGHT, DARK, PRESENTER, PRESENTER_DARK)
 
 def with_text_size(theme: Theme, percent: int) -> Theme:
     """Return a theme whose text has so many percent of its usual size."""
-    sizes = (theme.text_px, theme.small_px, theme.title_px)
-    text, small, title = (round(size * percent / 100) for size in sizes)
-    return replace(theme, text_px=text, small_px=small, title_px=title)
+    sizes = (theme.text_px, theme.small_px, theme.title_px, theme.code_px)
+    text, small, title, code = (round(size * percent / 100) for size in sizes)
+    return replace(theme, text_px=text, small_px=small, title_px=title, code_px=code)
 
 
 class ThemeNotifier(QObject):
@@ -231,6 +239,39 @@ def paint_as(theme: Theme) -> Iterator[None]:
         yield
     finally:
         notifier.theme = before
+
+
+TEXT_CAPITALS, CODE_CAPITALS = 0.022, 0.018
+"""Least height of a presenter's capitals, of text and of listings, as a part of the screen's height."""
+
+
+FORMULA_SCALE = 1.14
+"""Size of a presenter's formulas relative to the text: their capitals are lower."""
+
+
+def for_screen(theme: Theme, height: int) -> Theme:
+    """Return a presenter's theme with type that can be read across a room, on a screen of ``height`` pixels."""
+    code = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+    text = size_of_capitals(text_font(theme), TEXT_CAPITALS * height)
+    return replace(
+        theme,
+        text_px=text,
+        small_px=round(0.8 * text),
+        title_px=round(1.25 * text),
+        code_px=size_of_capitals(code, CODE_CAPITALS * height),
+        formula_scale=FORMULA_SCALE,
+        formula_shrink=1.0,
+    )
+
+
+def size_of_capitals(font: QFont, height: float) -> int:
+    """Return the least size of a font, in pixels, whose capitals are so many pixels high."""
+    sized, size = QFont(font), max(round(height), 1)
+    sized.setPixelSize(size)
+    while QFontMetricsF(sized).tightBoundingRect("H").height() < height:
+        size += 1
+        sized.setPixelSize(size)
+    return size
 
 
 def text_font(theme: Theme, pixels: int | None = None) -> QFont:

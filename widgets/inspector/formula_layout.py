@@ -20,8 +20,6 @@ MARGIN = 8
 """Room around a formula, in logical pixels."""
 SPACE = r"\quad"
 """What stands between two equations of one row."""
-SHRINK = 0.85
-"""A formula shrinks by this much before it wraps."""
 KEPT_LAYOUTS = 256
 """Formulas that are kept laid out, at their widths: one is asked for many times a step, and comes again."""
 
@@ -127,9 +125,9 @@ class FormulaSetter:
         widths = [max(box.width() for box in column) for column in zip(*boxes, strict=True)]
         pads = [room if is_operator(rows[0][k][0]) else 0.0 for k in range(len(widths))]
         columns = _Columns(rows, boxes, widths, pads)
-        limit = width - 2.0 * MARGIN
-        if limit < columns.extent(0, len(widths)) <= limit / SHRINK:
-            limit /= SHRINK
+        limit, shrink = width - 2.0 * MARGIN, current_theme().formula_shrink
+        if limit < columns.extent(0, len(widths)) <= limit / shrink:
+            limit /= shrink
         lines: list[Line] = []
         for start, stop in _equations(columns, limit):
             lines += self._wrap(columns, start, stop, limit, is_first=not lines)

@@ -38,8 +38,6 @@ class FormulaView(QWidget):
     formula_copied = Signal(str)
     """The user has copied the formula; the argument says as what (``latex`` or ``png``)."""
 
-    POINT_SIZE_FACTOR = 1.32
-    """Size of a formula relative to the widget's text."""
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
     TURN_SECONDS = 0.008
@@ -218,7 +216,7 @@ class FormulaView(QWidget):
         return action
 
     def _size(self) -> float:
-        return round(self.fontInfo().pixelSize() * self.POINT_SIZE_FACTOR, 1)
+        return round(self.fontInfo().pixelSize() * current_theme().formula_scale, 1)
 
     def _setter(self) -> FormulaSetter:
         font, size = self.font(), self._size()

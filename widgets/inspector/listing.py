@@ -357,7 +357,7 @@ class ListingView(QPlainTextEdit):
     def _follow_theme(self) -> None:
         theme = current_theme()
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
-        font.setPixelSize(theme.text_px)
+        font.setPixelSize(theme.code_px)
         self.setFont(font)
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Base, QColor(theme.panel))

@@ -15,6 +15,8 @@ from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
 
+LISTING_LINES, PRESENTED_LINES = 10, 4
+"""Least height of the listing, in lines, and the same while presenting: the formula goes before it."""
 DETAIL_LINES = 5
 """Least height of variables and history, in lines."""
 
@@ -28,6 +30,7 @@ class InspectorColumn(QScrollArea):
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
         self._session = session
+        self._listing_lines = LISTING_LINES
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
         self.variables, self.history = VariablesView(self), PixelHistory(self)
         self.prediction = PredictionView(self)
@@ -74,14 +77,20 @@ class InspectorColumn(QScrollArea):
         super().resizeEvent(event)
         self.fit()
 
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave out the stage's card, or bring it back."""
+        self.card.setVisible(not is_presenting)
+        self._listing_lines = PRESENTED_LINES if is_presenting else LISTING_LINES
+        self.fit()
+
     @Slot()
     def fit(self) -> None:
-        """Keep room for three lines of the sentence, two of the formula and ten of the listing, in any type."""
+        """Keep room for three lines of the sentence, two of the formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(3 * line)
         for widget, height in (
             (self._step_pane, 3 * line + 4 * line + 4),
-            (self.listing, self.listing.height_of(10)),
+            (self.listing, self.listing.height_of(self._listing_lines)),
             (self.detail_tabs, DETAIL_LINES * (line + 6)),
         ):
             if widget.minimumHeight() != height:

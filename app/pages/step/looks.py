@@ -1,12 +1,12 @@
 """How the Step page shows the run, as a state file keeps it."""
 
-from app.files.state_models import Look, OrbitRecord
+from app.files.state_models import Look, OrbitRecord, TextSize
 from app.pages.step.page import StepPage
 from widgets.space.orbit import Orbit
 
 
-def look_of(page: StepPage) -> Look:
-    """Return how the page shows the run."""
+def look_of(page: StepPage, text_size: TextSize) -> Look:
+    """Return how the page shows the run, in text of a size in percent."""
     return Look(
         view=page.current_view(),
         views=dict(page.main_area.views_by_hand),
@@ -15,6 +15,7 @@ def look_of(page: StepPage) -> Look:
         other=dict(page.comparing.differences),
         other_buffer=page.comparing.buffer,
         panes=page.shown_panes(),
+        text_size=text_size,
         event=page.stepping.event_kind,
     )
 

@@ -86,6 +86,11 @@ class MainArea(QWidget):
         button.clicked.connect(self.thumbnails_toggled)
         return button
 
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave out the row of views and buffers, or bring it back."""
+        for widget in (self.view_bar, self.range_button, self.buffer_choice, self.thumbnails_button):
+            widget.setVisible(not is_presenting)
+
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Put the control of the range below its button when it opens."""
         if watched is self.ranges and event.type() == QEvent.Type.Show:

@@ -33,11 +33,13 @@ from widgets.timeline.transport import Timeline
 
 SIDE_PANES = (("scene", "Scene", "S"), ("methods", "Methods", "M"), ("overlays", "Overlays", "O"))
 """Name, title and key of the panes that open beside the strip at the left, one at a time."""
-PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "thumbnails", "navigator")
+PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "details", "thumbnails", "navigator", "run")
 """Names of everything that can be shown or folded away."""
-PANES_AT_FIRST = ("inspector", "navigator")
+PANES_AT_FIRST = ("inspector", "details", "navigator", "run")
 NESTED_LAYOUTS = 5
 """Layouts around a part of the inspector, up to the window's."""
+MARGINS, PRESENTED_MARGINS = (4, 0, 8, 4), (8, 16, 16, 8)
+"""Around the page; presenting, a projector may cut off a little."""
 
 
 class StepPage(Page):
@@ -120,7 +122,7 @@ class StepPage(Page):
             self.side_panes.addWidget(pane)
         self.side_tabs.pane_chosen.connect(self.toggle_pane)
         self.columns = StepColumns(self.side_panes, self.main_area, self.column, self)
-        page = column_layout(self, 4, margins=(4, 0, 8, 4))
+        self._page_layout = page = column_layout(self, 4, margins=MARGINS)
         row = row_layout(spacing=4)
         row.addWidget(self.side_tabs)
         row.addWidget(self.columns, 1)
@@ -183,8 +185,10 @@ class StepPage(Page):
         is_shown = {
             side: True,
             "inspector": not self.column.isHidden(),
+            "details": not self.detail_tabs.isHidden(),
             "thumbnails": self.main_area.thumbnails_button.isChecked(),
             "navigator": self.navigation.is_wanted,
+            "run": not self.timeline.isHidden(),
         }
         return [name for name in PANES if is_shown.get(name)]
 
@@ -198,6 +202,8 @@ class StepPage(Page):
         self.side_panes.setVisible(bool(side))
         self.side_tabs.show_open(side)
         self.column.setVisible("inspector" in names)
+        self.detail_tabs.setVisible("details" in names)
+        self.timeline.setVisible("run" in names)
         self.main_area.show_thumbnails("thumbnails" in names)
         self.navigation.set_wanted("navigator" in names)
         self.columns.spread()
@@ -216,6 +222,14 @@ class StepPage(Page):
     def _toggle_thumbnails(self) -> None:
         # The button has changed already.
         self.show_panes(self.shown_panes())
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave out all that does not show the step, or bring it back; panes are folded by `show_panes`."""
+        self.side_tabs.setVisible(not is_presenting)
+        self._page_layout.setContentsMargins(*(PRESENTED_MARGINS if is_presenting else MARGINS))
+        self.main_area.set_presenting(is_presenting)
+        self.column.set_presenting(is_presenting)
+        self.columns.set_presenting(is_presenting)
 
     # Views.
 

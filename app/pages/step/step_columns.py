@@ -14,6 +14,8 @@ WIDTHS = (22.0, 26.5)
 NARROWEST = (15, 18)
 """Least widths of both, in heights of the text."""
 WIDEST = 60.0
+PRESENTED = 0.39
+"""Part of the page that the inspector takes while presenting; the picture has 55 % of the screen."""
 SIDES_AT_MOST = 0.66
 """Largest part of the page that both take together."""
 
@@ -25,12 +27,18 @@ class StepColumns(PaneSplitter):
         super().__init__(Qt.Orientation.Horizontal, parent)
         self._sides = (side, inspector)
         self._widths = list(WIDTHS)
+        self._is_presenting = False
         for widget in (side, main, inspector):
             self.addWidget(widget)
         self.setStretchFactor(1, 1)
         self.setChildrenCollapsible(False)
         self.splitterMoved.connect(self._remember)
         theme_notifier().theme_changed.connect(self.spread)
+        self.spread()
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Give the inspector a fixed part of the page, or its own width again."""
+        self._is_presenting = is_presenting
         self.spread()
 
     @Slot()
@@ -43,6 +51,8 @@ class StepColumns(PaneSplitter):
             0.0 if widget.isHidden() else width * text
             for widget, width in zip(self._sides, self._widths, strict=True)
         ]
+        if self._is_presenting and wanted[1]:
+            wanted[1] = PRESENTED * self.width()
         scale = min(1.0, SIDES_AT_MOST * self.width() / max(sum(wanted), 1.0))
         left, right = (round(width * scale) for width in wanted)
         self.setSizes([left, max(self.width() - left - right, 1), right])
@@ -56,7 +66,7 @@ class StepColumns(PaneSplitter):
     def _remember(self) -> None:
         """Keep the widths that the user has dragged the columns to."""
         for place, widget in enumerate(self._sides):
-            if not widget.isHidden():
+            if not (widget.isHidden() or self._is_presenting):
                 self._widths[place] = widget.width() / current_theme().text_px
 
     def saveState(self) -> QByteArray:

@@ -40,6 +40,7 @@ EVERYTHING = Look(
     other={"fill": "hierarchy", "block_size": 4},
     other_buffer="depth",
     panes=["overlays"],
+    text_size=125,
     event="tie",
 )
 FRAME_BUFFERS = ("color", "depth", "primitive", "attributes", "cover_count")

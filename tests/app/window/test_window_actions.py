@@ -93,8 +93,7 @@ def put_back(window: MainWindow, document: Document) -> None:
     window.pages.show_page("step")
     while window.overlays.close_top():
         pass
-    if window.isFullScreen():
-        window.toggle_presenter()
+    window.presenter.leave()
     if window.page.prediction.isVisible():
         window.toggle_predict()
     if current_theme().name != "light":

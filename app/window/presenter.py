@@ -1,0 +1,170 @@
+"""Presenting: the whole screen for the picture and the step, large type, and the keys of a clicker."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QLineEdit, QWidget
+
+from app.window.appearance import the_application
+from widgets.basics.theme import current_theme
+
+if TYPE_CHECKING:
+    from app.window.main_window import MainWindow
+
+CLICKER = {
+    Qt.Key.Key_PageDown: "step_forward",
+    Qt.Key.Key_PageUp: "step_back",
+    Qt.Key.Key_F5: "start",
+    Qt.Key.Key_B: "black",
+    Qt.Key.Key_Period: "black",
+}
+"""What the keys that clickers send do while presenting."""
+PRESENTED_PANES = ("inspector",)
+"""Panes that are shown at first."""
+
+
+@dataclass(frozen=True)
+class _Desk:
+    """What leaving brings back."""
+
+    theme: str
+    window_state: Qt.WindowState
+    panes: list[str]
+    layout: dict[str, str]
+
+
+class Presenter(QObject):
+    """Arranges a window for presenting, and back again as it was."""
+
+    presenting_changed = Signal(bool)
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__(window)
+        self._desk: _Desk | None = None
+        self._blank = QWidget(window)
+        self._blank.setStyleSheet("background: #000000")
+        self._blank.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self._blank.setAccessibleName("Black screen")
+        self._blank.hide()
+        self.hint = QLabel(window)
+        self.hint.setProperty("role", "floating")
+        self.hint.setWordWrap(True)
+        self.hint.hide()
+        window.statusBar().messageChanged.connect(self._show_hint)
+
+    @property
+    def _window(self) -> "MainWindow":
+        # Not an attribute: a window in a cycle would not be deleted when it is released.
+        window: MainWindow = self.parent()  # type: ignore[assignment]
+        return window
+
+    @property
+    def is_presenting(self) -> bool:
+        """Whether the window is arranged for presenting."""
+        return self._desk is not None
+
+    def toggle(self) -> None:
+        """Fill the screen and arrange the window for presenting, or go back to the desk."""
+        if self.is_presenting:
+            self.leave()
+        else:
+            self.arrange()
+            self._window.showFullScreen()
+
+    def arrange(self) -> None:
+        """Show only what the step needs, in large type: without filling the screen."""
+        window, page = self._window, self._window.page
+        self._desk = _Desk(
+            window.appearance.name, window.windowState(), page.shown_panes(), page.layout_state()
+        )
+        window.menuBar().hide()
+        window.pages.show_bar(False)
+        page.set_presenting(True)
+        page.show_panes(PRESENTED_PANES)
+        window.appearance.set_theme("presenter-dark" if current_theme().is_dark else "presenter")
+        the_application().installEventFilter(self)
+        self.presenting_changed.emit(True)
+
+    def leave(self) -> None:
+        """Go back to the desk: the window as it was."""
+        if self._desk is None:
+            return
+        window, page, desk = self._window, self._window.page, self._desk
+        self._desk = None
+        the_application().removeEventFilter(self)
+        self._blank.hide()
+        self.hint.hide()
+        window.menuBar().show()
+        window.pages.show_bar(True)
+        page.set_presenting(False)
+        window.setWindowState(desk.window_state)
+        window.appearance.set_theme(desk.theme)
+        page.show_panes(desk.panes)
+        page.restore_layout(desk.layout)
+        self.presenting_changed.emit(False)
+
+    def end_black(self) -> bool:
+        """Show the picture again; return whether the screen was black."""
+        was_black = self._blank.isVisible()
+        self._blank.hide()
+        return was_black
+
+    def place(self) -> None:
+        """Follow the size of the window."""
+        if self._desk is not None:
+            self._window.appearance.follow_height()
+            self._blank.setGeometry(self._window.rect())
+            self._place_hint()
+
+    # The clicker.
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take the keys of a clicker, wherever the focus is, but for what is being typed."""
+        if isinstance(event, QKeyEvent) and self._takes(event):
+            if event.type() == QEvent.Type.ShortcutOverride:
+                event.accept()
+                return True
+            if event.type() == QEvent.Type.KeyPress:
+                self._click(CLICKER[Qt.Key(event.key())])
+                return True
+        return False
+
+    def _takes(self, event: QKeyEvent) -> bool:
+        """Return whether a key is a clicker's."""
+        if QApplication.activeModalWidget() or QApplication.activePopupWidget():
+            return False
+        is_typing = isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
+        return event.key() in CLICKER and not event.modifiers() and not is_typing
+
+    def _click(self, action: str) -> None:
+        """Do what a clicker means; what is black is shown first."""
+        is_black = self._blank.isVisible()
+        self._blank.setVisible(action == "black" and not is_black)
+        if action == "black":
+            self._blank.setGeometry(self._window.rect())
+            self._blank.raise_()
+        elif not is_black:
+            self._window.pages.show_page("step")
+            if action == "start":
+                self._window.page.stepping.choose_stage(0)
+            else:
+                self._window.run_action(action)
+
+    # Hints, whose bar is out of sight.
+
+    @Slot(str)
+    def _show_hint(self, text: str) -> None:
+        self.hint.setVisible(bool(text) and self.is_presenting)
+        self.hint.setText(text)
+        self._place_hint()
+
+    def _place_hint(self) -> None:
+        """Lie over the lower left corner: nothing moves for it."""
+        if self.hint.isVisible():
+            room = self._window.rect().adjusted(16, 16, -16, -16)
+            self.hint.setMaximumWidth(room.width())
+            self.hint.adjustSize()
+            self.hint.move(room.left(), room.bottom() - self.hint.height())
+            self.hint.raise_()

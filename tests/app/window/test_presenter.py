@@ -1,0 +1,150 @@
+"""Presenting: type and picture that can be seen across a room, a clicker's keys, and the way back."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFontMetricsF, QImage
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from app.window.main_window import MainWindow
+from core import STAGES
+from core.explain.records import Formula
+
+SIZES = [(1280, 720), (1920, 1080)]
+
+
+def present(window: MainWindow, size: tuple[int, int]) -> None:
+    """Arrange a window of a size for presenting, from the program's own look."""
+    window.appearance.set_theme("light")
+    window.resize(*size)
+    window.presenter.arrange()
+    window.page.settle()
+
+
+def ink_height(widget: QWidget) -> int:
+    """Return the height in pixels of what is drawn on the plain ground of a widget."""
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+    rows = np.frombuffer(image.constBits(), np.uint32).reshape(image.height(), image.width())
+    inside = rows[2:-2, 2:-2]
+    drawn = np.flatnonzero((inside != inside[0, 0]).any(axis=1))
+    return int(drawn[-1] - drawn[0] + 1) if len(drawn) else 0
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_type_and_picture_are_as_large_as_a_lecture_hall_needs(
+    window: MainWindow, size: tuple[int, int]
+) -> None:
+    present(window, size)
+    page, height = window.page, size[1]
+    assert (window.width(), window.height()) == size
+    picture = page.main_view()
+    assert picture.width() * picture.height() >= 0.55 * size[0] * size[1]
+    page.sentence.setText("H")
+    page.formula.show_formula(Formula("E", ""))
+    page.settle()
+    assert ink_height(page.sentence) >= 0.022 * height
+    assert ink_height(page.formula) >= 0.022 * height
+    assert QFontMetricsF(page.listing.font()).tightBoundingRect("H").height() >= 0.018 * height
+
+
+@pytest.mark.slow
+def test_the_formulas_of_a_run_are_not_shrunk(window: MainWindow, qtbot: QtBot) -> None:
+    present(window, (1280, 720))
+    page, session, formula = window.page, window.session, window.page.formula
+    for stage in STAGES:
+        session.set_stage(stage)
+        for position in np.linspace(1, session.cursor.position, 3).astype(int).tolist():
+            session.go_to(position)
+            page.settle()
+            qtbot.waitUntil(lambda: formula.heightForWidth(formula.width()) <= formula.height())
+
+
+def test_only_what_the_step_needs_is_shown_and_the_rest_comes_by_key(window: MainWindow) -> None:
+    page = window.page
+    present(window, (1920, 1080))
+    rest = {Qt.Key.Key_R: page.timeline, Qt.Key.Key_T: page.strip, Qt.Key.Key_H: page.detail_tabs}
+    rest[Qt.Key.Key_S] = page.outline
+    assert page.sentence.isVisible()
+    assert not any(
+        widget.isVisible()
+        for widget in (*rest.values(), window.menuBar(), window.pages.bar, page.side_tabs, page.card)
+    )
+    for key, widget in rest.items():
+        QTest.keyClick(window, key)
+        assert widget.isVisible()
+        QTest.keyClick(window, key)
+        assert not widget.isVisible()
+
+
+def test_a_clicker_steps_starts_and_blacks_out_here_and_only_here(window: MainWindow) -> None:
+    session, stepping = window.session, window.page.stepping
+    before = session.cursor
+    session.set_pin((20, 20))
+    QTest.keyClick(window, Qt.Key.Key_B)
+    assert stepping.pixel_breakpoints == {(20, 20)}
+    QTest.keyClick(window, Qt.Key.Key_PageDown)
+    assert session.cursor == before
+    present(window, (1280, 720))
+    window.page.grid.setFocus()
+    QTest.keyClick(window.page.grid, Qt.Key.Key_PageDown)
+    assert session.cursor.position > before.position
+    QTest.keyClick(window.page.grid, Qt.Key.Key_PageUp)
+    assert session.cursor == before
+    for key in (Qt.Key.Key_B, Qt.Key.Key_Period):
+        QTest.keyClick(window, key)
+        assert window.grab().toImage().pixelColor(640, 360) == Qt.GlobalColor.black
+        QTest.keyClick(window, Qt.Key.Key_PageDown)
+        assert window.grab().toImage().pixelColor(640, 5) != Qt.GlobalColor.black
+        assert session.cursor == before
+    assert stepping.pixel_breakpoints == {(20, 20)}
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    assert (session.cursor.stage, session.cursor.position) == (STAGES[0], 0)
+    window.overlays.ask_pixel()
+    QTest.keyClicks(window.overlays.ask_bar.field, "b.")
+    assert window.overlays.ask_bar.field.text() == "b."
+
+
+@pytest.mark.parametrize("theme", [pytest.param("light", marks=pytest.mark.slow), "dark"])
+def test_leaving_brings_the_window_back(window: MainWindow, qtbot: QtBot, theme: str) -> None:
+    page = window.page
+    window.appearance.set_theme(theme)
+    page.show_panes(["methods", "inspector", "details", "run"])
+    page.settle()
+
+    def desk() -> tuple[object, ...]:
+        shown = (window.menuBar(), window.pages.bar, page.side_tabs, page.card, page.main_area.view_bar)
+        return (
+            window.geometry(),
+            window.windowState(),
+            window.appearance.name,
+            page.shown_panes(),
+            [part.geometry() for part in (page.main_area, page.column, page.listing, page.detail_tabs)],
+            [widget.isVisible() for widget in shown],
+        )
+
+    for _ in range(5):
+        page.settle()
+    before = desk()
+    keys = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    QTest.keyClick(window, Qt.Key.Key_P, keys)
+    assert window.isFullScreen()
+    assert window.appearance.name == ("presenter" if theme == "light" else "presenter-dark")
+    large = page.sentence.font().pixelSize()
+    QTest.keyClick(window, Qt.Key.Key_T, Qt.KeyboardModifier.ControlModifier)
+    assert window.appearance.name == ("presenter-dark" if theme == "light" else "presenter")
+    assert page.sentence.font().pixelSize() == large
+    QTest.keyClick(window, Qt.Key.Key_T)
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert not window.isFullScreen()
+    qtbot.waitUntil(lambda: desk() == before)
+
+
+def test_hints_are_seen_although_their_bar_is_not(window: MainWindow) -> None:
+    present(window, (1280, 720))
+    picture = window.page.main_view().geometry()
+    window.run_action("next_at_pin")
+    assert window.presenter.hint.isVisible()
+    assert window.presenter.hint.text() == "Pin a pixel first: click it."
+    assert window.page.main_view().geometry() == picture
