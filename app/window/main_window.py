@@ -253,9 +253,10 @@ class MainWindow(QMainWindow):
             self.files.progress.cancel()
         elif self.messages.isVisible():
             self.messages.dismiss()
-        elif self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home():
-            if not self.pages.current.dismiss():
-                self.presenter.leave()
+        elif (
+            self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home()
+        ) and not self.pages.current.dismiss():
+            self.presenter.leave()
 
     def undo(self) -> None:
         """Take the last edit back, or say that there is none."""

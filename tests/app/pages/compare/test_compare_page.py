@@ -15,7 +15,7 @@ from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
 from core.study.accuracy.families import study_families
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
-from widgets.basics.theme import LIGHT, PRESENTER
+from widgets.basics.theme import LIGHT, current_theme
 
 
 @pytest.fixture
@@ -263,12 +263,12 @@ def test_a_hidden_page_draws_no_points_until_it_is_seen(
 
 
 def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, page: ComparePage) -> None:
-    window.resize(1800, 1000)
+    window.resize(1800, 700)
     QApplication.processEvents()
     before = page.columns.sizes()[0]
     window.appearance.set_theme("presenter")
     large = page.columns.sizes()[0]
-    assert large == pytest.approx(before * PRESENTER.text_px / LIGHT.text_px, abs=2)
+    assert large == pytest.approx(before * current_theme().text_px / LIGHT.text_px, abs=2)
     state = page.layout_state()
     assert page.columns.sizes()[0] == large, "saving moves nothing"
     window.appearance.set_theme("light")

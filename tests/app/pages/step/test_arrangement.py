@@ -81,16 +81,16 @@ def test_no_step_of_a_stage_moves_the_grid(window: MainWindow) -> None:
 
 def test_panes_are_folded_at_first_and_come_by_keys(window: MainWindow) -> None:
     page = window.page
-    assert page.shown_panes() == ["inspector", "navigator"]
+    assert page.shown_panes() == ["inspector", "details", "navigator", "run"]
     assert not page.outline.isVisible()
     page.side_tabs.buttons["scene"].click()
     assert page.outline.isVisible()
     assert page.columns.sizes()[0] >= 200
     page.side_tabs.buttons["methods"].click()
-    assert page.shown_panes() == ["methods", "inspector", "navigator"]
+    assert page.shown_panes() == ["methods", "inspector", "details", "navigator", "run"]
     assert window.menus.actions_by_name["pane_methods"].isChecked()
     page.side_tabs.buttons["methods"].click()
-    assert page.shown_panes() == ["inspector", "navigator"]
+    assert page.shown_panes() == ["inspector", "details", "navigator", "run"]
     assert page.side_panes.isHidden()
 
 
@@ -136,6 +136,6 @@ def test_the_layout_of_an_earlier_version_opens_as_at_first(window: MainWindow, 
     other.memory.restore(other)
     other.show()
     qtbot.waitExposed(other)
-    assert other.page.shown_panes() == ["inspector", "navigator"]
+    assert other.page.shown_panes() == ["inspector", "details", "navigator", "run"]
     assert area_of_the_view(other) >= 0.45
     other.close()
