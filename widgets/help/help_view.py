@@ -90,7 +90,7 @@ class HelpView(QWidget):
 
     def sizeHint(self) -> QSize:
         """Return a width of some fifty letters a line."""
-        return QSize(30 * current_theme().text_px, 600)
+        return QSize(27 * current_theme().text_px, 600)
 
     def show_page(self, address: str) -> None:
         """Show a page by its address, as ``term/depth-buffer``."""
