@@ -30,7 +30,7 @@ _ARROWS = {
     Qt.Key.Key_Up: (0, 1),
     Qt.Key.Key_Down: (0, -1),
 }
-_SMALLEST_CELL = 16
+_SMALLEST_CELL = 24
 """Pixels at text of normal size: enough to be clicked and to read the character."""
 
 

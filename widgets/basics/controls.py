@@ -7,6 +7,8 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolButton, QVBoxLayout
 Margins = tuple[int, int, int, int]
 """Logical pixels at the left, top, right and bottom."""
 Box = TypeVar("Box", QHBoxLayout, QVBoxLayout)
+LEAST_TARGET = 24
+"""Least width and height of what is clicked, in logical pixels (WCAG 2.2, 2.5.8)."""
 NO_MARGINS: Margins = (0, 0, 0, 0)
 
 

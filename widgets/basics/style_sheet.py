@@ -92,6 +92,10 @@ QTabBar::tab {
     background: transparent; color: $muted_text; padding: ${u}px ${uu}px; border: 2px solid transparent;
 }
 QTabBar::tab:selected { color: $text; border-bottom-color: $text; }
+QTabBar::scroller { width: 48px; }
+QTabBar QToolButton { min-width: 14px; padding: 3px ${u}px; }
+QListView::item { min-height: 24px; }
+QSlider:horizontal { min-height: 24px; }
 QTabBar::tab:focus { border-color: $focus; }
 
 QSplitter::handle:horizontal { width: ${uu}px; }

