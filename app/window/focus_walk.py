@@ -25,10 +25,11 @@ class FocusWalk(QObject):
         return self.parent()  # type: ignore[return-value]
 
     def panes(self) -> list[QWidget]:
-        """Return what Tab walks through: the page of keys alone where it is open, else the main view first."""
+        """Return what Tab walks through: a page of keys alone where one is open, else the main view first."""
         window = self.window
-        if window.overlays.key_help.isVisible():
-            return [window.overlays.key_help]
+        for whole in (window.overlays.keys.editor, window.overlays.key_help):
+            if whole.isVisible():
+                return [whole]
         panes = [window.pages.current.main_view(), *window.pages.current.focus_panes()]
         panes = [window.overlays.ask_bar, window.messages, *panes]
         return [*panes, window.help.dock] if window.help.dock is not None else panes

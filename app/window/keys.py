@@ -151,6 +151,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("help_glossary", (), "Glossary", HELP, "Help"),
     KeyAction("help_methods", (), "Methods: sources, limits, listings", HELP, "Help"),
     KeyAction("show_keys", ("?",), "All keys", HELP, "Help"),
+    KeyAction("change_keys", (), "Change keys…", HELP, "Help"),
     *_on(
         "step",
         KeyAction("next_triangle", ("Alt+J",), "Next triangle", EDITING, "Raster"),

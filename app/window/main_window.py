@@ -24,6 +24,7 @@ from app.session.document_edits import DocumentEdits
 from app.session.session import Session
 from app.window.appearance import Appearance, the_application
 from app.window.focus_walk import FocusWalk
+from app.window.key_choices import KeyChoices
 from app.window.keys import has_use_for
 from app.window.menus import Menus
 from app.window.message_words import sentence_case, sentences
@@ -128,6 +129,8 @@ class MainWindow(QMainWindow):
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self.refuse)
+        self.overlays.keys.keys_changed.connect(self._take_keys)
+        self.overlays.keys.set_choices(self.memory.key_choices())
         self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
@@ -175,6 +178,7 @@ class MainWindow(QMainWindow):
             "help_glossary": lambda: self.help.show_page("glossary"),
             "help_methods": lambda: self.help.show_page("methods"),
             "show_keys": self.overlays.toggle_keys,
+            "change_keys": self.overlays.change_keys,
             "next_pane": lambda: self.focus_walk.go_pane(1),
             "previous_pane": lambda: self.focus_walk.go_pane(-1),
             "undo": self.undo,
@@ -283,6 +287,13 @@ class MainWindow(QMainWindow):
         self.edits.show_whole()
         self.page.grid.fit()
         self.page.views.look_home()
+
+    @Slot(object)
+    def _take_keys(self, choices: KeyChoices) -> None:
+        """Let other keys do things, show them, and remember them."""
+        self.menus.show_keys(choices)
+        self.overlays.show_keys(self.pages.current_name)
+        self.memory.remember_keys(choices)
 
     def toggle_predict(self) -> None:
         """Ask before showing, or stop asking."""

@@ -12,6 +12,7 @@ from app.files.export_desk import SCALES
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import DESK_THEMES, TEXT_SIZES
+from app.window.key_choices import KeyChoices
 from app.window.keys import ACTIONS, KeyAction, key_text
 from app.window.preferences import preferences_folder
 from lessons.scenes import CATALOGUE
@@ -91,11 +92,9 @@ class Menus(QObject):
 
     def _make_action(self, entry: KeyAction, window: QMainWindow) -> QAction:
         made = QAction(entry.title, window)
-        made.setShortcuts([QKeySequence(key) for key in entry.keys])
         made.setCheckable(entry.is_checkable)
         made.setData(entry.name)
-        if entry.keys:
-            made.setToolTip(f"{entry.title} ({key_text(entry)})")
+        _give_keys(made, entry)
         made.triggered.connect(self._choose_action)
         self.actions_by_name[entry.name] = made
         return made
@@ -154,6 +153,11 @@ class Menus(QObject):
     def show_enabled(self, name: str, is_enabled: bool) -> None:
         """Show whether an action can be done now."""
         self.actions_by_name[name].setEnabled(is_enabled)
+
+    def show_keys(self, choices: KeyChoices) -> None:
+        """Let the actions have other keys."""
+        for entry in choices.table(ACTIONS):
+            _give_keys(self.actions_by_name[entry.name], entry)
 
     def show_page(self, name: str) -> None:
         """Offer the actions of a page and those of all pages; the others' keys are free for what is on the page."""
@@ -241,3 +245,8 @@ class Menus(QObject):
     @Slot(QAction)
     def _choose_text_size(self, action: QAction) -> None:
         self.text_size_chosen.emit(action.data())
+
+
+def _give_keys(made: QAction, entry: KeyAction) -> None:
+    made.setShortcuts([QKeySequence(key) for key in entry.keys])
+    made.setToolTip(f"{entry.title} ({key_text(entry)})" if entry.keys else entry.title)

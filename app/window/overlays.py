@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.pages.step.page import StepPage
+from app.window.key_desk import KeyDesk
 from app.window.keys import ACTIONS, LOCAL_KEYS, key_text
 from core.trace.conditions import variable_names
 from widgets.basics.ask_bar import AskBar
@@ -23,20 +24,28 @@ class Overlays(QObject):
         self.key_help = KeyHelp(window)
         self.key_help.hide()
         self.key_help.closed.connect(self.key_help.hide)
+        self.key_help.change_wanted.connect(self.change_keys)
+        self.keys = KeyDesk(window)
         self.ask_bar = AskBar(window)
         self.ask_bar.text_entered.connect(self._take_answer)
 
     def show_page(self, name: str) -> None:
         """Show the keys of a page and those of all pages."""
-        actions = [action for action in (*ACTIONS, *LOCAL_KEYS) if action.keys and action.page in ("", name)]
-        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
+        self.show_keys(name)
         self.ask_bar.hide()
+
+    def show_keys(self, name: str) -> None:
+        """Show the keys as they are now on the page of keys."""
+        table = self.keys.choices.table((*ACTIONS, *LOCAL_KEYS))
+        actions = [action for action in table if action.keys and action.page in ("", name)]
+        self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
 
     def place(self) -> None:
         """Keep what lies over the page inside of it."""
         inside = self._below.geometry()
-        if self.key_help.isVisible():
-            self.key_help.setGeometry(inside.adjusted(24, 24, -24, -24))
+        for whole in (self.key_help, self.keys.editor):
+            if whole.isVisible():
+                whole.setGeometry(inside.adjusted(24, 24, -24, -24))
         if self.ask_bar.isVisible():
             width = min(inside.width() - 48, 720)
             height = max(self.ask_bar.heightForWidth(width), self.ask_bar.sizeHint().height())
@@ -44,7 +53,7 @@ class Overlays(QObject):
 
     def close_top(self) -> bool:
         """Close the overlay on top; return whether there was one."""
-        for overlay in (self.key_help, self.ask_bar):
+        for overlay in (self.keys.editor, self.key_help, self.ask_bar):
             if overlay.isVisible():
                 overlay.hide()
                 return True
@@ -55,6 +64,15 @@ class Overlays(QObject):
         self.key_help.setVisible(not self.key_help.isVisible())
         self.place()
         self.key_help.raise_()
+
+    @Slot()
+    def change_keys(self) -> None:
+        """Show the page on which keys are changed."""
+        self.key_help.hide()
+        self.keys.editor.show()
+        self.keys.show_table()
+        self.place()
+        self.keys.editor.raise_()
 
     def ask_pixel(self) -> None:
         """Ask for a pixel to pin."""

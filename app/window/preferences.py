@@ -52,6 +52,10 @@ class Preferences(BaseModel):
     """Level of stepping, a ``core.records.steps.Level``."""
     speed: Annotated[float, Field(gt=0)] = 4.0
     """Steps per second while playing."""
+    keys: dict[str, list[str]] = {}
+    """Changed keys by the names of their actions, as Qt's portable texts."""
+    has_character_keys: bool = True
+    """Whether letters, digits and signs alone are keys."""
 
 
 def with_recent_file(preferences: Preferences, path: str | Path) -> Preferences:

@@ -9,6 +9,7 @@ from app.files.autosave import Autosave
 from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
 from app.window.appearance import DESK_THEMES
+from app.window.key_choices import KeyChoices, choices_from
 from app.window.preferences import Preferences, save_preferences, with_recent_file
 from core.records.steps import Level
 
@@ -59,6 +60,16 @@ class Remembering(QObject):
     def remember(self, name: str, value: object) -> None:
         """Keep a preference by its name."""
         self.preferences = self.preferences.model_copy(update={name: value})
+
+    def key_choices(self) -> KeyChoices:
+        """Return the keys that were chosen in earlier windows."""
+        return choices_from(self.preferences.keys, self.preferences.has_character_keys)
+
+    def remember_keys(self, choices: KeyChoices) -> None:
+        """Keep which keys do what."""
+        keys = {name: list(keys) for name, keys in choices.changed.items()}
+        update = {"keys": keys, "has_character_keys": choices.has_characters}
+        self.preferences = self.preferences.model_copy(update=update)
 
     @Slot(str)
     def remember_theme(self, name: str) -> None:

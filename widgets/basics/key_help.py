@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 
@@ -36,6 +36,8 @@ class KeyHelp(QWidget):
 
     closed = Signal()
     """The user wants to leave the page."""
+    change_wanted = Signal()
+    """The user wants other keys."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -55,6 +57,8 @@ class KeyHelp(QWidget):
         close = flat_button("✕", "Close the keys page", "Close (Escape)", self)
         close.clicked.connect(self.closed)
         self.close_button = close
+        self.change_button = button_with_tip("Change keys…", "Give actions other keys, or none", self)
+        self.change_button.clicked.connect(self.change_wanted)
         self.none_found = text_label("No key does that.", self, role="muted")
         self.none_found.hide()
         self._scroll = QScrollArea(self)
@@ -65,6 +69,7 @@ class KeyHelp(QWidget):
         top.addWidget(title)
         top.addWidget(self.search, 1)
         top.addStretch(1)
+        top.addWidget(self.change_button)
         top.addWidget(close)
         layout = column_layout(self, 12, margins=(16, 12, 16, 12))
         layout.addLayout(top)

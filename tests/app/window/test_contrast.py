@@ -152,6 +152,7 @@ def test_the_focus_can_be_seen(window: MainWindow, styled: Theme, page: str) -> 
             continue
         area = QRect(stop.mapTo(window, QPoint(0, 0)), stop.size()).adjusted(-3, -3, 3, 3)
         area &= QRect(QPoint(0, 0), window.size())
+        stop.clearFocus()
         stop.setFocus(Qt.FocusReason.TabFocusReason)
         if window.focusWidget() is not stop:
             continue
