@@ -124,8 +124,10 @@ def value_columns(box: QRect) -> tuple[QRect, QRect, QRect]:
 
 
 def _value_width(width: int) -> int:
-    figures = QFontMetrics(_small_font()).horizontalAdvance("0.0000")
-    return min(8 * figures // 3, max(round(figures * 1.7), width // 5))
+    # A depth in float32 needs eight digits to be told from its neighbours.
+    figures = QFontMetrics(_small_font()).horizontalAdvance("0.00000000")
+    least = figures + QFontMetrics(_text_font()).height() + 8
+    return min(3 * least // 2, max(least, width // 5))
 
 
 def _text_font() -> QFont:

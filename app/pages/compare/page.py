@@ -58,7 +58,7 @@ class ComparePage(ResultPage):
         self.setFocusProxy(self.scatter)
 
     def _tabs(self) -> QWidget:
-        panes = ((self.scatter, 3, 560), (self.legend, 1, 170), (self.growth, 2, 340))
+        panes = ((self.scatter, 3, 540), (self.legend, 1, 230), (self.growth, 2, 300))
         self.charts = splitter(Qt.Orientation.Horizontal, panes, self)
         self.tabs = QTabWidget(self)
         self.tabs.setDocumentMode(True)

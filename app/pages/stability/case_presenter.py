@@ -12,6 +12,7 @@ from app.pages.stability.records import (
     case_record,
     first_failure,
     has_formats,
+    method_titles,
     place_on_curve,
     place_sentence,
     shrunk_record,
@@ -89,7 +90,7 @@ class StabilityCasePresenter(QObject):
         self._steps_when_found = False
         experiment, info = self._results.choice.experiment, self._results.info
         values = values_at(info, place)
-        heading = f"{place.key} at {place_sentence(info, values)}"
+        heading = f"{method_titles((*info.methods, place.key))[place.key]} at {place_sentence(info, values)}"
         self._view.show()
         if experiment is None:
             self._view.show_waiting(heading, _no_experiment(info.name))

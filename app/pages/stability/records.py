@@ -232,7 +232,8 @@ def counts_sentence(result: AtlasResult) -> str:
     cells = sum(each.outcome.size for each in result.atlas.maps)
     if not total:
         return f"None of {cells:,} runs fails."
-    return f"{total:,} of {cells:,} runs fail; {worst} most often, {fails[worst]:,} times."
+    title = method_titles(tuple(fails))[worst]
+    return f"{total:,} of {cells:,} runs fail; {title} most often, {fails[worst]:,} times."
 
 
 COLORS = {

@@ -1,8 +1,9 @@
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor, QGuiApplication
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication
 
 from widgets.basics.marks import Mark
+from widgets.basics.theme import current_theme
 from widgets.inspector.history_row import is_stacked, value_columns
 from widgets.inspector.history_view import HistoryEntry, PixelHistory, PixelStory, PixelValue
 
@@ -25,7 +26,7 @@ STORY = PixelStory(
 def history(qtbot) -> PixelHistory:
     result = PixelHistory()
     qtbot.addWidget(result)
-    result.resize(340, 320)
+    result.resize(480, 320)
     result.show_story(STORY)
     result.show()
     qtbot.waitExposed(result)
@@ -112,3 +113,16 @@ def test_a_narrow_pane_puts_the_values_under_the_title(history) -> None:
     assert is_stacked(narrow.width())
     assert narrow.height() > wide.height()
     assert value_columns(narrow)[2].right() <= narrow.right()
+
+
+@pytest.mark.parametrize("width", [240, 350, 420, 700])
+def test_a_depth_of_eight_digits_has_room(qapp, width: int) -> None:
+    box = QRect(0, 0, width, 20)
+    font = QFont(qapp.font())
+    font.setPixelSize(current_theme().small_px)
+    needed = QFontMetrics(font).horizontalAdvance("0.62499994")
+    swatch = QFontMetrics(qapp.font()).height() + 2
+    for cell in value_columns(box):
+        assert box.left() <= cell.left()
+        assert cell.right() <= box.right()
+        assert width < 300 or cell.width() - swatch >= needed
