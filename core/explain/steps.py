@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from core.explain.digits import in_words, spoken, vector_text
+from core.explain.kinds import of_kind
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
@@ -53,7 +54,8 @@ def account(
     """
     text, made = _said(StepValues(explanation, triangle, pixel))
     standing = made if made is not None else _earlier_formula(explanation, triangle, pixel)
-    return in_words(text, standing.digits if standing is not None else {}), made
+    said = in_words(text, standing.digits if standing is not None else {})
+    return of_kind(said, explanation.corner_count), made
 
 
 def _earlier_formula(

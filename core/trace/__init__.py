@@ -4,6 +4,7 @@
 and what traces it is imported no earlier.
 """
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
@@ -44,7 +45,9 @@ class Trace:
         if name not in self._stages:
             from core.trace.tracers import trace_stage
 
-            self._stages[name] = trace_stage(self.source, name)
+            found = trace_stage(self.source, name)
+            corner_count = self.source.scene.corner_count
+            self._stages[name] = found if corner_count == 3 else replace(found, corner_count=corner_count)
         return self._stages[name]
 
 

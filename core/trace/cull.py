@@ -31,16 +31,19 @@ def trace_cull(source: TraceSource) -> StageTrace:
     applies[:, 7] = culled.facing == 0
     applies[:, 8] = (culled.verdict != KEPT) & (culled.verdict < DEGENERATE)
     runs = np.cumsum(applies, axis=1) - applies == 0
-    if source.geometry.vertices.corner_count < 3:
+    corner_count = source.geometry.vertices.corner_count
+    if corner_count < 3:
         runs[:, 7:9] = False
     which, test = np.nonzero(runs)
     kind = np.array([0, *[1] * 6, 2, 3, 4])[test]
     plane = np.clip(test - 1, 0, 5)
     verdict = np.array(REASONS)[culled.verdict]
     columns = {
-        "w": assembled.clip[which][..., 3],
+        "w": assembled.clip[which][:, :corner_count, 3],
         "plane": np.array(PLANES)[plane],
-        "distances": np.take_along_axis(culled.distances[which], plane[:, None, None], axis=2)[..., 0],
+        "distances": np.take_along_axis(culled.distances[which], plane[:, None, None], axis=2)[
+            :, :corner_count, 0
+        ],
         "facing": culled.facing[which],
         "is_projected": projected[which],
         "applies": applies[which, test],

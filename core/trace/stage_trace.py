@@ -79,6 +79,8 @@ class Explanation:
     """Its line, from 1; 0: none."""
     earlier: tuple[str, ...] = ()
     """Keys of the operations that the row has done before."""
+    corner_count: int = 3
+    """Corners of what is drawn: 2 of segments, 1 of points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +106,8 @@ class StageTrace:
     """Records of the stage that its own view draws (blocks, clipped polygons, spaces of the vertices)."""
     constants: Mapping[str, Value] = field(default_factory=dict)
     """Variables that are the same in all rows."""
+    corner_count: int = 3
+    """Corners of what is drawn: 2 of segments, 1 of points."""
 
     def kind_of(self, row: int) -> str:
         """Return the kind of a row."""
@@ -147,6 +151,7 @@ class StageTrace:
             listing=listing,
             line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,
             earlier=tuple(f"{self.stage}.{kind}.{o.name}" for o in operations[:operation]),
+            corner_count=self.corner_count,
         )
 
     def state(self, position: int) -> dict[str, NDArray[Any]]:

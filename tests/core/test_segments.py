@@ -1,5 +1,6 @@
 """Segments and points: pixels, clipping, stages, and the agreement of picture, trace, history and fast path."""
 
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core import ClipScene, Settings, draw_lines, render, trace
+from core import STAGES, ClipScene, Settings, draw_lines, render, trace
+from core.explain import account
 from core.geometry.culling import plane_distances
 from core.geometry.polygon_clipping.segments import clip_segments
 from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES
@@ -44,6 +46,12 @@ def test_a_strip_draws_the_pixels_of_its_vertices_once():
     index = np.array([[0, 1], [1, 2]])
     assert render(segments(corners[index], shared=index)).cover_count.max() == 1
     assert render(segments(corners[index])).cover_count.max() == 2
+
+
+def test_a_clipped_segment_draws_its_pixels_once():
+    beyond = segments([[[1.5, 1.5], [30, 4.5]], [[-9, 9], [40, 12]]])
+    frame = render(beyond, Settings(clipping="sutherland-hodgman"))
+    assert frame.cover_count.max() == 1
 
 
 @pytest.mark.parametrize("line", ["bresenham", "wu"])
@@ -132,3 +140,24 @@ def test_a_wrong_kind_and_a_wrong_shape_are_refused():
         ClipScene(np.zeros((1, 2, 4)), kind="lines")
     with pytest.raises(ValueError, match=r"clip must be \(T, 2, 4\)"):
         ClipScene(np.ones((1, 3, 4)), kind="segments")
+
+
+@pytest.mark.parametrize("kind", ["segments", "points"])
+def test_no_step_speaks_of_triangles(kind):
+    clip = np.array([[[-0.5, -0.5, 0, 1], [2.0, 0.4, 0.5, 1]]])[:, : CORNER_COUNTS[kind]]
+    run = trace(
+        ClipScene(clip, size=SIZE, kind=kind),
+        Settings(clipping="sutherland-hodgman", line_clipping="cohen-sutherland"),
+    )
+    said = []
+    for stage in STAGES:
+        found = run.stage(stage)
+        for row in np.unique(found.steps.kind, return_index=True)[1].tolist():
+            first = int(found.steps.starts[row])
+            operations = len(found.steps.operations[found.kind_of(row)])
+            for position in range(first + 1, first + operations + 1):
+                explanation = found.explain(position)
+                assert explanation is not None
+                said.append(account(explanation, int(found.triangle[row]), None)[0])
+    assert said
+    assert not [text for text in said if re.search("triangle|edge|corner", text, re.IGNORECASE)]

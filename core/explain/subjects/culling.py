@@ -21,7 +21,7 @@ def behind(step: StepValues) -> Said:
     """Whether all corners have w of 0 or less."""
     w = step.vector("w")
     compared = [comparison(f"w_{k}", r"\le", value) for k, value in enumerate(w)]
-    in_front = [k for k in range(3) if not w[k] <= 0]
+    in_front = [k for k, value in enumerate(w) if not value <= 0]
     name, found = f"Triangle {step.triangle}", f"w above 0 (w = {_listed(w)})"
     if step.flag("applies"):
         text = f"{name} is behind the eye and dropped: no corner has {found}."
@@ -37,7 +37,8 @@ def plane(step: StepValues) -> Said:
     distances, name = step.vector("distances"), step.text("plane")
     compared = [comparison(f"d_{k}", "<", distance) for k, distance in enumerate(distances)]
     inside = sum(not value < 0 for value in distances)
-    corners = f"{('no', 'one', 'two', 'all')[inside]} of its corners {'are' if inside > 1 else 'is'} inside"
+    number = "all" if inside == len(distances) else ("no", "one", "two")[inside]
+    corners = f"{number} of its corners {'are' if inside > 1 else 'is'} inside"
     verdict = f"is kept: {corners}"
     if step.flag("applies"):
         verdict = "is dropped: all its corners are outside"
