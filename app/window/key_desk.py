@@ -39,7 +39,8 @@ class KeyDesk(QObject):
         if self.editor.isVisible():
             table = self.choices.table(ACTIONS)
             entries = [
-                KeyEntry(f"{a.group} ({a.page})" if a.page else a.group, key_text(a), a.title) for a in table
+                KeyEntry(f"{a.page.capitalize()}: {a.group}" if a.page else a.group, key_text(a), a.title)
+                for a in table
             ]
             self.editor.show_keys(entries, self.choices.has_characters)
 

@@ -16,6 +16,10 @@ KINDS: tuple[BufferKind, ...] = ("scalar", "signed", "color", "weights", "ids", 
 MINUS = "\u2212"
 
 
+NO_VALUE = "\u2013"
+"""What stands for the value of a pixel that has none."""
+
+
 @dataclass(frozen=True, eq=False)
 class GridBuffer:
     """A buffer of the frame as a pixel grid shows it."""
@@ -99,7 +103,7 @@ class GridBuffer:
         """Return the value of a pixel on one line, with its unit; ``digits`` 0 gives full precision."""
         lines = self.lines_at(column, row, digits)
         if not lines:
-            return "\u2013"
+            return NO_VALUE
         text = lines[0] if len(lines) == 1 else "(" + ", ".join(lines) + ")"
         return f"{text} {self.unit}" if self.unit else text
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer import NO_VALUE, GridBuffer
 from widgets.grid.canvas import GridCanvas
 from widgets.grid.geometry import GridGeometry, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
@@ -181,8 +181,10 @@ class GridDisplay(QWidget):
     def spoken_description(self) -> str:
         """Return what a screen reader says of the pixels that are pinned and pointed at."""
         marked = (("Pinned pixel", self._pin), ("Pixel under the pointer", self._hover))
-        texts = [f"{what} {at[0]}, {at[1]}: {self.value_text(at)}" for what, at in marked if at is not None]
-        return "; ".join(texts)
+        texts = ((what, at, self.value_text(at)) for what, at in marked if at is not None)
+        return "; ".join(
+            f"{what} {x}, {y}: {'no value' if text == NO_VALUE else text}" for what, (x, y), text in texts
+        )
 
     def paint_to(self, painter: QPainter) -> None:
         """Paint the grid as it is seen, but as vectors, for an SVG or PDF of the widget's size."""

@@ -10,6 +10,7 @@ from widgets.basics.accessible import announce
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.listing import ListingView
+from widgets.timeline.transport import Timeline
 
 REST_MILLISECONDS = 150
 """Steps that follow each other faster than this are not said: only the one that is reached."""
@@ -25,13 +26,14 @@ class StepNarrator(QObject):
         formula: FormulaView,
         listing: ListingView,
         grid: PixelGrid,
+        timeline: Timeline,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._sentence = session, sentence
-        self._formula, self._listing, self._grid = formula, listing, grid
-        self._said = ("", "", "")
-        """Stage, step and value that were said last."""
+        self._formula, self._listing, self._grid, self._timeline = formula, listing, grid, timeline
+        self._said = ("", "", "", "")
+        """Stage, level, step and value that were said last."""
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(REST_MILLISECONDS)
@@ -52,10 +54,11 @@ class StepNarrator(QObject):
     @Slot()
     def _say(self) -> None:
         """Say what differs from what was said last."""
+        level = self._timeline.level_buttons[self._session.cursor.level].accessibleName()
         stage = f"Stage {stage_of(self._session.cursor.stage).short_title}"
         texts = (self._sentence.text(), self._listing.accessibleDescription())
         step = ". ".join(text.rstrip(".") for text in (*texts, self._formula.spoken()) if text)
-        now = (stage, step, self._grid.spoken_description())
+        now = (stage, level, step, self._grid.spoken_description())
         new = [text for text, before in zip(now, self._said, strict=True) if text and text != before]
         self._said = now
         announce(self._sentence, ". ".join(new), is_urgent=step in new)

@@ -82,7 +82,9 @@ class StepPage(Page):
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
-        self.narrator = StepNarrator(session, self.sentence, self.formula, self.listing, self.grid, self)
+        self.narrator = StepNarrator(
+            session, self.sentence, self.formula, self.listing, self.grid, self.timeline, self
+        )
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
         self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QWidget
 
 from app.pages.page_bar import Handlers
-from widgets.basics.accessible import announce
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.space.moved_area import MovedArea
 
@@ -72,6 +71,4 @@ def _nudge(page: "StepPage", across: int, up: int) -> None:
 
 
 def _tell_vertex(page: "StepPage") -> None:
-    text = page.grid.vertex_text()
-    page.message_sent.emit(f"{text}. Ctrl+Shift+arrows move it.")
-    announce(page.grid, text)
+    page.message_sent.emit(f"{page.grid.vertex_text()}. Ctrl+Shift+arrows move it.")

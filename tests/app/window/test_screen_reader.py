@@ -81,13 +81,16 @@ def test_every_step_is_announced(window: MainWindow, heard: Heard, qtbot: QtBot)
     assert "=" not in description(page.formula).replace(" = ", "")
     assert "Line " in text
     assert "Line " in description(page.listing)
+    heard.clear()
+    window.run_action("level_out")
+    qtbot.waitUntil(lambda: any("Step by" in text for _, text in heard))
 
 
 def test_what_is_shown_of_the_pin_is_current(window: MainWindow, heard: Heard, qtbot: QtBot) -> None:
     """The description of the grid has the value after the step, and moving the pin says the value there."""
     window.session.set_stage("raster", 0)
     window.session.set_pin((20, 20))
-    assert description(window.page.grid) == "Pinned pixel 20, 20: –"
+    assert description(window.page.grid) == "Pinned pixel 20, 20: no value"
     window.session.set_stage("raster", window.session.stage_trace.steps.count)
     assert description(window.page.grid) == "Pinned pixel 20, 20: 1"
     heard.clear()
