@@ -22,6 +22,7 @@ from app.pages.step.page import PANES, StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
+from app.views.view_space import LARGEST_WITH_CAMERA
 from app.window.appearance import Appearance, the_application
 from app.window.focus_walk import FocusWalk
 from app.window.key_choices import KeyChoices
@@ -277,16 +278,20 @@ class MainWindow(QMainWindow):
             self.tell("There is no edit to redo.")
 
     def fit_to_triangle(self) -> None:
-        """Fit the raster to the triangle in focus, and the 3D view too where that is shown."""
+        """Fit the raster to the triangle in focus; where the 3D view is shown, magnify it there or leave it."""
         self.edits.fit_region()
         if self.page.current_view() == "scene":
+            self.page.show_own_view()
             self.page.views.look_at_focus()
 
     def show_whole_picture(self) -> None:
-        """Show all of the picture in the grid, and all of the model in the 3D view."""
-        self.edits.show_whole()
+        """Show the whole model in the 3D view: its grid would hold a sliver. A small scene is shown on the grid."""
         self.page.grid.fit()
         self.page.views.look_home()
+        if self.session.document.triangle_count > LARGEST_WITH_CAMERA:
+            self.page.show_view("scene")
+        else:
+            self.edits.show_whole()
 
     @Slot(object)
     def _take_keys(self, choices: KeyChoices) -> None:

@@ -43,7 +43,7 @@ class Navigator(QWidget):
         self._image: QImage | None = None
         self._region = QRectF(0, 0, 1, 1)
         self._triangle: NDArray[np.float64] | None = None
-        self._aspect = 4 / 3
+        self._aspect, self._most = 4 / 3, 1000
         self._grab: QPointF | None = None
         self._ring = FocusRing(self)
         KeyClaim(self, tuple(_MOVES))
@@ -65,10 +65,10 @@ class Navigator(QWidget):
         self._image = image
         self.update()
 
-    def show_aspect(self, aspect: float) -> None:
-        """Take the shape of a picture: its width over its height."""
-        if aspect != self._aspect:
-            self._aspect = aspect
+    def show_shape(self, aspect: float, most: int) -> None:
+        """Take the shape of a picture, its width over its height, and no more than ``most`` logical pixels."""
+        if (aspect, most) != (self._aspect, self._most):
+            self._aspect, self._most = aspect, most
             self._fit()
 
     def show_region(self, region: QRectF, words: str) -> None:
@@ -168,7 +168,7 @@ class Navigator(QWidget):
     @Slot()
     def _fit(self) -> None:
         """Take the size that the picture's shape and the text ask for."""
-        side = WIDTH * current_theme().text_px
+        side = min(WIDTH * current_theme().text_px, self._most)
         wide = max(self._aspect, 0.05)
         size = QSize(side, round(side / wide)) if wide >= 1 else QSize(round(side * wide), side)
         self.setFixedSize(size.expandedTo(QSize(48, 48)) + QSize(2 * _FRAME, 2 * _FRAME))

@@ -36,6 +36,7 @@ class StageCardView(QWidget):
         font = self.fold_button.font()
         font.setBold(True)
         self.fold_button.setFont(font)
+        self.fold_button.setMinimumWidth(1)  # a narrow pane shortens the title
         self.fold_button.clicked.connect(self._fold)
         self._body = QWidget(self)
         grid = QGridLayout(self._body)

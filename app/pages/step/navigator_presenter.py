@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, QTimer, Slot
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QTimer, Signal, Slot
 
 from app.session.document import Document
 from app.session.latest_call import LatestCall
@@ -24,10 +24,15 @@ LONGER_SIDE = 320
 DRAWN_AFTER_MS = 150
 """The picture is drawn anew when nothing has changed for so long: not at every move of a drag."""
 MARGIN = 8
+PART_OF_GRID = 0.3
+"""Part of the grid's shorter side that the navigator takes at most."""
 
 
 class NavigatorPresenter(QObject):
     """Shows the navigator while the grid shows less than the whole picture, and moves what it shows."""
+
+    message_sent = Signal(str)
+    """What the user may want to know after a movement."""
 
     def __init__(
         self, session: Session, navigator: Navigator, grid: PixelGrid, parent: QObject | None = None
@@ -84,12 +89,15 @@ class NavigatorPresenter(QObject):
         region = self._seen()
         is_whole = region.width() > 0.999 and region.height() > 0.999
         is_shown = self._is_wanted and not is_whole and not self._session.is_predicting
+        if self._navigator.hasFocus() and not is_shown:
+            self._grid.setFocus()
         self._navigator.setVisible(is_shown)
         if not is_shown:
             return
         document = self._session.document
         width, height = document.scene.size
-        self._navigator.show_aspect(width / height)
+        most = round(PART_OF_GRID * min(self._grid.width(), self._grid.height()))
+        self._navigator.show_shape(width / height, most)
         self._navigator.show_region(region, _words(region, document))
         self._navigator.show_triangle(self._focus_corners())
         self._place()
@@ -189,6 +197,12 @@ class NavigatorPresenter(QObject):
     def _end_move(self) -> None:
         self._moves.flush()
         self._gestures += 1
+        region, corners = QRectF(*_region_of(self._session.latest)), self._focus_corners()
+        if corners is not None:
+            low, high = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+            if not region.intersects(QRectF(QPointF(*low), QPointF(*high))):
+                triangle = self._session.document.triangle
+                self.message_sent.emit(f"Triangle {triangle} is not in this region. F goes back to it.")
 
 
 def _region_of(document: Document) -> tuple[float, float, float, float]:

@@ -87,6 +87,7 @@ class StepPage(Page):
         )
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
+        self.navigation.message_sent.connect(self.message_sent)
         self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)

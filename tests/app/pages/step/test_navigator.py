@@ -46,11 +46,14 @@ def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
     document = model.session.document
     assert document.raster.origin is not None
     assert model.page.navigator.isVisible()
+    model.session.set_stage("raster", 0)
     model.run_action("whole_picture")
-    assert model.session.document.raster.origin is None
-    assert model.session.document.triangle == document.triangle
-    assert not model.page.navigator.isVisible()
+    assert model.page.current_view() == "scene"
     assert view.orbit() == home  # type: ignore[attr-defined]
+    assert model.session.document.triangle == document.triangle
+    model.run_action("fit_region")
+    assert model.page.current_view() == "pixels"
+    assert model.page.navigator.isVisible()
 
 
 def test_a_click_on_a_model_goes_into_the_triangle(model: MainWindow) -> None:
@@ -81,6 +84,7 @@ def test_the_navigator_moves_the_region(model: MainWindow, qtbot: QtBot) -> None
     assert before.origin is not None
     assert after.origin[0] < before.origin[0]
     assert after.origin[1] < before.origin[1]
+    assert "F goes back to it" in model.statusBar().currentMessage()
     page.grid.setFocus()
     navigator.setFocus(Qt.FocusReason.TabFocusReason)
     QTest.keyClick(navigator, Qt.Key.Key_Right)
