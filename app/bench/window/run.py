@@ -1,5 +1,6 @@
 """The measurement of the window from beginning to end: open, act, report, write."""
 
+import gc
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -37,6 +38,7 @@ def measure_window(
     scenes: Sequence[str], sizes: Iterable[tuple[int, int]], folder: Path | None, is_quick: bool
 ) -> int:
     """Measure windows of some sizes with some scenes, print a table for each, and write ``window.csv``."""
+    gc.freeze()  # as when the window is started
     apply_theme(the_application(), LIGHT)
     machine, display = this_machine(), QGuiApplication.platformName()
     print(
