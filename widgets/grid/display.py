@@ -9,7 +9,7 @@ from PySide6.QtGui import QAccessible, QColor, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.basics.key_claim import FocusRing
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.buffer import NO_VALUE, GridBuffer
 from widgets.grid.canvas import GridCanvas
 from widgets.grid.geometry import GridGeometry, paint_focus
@@ -34,6 +34,9 @@ class GridDisplay(QWidget):
         self._geometry: GridGeometry | None = None
         self._view = FIT
         self._corner = 0.0
+        # What is made again only where what it is made from differs.
+        self._placed: tuple[tuple[object, ...], GridPlacement] | None = None
+        self._beside_rulers: tuple[tuple[GridPlacement, QRect, Theme], QRegion] | None = None
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step = StepMark()
@@ -77,8 +80,13 @@ class GridDisplay(QWidget):
         buffer = self._canvas.buffer
         columns, rows = (buffer.columns, buffer.rows) if buffer else (1, 1)
         origin = buffer.origin if buffer else (0, 0)
-        viewport, ratio = self._viewport(rows + origin[1]), self.devicePixelRatioF()
-        return replace(place(columns, rows, viewport, self._view, ratio, self._corner), origin=origin)
+        ratio = self.devicePixelRatioF()
+        made_from = (columns, rows, origin, self.size(), self._view, self._corner, ratio, current_theme())
+        if self._placed is None or self._placed[0] != made_from:
+            viewport = self._viewport(rows + origin[1])
+            placed = place(columns, rows, viewport, self._view, ratio, self._corner)
+            self._placed = made_from, replace(placed, origin=origin)
+        return self._placed[1]
 
     def show_buffer(self, buffer: GridBuffer | None) -> None:
         """Show a buffer; only pixels that differ are painted again."""
@@ -240,7 +248,12 @@ class GridDisplay(QWidget):
 
     def _free(self, placement: GridPlacement) -> QRegion | None:
         """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
-        return None if self._compact else beside_rulers(placement, self.rect(), current_theme())
+        if self._compact:
+            return None
+        made_from = placement, self.rect(), current_theme()
+        if self._beside_rulers is None or self._beside_rulers[0] != made_from:
+            self._beside_rulers = made_from, beside_rulers(*made_from)
+        return self._beside_rulers[1]
 
     def _update_dirty(self) -> None:
         """Have the cells painted that changed."""

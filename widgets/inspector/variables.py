@@ -6,7 +6,16 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QAction, QColor, QFont, QGuiApplication, QKeySequence, QPainter, QPaintEvent
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QFont,
+    QFontMetrics,
+    QGuiApplication,
+    QKeySequence,
+    QPainter,
+    QPaintEvent,
+)
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -104,7 +113,7 @@ class VariablesView(QTreeWidget):
         header = self.header()
         header.setSectionsMovable(False)
         header.setStretchLastSection(False)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Fixed)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
         for column in (1, 2):
@@ -138,6 +147,7 @@ class VariablesView(QTreeWidget):
         if not is_same_rows:
             self.clear()
             self.addTopLevelItems([_new_item(variable) for variable in variables])
+            self._fit_names()
         self._fill()
 
     @Slot(bool)
@@ -201,6 +211,15 @@ class VariablesView(QTreeWidget):
                 box, flags, "The variables of each step appear here; changed ones are highlighted."
             )
 
+    def _fit_names(self) -> None:
+        """Give the names the room that they need in bold, so that what a step has changed moves no column."""
+        bold = QFont(self.font())
+        bold.setBold(True)
+        metrics, names = QFontMetrics(bold), [variable.name for variable in self._variables]
+        names += [self.headerItem().text(0)]
+        room = self.indentation() + 3 * metrics.horizontalAdvance("0")
+        self.header().resizeSection(0, max(map(metrics.horizontalAdvance, names)) + room)
+
     @Slot()
     def _fill(self) -> None:
         """Write what differs from what is written; the parts of a vector once it is open."""
@@ -248,6 +267,7 @@ class VariablesView(QTreeWidget):
 
     @Slot()
     def _follow_theme(self) -> None:
+        self._fit_names()
         self._fill()
         self.viewport().update()
 
