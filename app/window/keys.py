@@ -99,6 +99,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pin_right", ("Alt+Right",), "Move the pin right", POINTING),
         KeyAction("pin_up", ("Alt+Up",), "Move the pin up", POINTING),
         KeyAction("pin_down", ("Alt+Down",), "Move the pin down", POINTING),
+        KeyAction("value_origin_pixel", ("Y",), "Where does the pinned value come from?", POINTING, "Step"),
         KeyAction("go_to_pixel", ("Ctrl+G",), "Go to pixel…", POINTING, "View"),
         KeyAction("zoom_in", ("Alt++", "Alt+="), "Magnify the view, or the timeline in it", VIEWING, "View"),
         KeyAction("zoom_out", ("Alt+-",), "Magnify less", VIEWING, "View"),

@@ -24,6 +24,8 @@ class Origin:
     """Operations of the stage that are done when the number is there."""
     variable: str
     """Its name in that stage."""
+    is_alike: bool = False
+    """Whether that step makes the number's counterpart: of the same corners, but snapped."""
 
 
 Finder = Callable[[StageTrace, int, StageTrace, int], Integers]
@@ -38,6 +40,8 @@ class _Source:
     stage: str
     variable: str
     rows: Finder
+    is_alike: bool = False
+    """As of `Origin`: the numbers need not be equal."""
 
 
 def _same_fragment(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
@@ -50,6 +54,11 @@ def _same_fragment(here: StageTrace, row: int, there: StageTrace, element: int) 
 def _plain_fragment(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
     """Return the same where nothing is done to the colour: it has no texture and no light."""
     return _same_fragment(here, row, there, element)[: None if here.kind_of(row) == "plain" else 0]
+
+
+def _untextured_fragment(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
+    """Return the same where the surface has the colour of its vertices, lit or not."""
+    return _same_fragment(here, row, there, element)[: 0 if "textured" in here.kind_of(row) else None]
 
 
 def _same_pixel(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
@@ -112,8 +121,10 @@ SOURCES = {
     "edges.start": _Source("edges", "snapped", _end_of_edge(1)),
     "edges.finish": _Source("edges", "snapped", _end_of_edge(2)),
     **{f"raster.{name}": _Source("edges", name, _edge(4)) for name in ("a", "b", "c", "owns_tie")},
+    **{f"interpolate.{name}": _Source("edges", name, _edge(4), is_alike=True) for name in "abc"},
     "interpolate.corner_w": _Source("transform", "after_w", _corner("camera-to-clip")),
-    **{f"shade.{name}": _Source("interpolate", "color", _plain_fragment) for name in ("albedo", "color")},
+    "shade.color": _Source("interpolate", "color", _plain_fragment),
+    "shade.albedo": _Source("interpolate", "color", _untextured_fragment),
     "shade.vertex_color": _Source("interpolate", "color", _same_fragment),
     **{
         f"shade.{name}": _Source("interpolate", name, _same_fragment)
@@ -155,13 +166,20 @@ def origin(
     source = SOURCES.get(f"{stage}.{variable}")
     if source is not None:
         there = trace.stage(source.stage)
-        value = here.columns[variable][row]
-        value = value if element is None or np.ndim(value) == 0 else value[element]
+        whole = here.columns[variable][row]
+        value = whole if element is None or np.ndim(whole) == 0 else whole[element]
         held = there.columns.get(source.variable, np.empty(0))
         for candidate in source.rows(here, row, there, element or 0)[::-1] if len(held) else ():
+            there_held = held[candidate]
+            if element is not None and np.ndim(there_held) == np.ndim(whole) == 1:
+                if element >= len(there_held):
+                    continue
+                there_held = there_held[element]
             # A position may have a further component in one of the two.
-            if all(a == b for a, b in zip(np.ravel(held[candidate]), np.ravel(value), strict=False)):
-                return Origin(source.stage, _done_at(there, int(candidate), source.variable), source.variable)
+            is_same = all(a == b for a, b in zip(np.ravel(there_held), np.ravel(value), strict=False))
+            if is_same or source.is_alike:
+                made = _done_at(there, int(candidate), source.variable)
+                return Origin(source.stage, made, source.variable, not is_same)
     made = _done_at(here, row, variable)
     return Origin(stage, made, variable) if made < position else None
 

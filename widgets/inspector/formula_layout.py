@@ -15,6 +15,11 @@ from widgets.inspector.typesetter import Typesetter, typesetter_font
 
 _NUMBER = re.compile(r"^\(?[-\u2212]?\d+(?:\.\d*)?\)?$")
 _FRACTION = re.compile(r"^\\d?frac\{([-\u2212]?\d+(?:\.\d*)?)\}\{([-\u2212]?\d+(?:\.\d*)?)\}$")
+_IN_TEXT = re.compile(r"(?<![\w.])[-\u2212]?\d+(?:\.\d+)?(?: \u00b7 10\^[-\u2212]?\d+)?")
+"""A number in plain text; large and small ones have a power of ten."""
+_SYMBOL = re.compile(r"[-\u2212]?\d+(?:\.\d+)?|[^\W\d]\w*(?:_\w+)?")
+_FUNCTIONS = ("min", "max", "round", "float32")
+"""Words of a formula that stand for no number."""
 
 MARGIN = 8
 """Room around a formula, in logical pixels."""
@@ -34,6 +39,23 @@ class Piece:
     """``#rrggbb`` of what has no colour of its own."""
     left: float
     width: float
+    symbol: str = ""
+    """What stands above or below it in the other row: the symbols of its numbers."""
+
+
+@dataclass(frozen=True)
+class FormulaNumber:
+    """A number of a formula."""
+
+    symbol: str
+    """Plain text of the symbol that it stands for, as ``λ0``; empty: it has none."""
+    text: str
+    """The number as it is written in plain text."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in a sentence."""
+        return self.symbol.replace("_", "") or self.text
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +174,8 @@ class FormulaSetter:
                 pieces = []
                 for k in range(start, stop):
                     slack = (columns.widths[k] - boxes[k].width()) / 2
-                    pieces.append(Piece(*row[k], left + columns.pads[k] + slack, boxes[k].width()))
+                    other = columns.rows[0][k][0] if index else ""
+                    pieces.append(Piece(*row[k], left + columns.pads[k] + slack, boxes[k].width(), other))
                     left += columns.widths[k] + 2 * columns.pads[k]
                 ascent = max(-boxes[k].top() for k in range(start, stop))
                 descent = max(boxes[k].bottom() for k in range(start, stop))
@@ -232,6 +255,39 @@ def _equations(columns: _Columns, limit: float) -> list[tuple[int, int]]:
             parts.append((start, space))
             start = space + 1
     return [*parts, (start, len(cells))]
+
+
+def number_at(lines: tuple[Line, ...], x: float, y: float) -> FormulaNumber | None:
+    """Return the number at a place relative to the lines' origin; ``None``: there is a symbol, or nothing.
+
+    Of several numbers in one cell it is the one that lies nearest: over each other in a fraction, else side by side.
+    """
+    top = 1.0
+    for line in lines:
+        top += line.gap
+        if top <= y <= top + line.ascent + line.descent:
+            for piece in line.pieces:
+                if piece.symbol and piece.left <= x <= piece.left + piece.width:
+                    across = (x - piece.left) / max(piece.width, 1.0)
+                    return _number_in(piece, across, (y - top) / (line.ascent + line.descent))
+        top += line.ascent + line.descent
+    return None
+
+
+def _number_in(piece: Piece, across: float, down: float) -> FormulaNumber | None:
+    """Return the number of a cell that lies nearest to shares of its width and height."""
+    numbers = list(_IN_TEXT.finditer(plain_text(piece.latex)))
+    if not numbers:
+        return None
+    is_fraction = len(numbers) == 2 and "frac{" in piece.latex
+    length = len(plain_text(piece.latex))
+    places = [
+        (k + 0.5) / len(numbers) - down if is_fraction else found.start() / length - across
+        for k, found in enumerate(numbers)
+    ]
+    k = min(range(len(numbers)), key=lambda k: abs(places[k]))
+    symbols = [part for part in _SYMBOL.findall(plain_text(piece.symbol)) if part not in _FUNCTIONS]
+    return FormulaNumber(symbols[k] if k < len(symbols) == len(numbers) else "", numbers[k][0])
 
 
 def extent(lines: tuple[Line, ...]) -> tuple[float, float]:

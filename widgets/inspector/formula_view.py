@@ -3,26 +3,35 @@
 import math
 import time
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QEvent, QPointF, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import (
     QAccessible,
     QAction,
     QColor,
     QGuiApplication,
+    QHelpEvent,
     QImage,
     QKeySequence,
+    QMouseEvent,
     QPainter,
     QPaintEvent,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from core.explain.latex import plain_text, without_macros
 from core.explain.records import Formula
 from core.explain.spoken import spoken
 from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.inspector.formula_layout import MARGIN, FormulaSetter, Line, extent
+from widgets.inspector.formula_layout import (
+    MARGIN,
+    FormulaNumber,
+    FormulaSetter,
+    Line,
+    extent,
+    number_at,
+)
 from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter
 
 __all__ = ["Formula", "FormulaView"]
@@ -37,6 +46,10 @@ class FormulaView(QWidget):
 
     formula_copied = Signal(str)
     """The user has copied the formula; the argument says as what (``latex`` or ``png``)."""
+    number_pointed = Signal(object)
+    """The pointer is on another `FormulaNumber`: `show_where` says where it comes from."""
+    number_clicked = Signal(object)
+    """The user asks where a `FormulaNumber` comes from."""
 
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
@@ -60,6 +73,9 @@ class FormulaView(QWidget):
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
         self._catch_up_timer.timeout.connect(self._catch_up)
+        self._pointed: FormulaNumber | None = None
+        self._where = ""
+        self.setMouseTracking(True)
         self._ring = FocusRing(self)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Formula")
@@ -86,8 +102,20 @@ class FormulaView(QWidget):
         if formula == self._formula:
             return
         self._formula = formula
+        self._pointed = None
+        self.show_where("")
         self._rebuild()
         self._shown_at = time.perf_counter()
+
+    def show_where(self, text: str) -> None:
+        """Say where the number under the pointer comes from, as a tooltip; empty: from nowhere."""
+        self._where = text
+        self.setCursor(Qt.CursorShape.PointingHandCursor if text else Qt.CursorShape.ArrowCursor)
+
+    def number_under(self, position: QPointF) -> FormulaNumber | None:
+        """Return the number at a place of the view."""
+        scale = self._scale(self._lines)
+        return number_at(self._lines, (position.x() - MARGIN) / scale, (position.y() - MARGIN) / scale)
 
     def can_prepare(self) -> bool:
         """Return whether the typesetter is loaded."""
@@ -207,6 +235,33 @@ class FormulaView(QWidget):
         painter.translate(MARGIN, MARGIN)
         painter.scale(scale, scale)
         self._setter().paint(painter, self._lines)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Point at a number."""
+        number = self.number_under(event.position())
+        if number != self._pointed:
+            self._pointed = number
+            self.show_where("")
+            if number is not None:
+                self.number_pointed.emit(number)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take the press of a click."""
+        event.accept()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Ask where the number under the pointer comes from."""
+        number = self.number_under(event.position())
+        if number is not None and event.button() == Qt.MouseButton.LeftButton:
+            self._pointed = None
+            self.number_clicked.emit(number)
+
+    def event(self, event: QEvent) -> bool:
+        """Say where the number under the pointer comes from."""
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip and self._where:
+            QToolTip.showText(event.globalPos(), self._where, self)
+            return True
+        return super().event(event)
 
     def _add_action(self, text: str, shortcut: QKeySequence) -> QAction:
         action = QAction(text, self)

@@ -70,6 +70,7 @@ class PixelHistory(QWidget):
         self.view.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         KeyClaim(self.view, (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Home, Qt.Key.Key_End))
         self.view.activated.connect(self._activate)
+        self.view.clicked.connect(self._activate)
         copy = QAction("Copy with full precision", self.view)
         copy.setShortcut(QKeySequence(QKeySequence.StandardKey.Copy))
         copy.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)

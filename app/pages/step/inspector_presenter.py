@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QLabel
 
+from app.pages.step.number_origins import variable_of, writer_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.steps_ahead import StepsAhead, sentence_at
@@ -13,7 +14,9 @@ from core import STAGES
 from core.explain import formula, stage_card, variables
 from core.explain.records import Variable
 from core.records.listing import Listing
-from core.trace.origins import origin
+from core.stages.declared import stage_of
+from core.trace.origins import Origin, origin
+from widgets.inspector.formula_layout import FormulaNumber
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import HINT as NO_HISTORY
 from widgets.inspector.history_view import PixelHistory
@@ -56,7 +59,9 @@ class InspectorPresenter(QObject):
         session.pin_changed.connect(self.refresh_history)
         session.hover_changed.connect(self.refresh_history)
         session.predicting_changed.connect(self.refresh_run)
-        variables_view.origin_requested.connect(self._go_to_origin)
+        variables_view.origin_requested.connect(self._go_to_variable)
+        formula_view.number_pointed.connect(self._tell_origin)
+        formula_view.number_clicked.connect(self._go_to_number)
         listing.line_clicked.connect(self._run_to_line)
         listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         history.row_activated.connect(self._go_to_event)
@@ -147,31 +152,79 @@ class InspectorPresenter(QObject):
 
     @Slot(int)
     def _go_to_event(self, index: int) -> None:
-        """Go to the depth test of a fragment of the history."""
+        """Go to the depth test of a fragment of the history, or to the test that rejected the pixel."""
         pixel = self._session.pin or self._session.hover
         triangle = self._triangles[index] if index < len(self._triangles) else None
         if pixel is None or triangle is None:
             return
-        trace = self._session.trace.stage("depth")
-        rows = trace.rows_at_pixel(*pixel)
-        rows = rows[trace.triangle[rows] == triangle]
-        if len(rows):
-            self._session.set_stage("depth", trace.steps.position_after(int(rows[0])))
+        for stage in ("depth", "raster"):
+            trace = self._session.trace.stage(stage)
+            rows = trace.rows_at_pixel(*pixel)
+            rows = rows[trace.triangle[rows] == triangle]
+            if len(rows):
+                self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
+                return
 
     @Slot(object)
-    def _go_to_origin(self, variable: Variable) -> None:
+    def _go_to_variable(self, variable: Variable) -> None:
         """Go to the step that made a variable's number."""
-        session = self._session
-        made = origin(
-            session.trace, session.cursor.stage, session.cursor.position, variable.column, variable.element
-        )
+        self._go_to_origin(variable.column, variable.element, variable.name, variable.is_changed())
+
+    @Slot(object)
+    def _go_to_number(self, shown: FormulaNumber) -> None:
+        """Go to the step that made a number of the formula."""
+        explanation = self._session.explanation
+        found = None if explanation is None else variable_of(explanation, shown)
+        if explanation is None or found is None:
+            self._stepping.tell(f"{shown.text} is worked out here, or is a constant of the formula.")
+            return
+        column, element = found
+        self._go_to_origin(column, element, shown.name, column in explanation.changed)
+
+    @Slot(object)
+    def _tell_origin(self, shown: FormulaNumber) -> None:
+        """Say where a number of the formula comes from, before it is clicked."""
+        explanation = self._session.explanation
+        found = None if explanation is None else variable_of(explanation, shown)
+        made = None if found is None else self._origin(*found)
         if made is not None:
-            session.set_stage(made.stage, made.position)
-            self._stepping.tell(f"{variable.name} was made here. Ctrl+[ goes back.")
-        elif variable.is_changed():
-            self._stepping.tell(f"{variable.name} was made in this step.")
+            is_here = made.stage == self._session.cursor.stage
+            where = "an earlier step of this stage" if is_here else stage_of(made.stage).short_title
+            self._formula.show_where(
+                f"{shown.name} was made in {where}. Click to go there; Ctrl+[ comes back."
+            )
+
+    def _origin(self, column: str, element: int | None) -> Origin | None:
+        cursor = self._session.cursor
+        return origin(self._session.trace, cursor.stage, cursor.position, column, element)
+
+    def _go_to_origin(self, column: str, element: int | None, name: str, is_new: bool) -> None:
+        """Go to the step that made a number, or say why there is none."""
+        made = self._origin(column, element)
+        if made is not None:
+            self._session.set_stage(made.stage, made.position)
+            what = f"Set up like {name}, but from snapped corners" if made.is_alike else f"Made here: {name}"
+            self._stepping.tell(f"{what}. Ctrl+[ goes back.")
+        elif is_new:
+            self._stepping.tell(f"Made in this step: {name}.")
         else:
-            self._stepping.tell(f"No step shows how {variable.name} was made: it comes in from outside.")
+            self._stepping.tell(f"No step shows how {name} was made: it comes in from outside.")
+
+    def go_to_writer(self, buffer: str, label: str) -> None:
+        """Go to the step that wrote what the main grid holds at the pinned pixel."""
+        session = self._session
+        if session.pin is None:
+            self._stepping.tell("Pin a pixel first: click it.")
+            return
+        made = writer_of(session, buffer, session.pin)
+        at = f"pixel ({session.pin[0]}, {session.pin[1]})"
+        if made is None:
+            self._stepping.tell(f"No step of this stage has written {label} at {at} yet.")
+        elif made.position == session.cursor.position:
+            self._stepping.tell(f"{label[:1].upper()}{label[1:]} at {at} was written in this step.")
+        else:
+            session.set_stage(made.stage, made.position)
+            self._stepping.tell(f"{label[:1].upper()}{label[1:]} at {at} was written here. Ctrl+[ goes back.")
 
     @Slot(int)
     def _run_to_line(self, line: int) -> None:

@@ -90,6 +90,7 @@ class StepPage(Page):
         self.navigation.message_sent.connect(self.message_sent)
         self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))
         self.pixel_menu = PixelMenu(session, self.stepping, self)
+        self.pixel_menu.origin_requested.connect(self.go_to_writer)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.main_area.view_changed.connect(self._follow_view)
@@ -305,6 +306,13 @@ class StepPage(Page):
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
+    @Slot()
+    def go_to_writer(self) -> None:
+        """Go to the step that wrote the value of the main grid at the pinned pixel."""
+        buffer = self.grid.buffer()
+        if buffer is not None:
+            self.inspector.go_to_writer(buffer.name, buffer.label)
+
     # As a page of the window.
 
     def handlers(self) -> Handlers:
@@ -314,6 +322,7 @@ class StepPage(Page):
             **view_handlers(self),
             "fit_view": self._fit,
             "next_view": self.main_area.next_view,
+            "value_origin_pixel": self.go_to_writer,
             **{f"pane_{name}": partial(self.toggle_pane, name) for name in PANES},
             "compare": self.toggle_compare,
             "flip": self._flip,

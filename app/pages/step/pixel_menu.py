@@ -1,6 +1,6 @@
 """What can be done with one pixel: the menu of a right click in a grid."""
 
-from PySide6.QtCore import QObject, QPoint, Slot
+from PySide6.QtCore import QObject, QPoint, Signal, Slot
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -12,6 +12,9 @@ from core.stages.declared import stage_of
 
 class PixelMenu(QObject):
     """Pins the pixel, sets breakpoints at it, and goes to the first step of any stage that touches it."""
+
+    origin_requested = Signal()
+    """The user asks where the value of the pixel, which is pinned by now, comes from."""
 
     def __init__(self, session: Session, stepping: SteppingPresenter, parent: QWidget) -> None:
         super().__init__(parent)
@@ -37,6 +40,7 @@ class PixelMenu(QObject):
         self._add("Remove the pin" if is_pinned else "Pin", "pin")
         has_breakpoint = self._pixel in self._stepping.pixel_breakpoints
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
+        self._add("Where does this value come from?", "origin")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
             self._add(f"Step here in {stage_of(stage).short_title}", stage)
@@ -52,6 +56,9 @@ class PixelMenu(QObject):
         elif name == "breakpoint":
             self._session.set_pin(self._pixel)
             self._stepping.toggle_pixel_breakpoint()
+        elif name == "origin":
+            self._session.set_pin(self._pixel)
+            self.origin_requested.emit()
         else:
             self._session.set_pin(self._pixel)
             self._stepping.step_into(name, *self._pixel)

@@ -32,8 +32,12 @@ def origins(run: Trace, stage: str, rows: int) -> list[tuple[str, int]]:
                 there = run.stage(made.stage)
                 its_row, _ = there.steps.row_at(made.position)
                 held = np.ravel(there.columns[made.variable][its_row])
+                if element is not None and len(held) > 1:
+                    held = held[[element]]
                 value = np.ravel(column[row] if element is None else column[row][element])
-                if f"{stage}.{name}" in SOURCES or made.stage != stage:
+                if made.is_alike:
+                    assert (stage, name) in [("interpolate", letter) for letter in "abc"]
+                elif f"{stage}.{name}" in SOURCES or made.stage != stage:
                     assert all(held[: len(value)] == value[: len(held)]) or its_row == row
                 found.append((f"{stage}.{name}", int(row)))
     return found

@@ -315,7 +315,7 @@ def test_a_click_on_a_value_goes_to_the_step_that_made_it(window: MainWindow, qt
         click(name)
         way.append(session.cursor.stage)
     assert way == ["blend", "shade", "interpolate", "interpolate"]
-    assert "λ0 (unsnapped) was made here" in window.statusBar().currentMessage()
+    assert "Made here: λ0 (unsnapped)" in window.statusBar().currentMessage()
     for _ in range(4):
         window.run_action("visited_back")
     assert session.cursor == start
