@@ -25,6 +25,8 @@ class HelpPane(QObject):
     def __init__(self, window: "MainWindow") -> None:
         super().__init__(window)
         self.dock: QDockWidget | None = None
+        self._is_aside = False
+        """Whether the pane comes back when presenting ends."""
         page = window.page
         page.card.set_markup(linked)
         # Its menu is the window's, as that of all other texts; it copies too.
@@ -85,6 +87,15 @@ class HelpPane(QObject):
         if self.dock is not None:
             self.dock.hide()
             self.window.pages.current.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def put_aside(self, is_presenting: bool) -> None:
+        """Leave the screen to what is presented, and come back after it."""
+        if is_presenting:
+            self._is_aside = self.is_visible()
+            if self._is_aside:
+                self.close()
+        elif self._is_aside:
+            self._made().show()
 
     def dismiss(self) -> bool:
         """Close the pane if it has the keyboard; return whether it did."""

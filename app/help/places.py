@@ -45,9 +45,8 @@ def places() -> Iterator[Place]:
     for stage_name, variables in VARIABLES.items():
         for variable in variables.values():
             texts = [text for text in (variable.label, variable.meaning) if isinstance(text, str)]
-            label = f"Variables of {stage_of(stage_name).short_title}: {texts[0] if texts else ''}".rstrip(
-                ": "
-            )
+            name = texts[0].replace("#", "0") if texts else ""
+            label = f"Variables of {stage_of(stage_name).short_title}: {name}".rstrip(": ")
             yield Place(label, f"do:stage/{stage_name}", ". ".join(texts))
     for action in ACTIONS:
         yield Place(f"Keys: {action.title}", "do:action/show_keys", action.title)

@@ -356,6 +356,7 @@ class MainWindow(QMainWindow):
     @Slot(bool)
     def _show_presenting(self, is_presenting: bool) -> None:
         self.menus.show_checked("presenter", is_presenting)
+        self.help.put_aside(is_presenting)
 
     @Slot()
     def _show_document(self) -> None:

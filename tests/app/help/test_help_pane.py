@@ -139,3 +139,15 @@ def test_a_right_click_on_a_text_asks_what_its_terms_are(window: MainWindow) -> 
     entries = open_menu(window, bar, bar.tabRect(index).center())
     assert entries[0].text() == "What is “clip space”?"
     QApplication.activePopupWidget().close()
+
+
+def test_presenting_puts_help_aside_and_brings_it_back(window: MainWindow) -> None:
+    window.help.show_page("term/pixel")
+    window.presenter.presenting_changed.emit(True)
+    assert not window.help.is_visible()
+    window.presenter.presenting_changed.emit(False)
+    assert window.help.is_visible()
+    window.help.close()
+    window.presenter.presenting_changed.emit(True)
+    window.presenter.presenting_changed.emit(False)
+    assert not window.help.is_visible()
