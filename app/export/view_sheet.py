@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 MARGIN = 16
 """Logical pixels around what stands on a sheet."""
+CHARACTERS = 70
+"""Heights of the text that a sheet is wide, at most: it is read on paper, too."""
 LARGEST = 2.0
 """Most that a sheet is enlarged on paper: a small view does not fill a page."""
 
@@ -30,7 +32,7 @@ class ViewSheet(QWidget):
         super().__init__()
         theme = current_theme()
         self.setAccessibleName(view.accessibleName())
-        self.setFont(text_font(theme))
+        self.setFont(text_font(theme, max(theme.text_px, view.width() // CHARACTERS)))
         self.setStyleSheet(f"{style_sheet(theme)} * {{ background: {theme.panel}; }}")
         self.setFixedWidth(view.width() + 2 * MARGIN)
         rows = column_layout(self, 12, margins=(MARGIN, MARGIN, MARGIN, MARGIN))

@@ -21,6 +21,8 @@ CLICKER = {
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
+HINT_ROOM = 32
+"""Width of a hint around its text, in logical pixels."""
 PRESENTED_PANES = ("inspector",)
 """Panes that are shown at first."""
 
@@ -164,7 +166,8 @@ class Presenter(QObject):
         """Lie over the lower left corner: nothing moves for it."""
         if self.hint.isVisible():
             room = self._window.rect().adjusted(16, 16, -16, -16)
-            self.hint.setMaximumWidth(room.width())
-            self.hint.adjustSize()
+            line = self.hint.fontMetrics().horizontalAdvance(self.hint.text()) + HINT_ROOM
+            self.hint.setFixedWidth(min(line, room.width()))
+            self.hint.setFixedHeight(self.hint.heightForWidth(self.hint.width()))
             self.hint.move(room.left(), room.bottom() - self.hint.height())
             self.hint.raise_()

@@ -3,7 +3,7 @@
 import math
 import time
 
-from PySide6.QtCore import QEvent, QPointF, QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import (
     QAccessible,
     QAction,
@@ -140,6 +140,7 @@ class FormulaView(QWidget):
         """Say this where there is no formula."""
         if text != self._hint:
             self._hint = text
+            self.updateGeometry()
             self.update()
 
     def is_complete(self) -> bool:
@@ -189,7 +190,13 @@ class FormulaView(QWidget):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        """Height that shows every line without shrinking."""
+        """Height that shows every line, or the hint, without shrinking."""
+        if self._formula is None:
+            room = QRect(0, 0, max(width - 2 * MARGIN, 1), 10_000)
+            return (
+                self.fontMetrics().boundingRect(room, Qt.TextFlag.TextWordWrap, self._hint).height()
+                + 2 * MARGIN
+            )
         _, height = extent(self._setter().layout(self._formula, width))
         return round(height) + 2 * MARGIN
 

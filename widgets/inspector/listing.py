@@ -359,6 +359,7 @@ class ListingView(QPlainTextEdit):
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         font.setPixelSize(theme.code_px)
         self.setFont(font)
+        self.viewport().setFont(font)  # of the hint
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Base, QColor(theme.panel))
         palette.setColor(QPalette.ColorRole.PlaceholderText, QColor(theme.muted_text))

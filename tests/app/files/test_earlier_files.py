@@ -16,7 +16,8 @@ EARLIER = Path(__file__).parent / "earlier"
 
 
 @pytest.mark.parametrize(
-    ("name", "triangles"), [("edited-cube", 12), ("typed-clip", 2), ("marked-torus", 4096)]
+    ("name", "triangles"),
+    [("edited-cube", 12), ("typed-clip", 2), ("marked-torus", 4096), ("noted-torus", 4096)],
 )
 def test_a_state_opens_and_draws(name: str, triangles: int) -> None:
     written = json.loads((EARLIER / f"{name}.rasterscope").read_text(encoding="utf-8"))
@@ -37,6 +38,14 @@ def test_version_1_keeps_step_pin_bookmarks_and_view() -> None:
     ]
     assert state.look == Look(view="compare")
     assert state.breakpoints == Breakpoints()
+
+
+def test_version_2_keeps_marks_notes_and_look() -> None:
+    written = json.loads((EARLIER / "noted-torus.rasterscope").read_text(encoding="utf-8"))
+    state, _ = load_state(EARLIER / "noted-torus.rasterscope")
+    assert [mark.note for mark in state.bookmarks] == ["the first tie", ""]
+    assert state.breakpoints.model_dump(mode="json") == written["breakpoints"]
+    assert state.look.model_dump(mode="json", exclude_defaults=True) == written["look"]
 
 
 def test_a_study_opens() -> None:

@@ -146,6 +146,13 @@ def test_the_colours_follow_the_theme(qtbot, view) -> None:
     apply_theme(QApplication.instance(), LIGHT)
 
 
+def test_the_hint_of_an_empty_view_has_room(qtbot, view) -> None:
+    view.show_formula(None)
+    view.show_hint("This step copies what is known; it has no formula.")
+    assert view.heightForWidth(1000) >= view.fontMetrics().height()
+    assert view.heightForWidth(120) >= 3 * view.fontMetrics().height()
+
+
 def test_a_narrow_view_wraps_and_asks_for_height(qtbot, view) -> None:
     view.show_formula(EDGE)
     wait_for_typesetting(qtbot, view)
