@@ -86,7 +86,7 @@ class HelpPane(QObject):
         """Close the pane; the page has the keyboard again."""
         if self.dock is not None:
             self.dock.hide()
-            self.window.pages.current.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.window.pages.current.take_focus()
 
     def put_aside(self, is_presenting: bool) -> None:
         """Leave the screen to what is presented, and come back after it."""

@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabBar, QWidget
+from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.session.session import Session
 from core.explain.records import Formula
 from core.settings import Settings
 from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.focus_order import tab_stops
+from widgets.basics.key_claim import GIVEN_BACK
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
@@ -91,6 +93,12 @@ class Page(QWidget):
     def caption(self) -> Caption:
         """Return what can be exported and printed with the view."""
         return Caption()
+
+    def take_focus(self) -> None:
+        """Give the keyboard to what the page begins with."""
+        first = self.focusProxy() or next(iter(tab_stops([self.main_view(), self])), self)
+        by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+        first.setFocus(Qt.FocusReason.MouseFocusReason if by_mouse else GIVEN_BACK)
 
     def focus_panes(self) -> list[QWidget]:
         """Return what F6 goes through after the main view, each with a name; Tab takes the same way."""
@@ -271,5 +279,5 @@ class Pages(QWidget):
             before.leave()
         self._stack.setCurrentWidget(page)
         if self.isVisible():
-            page.setFocus(Qt.FocusReason.OtherFocusReason)
+            page.take_focus()
         self.page_changed.emit(self._kinds[index].name)

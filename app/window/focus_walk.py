@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.focus_order import give_focus, next_stop, tab_stops
+from widgets.basics.key_claim import GIVEN_BACK
 
 if TYPE_CHECKING:
     from app.window.main_window import MainWindow
@@ -66,5 +67,5 @@ class FocusWalk(QObject):
         now = self.window.focusWidget()
         if not own or now is None or now is self.window or now in own:
             return False
-        give_focus(own[0])
+        give_focus(own[0], GIVEN_BACK)
         return True

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QAbstractButton, QApplication, QScrollArea, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QScrollArea, QTabBar, QWidget
 
 _GROUP = "arrow group"
 """Property of a widget that is one of several in an `ArrowGroup`."""
@@ -84,6 +84,8 @@ def _stops(pane: QWidget) -> Iterator[QWidget]:
         return
     if _is_stop(pane):
         yield pane
+    if isinstance(pane, QTabBar):
+        return  # its arrows do what its scroll buttons do
     for child in _in_reading_order(pane):
         yield from _stops(child)
 

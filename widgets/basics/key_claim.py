@@ -16,6 +16,10 @@ _NO_MOVE = (
 """Focus that comes back, or that the program gives, as when the view that had it is put away for another."""
 
 
+GIVEN_BACK = Qt.FocusReason.NoFocusReason
+"""Focus that a page takes, or Escape gives back to the main view: it is seen, but the arrows go on stepping."""
+
+
 def is_focus_by_keyboard(event: QFocusEvent, before: bool) -> bool:
     """Return whether the keyboard gave the focus; where the user gave none, ``before``."""
     return before if event.reason() in _NO_MOVE else event.reason() != Qt.FocusReason.MouseFocusReason
@@ -35,7 +39,8 @@ class FocusRing(QObject):
         """Follow the focus; nothing is kept from the widget."""
         if isinstance(event, QFocusEvent):
             if event.type() == QEvent.Type.FocusIn:
-                self._is_by_keyboard = is_focus_by_keyboard(event, self._is_by_keyboard)
+                is_seen = event.reason() == GIVEN_BACK
+                self._is_by_keyboard = is_seen or is_focus_by_keyboard(event, self._is_by_keyboard)
             self._painted.update()
         return False
 
@@ -62,7 +67,8 @@ class KeyClaim(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Accept claimed keys, and leave every other key to the shortcuts of the window."""
         if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
-            self._is_by_keyboard = is_focus_by_keyboard(event, self._is_by_keyboard)
+            is_given = event.reason() == GIVEN_BACK
+            self._is_by_keyboard = not is_given and is_focus_by_keyboard(event, self._is_by_keyboard)
         elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
             is_plain = not event.modifiers() & ~(
                 Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier

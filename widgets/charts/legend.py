@@ -4,6 +4,7 @@ from PySide6.QtCore import QEvent, QModelIndex, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QIcon, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
+from core.explain.number_text import number_text
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.charts.records import ChartMark, ChartSeries
 from widgets.charts.series_marks import SeriesIcon
@@ -66,6 +67,9 @@ class ChartLegend(QListWidget):
             item.setIcon(QIcon(SeriesIcon(series.number)))
             font = self.font()
             font.setBold(is_strong)
+            points = zip(series.x.tolist(), series.y.tolist(), strict=True)
+            values = ", ".join(f"{number_text(y, 3)} at {number_text(x, 3)}" for x, y in points)
+            item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{item.text()}: {values}")
             item.setFont(font)
 
     # Pointer and keyboard.

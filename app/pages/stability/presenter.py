@@ -28,6 +28,7 @@ from app.pages.stability.records import (
     values_at,
 )
 from app.session.session import Session
+from core.explain.number_text import number_text
 from core.records.arrays import Floats
 from core.study.stability import Atlas, ExperimentInfo, Outcome, Verdict
 from core.study.stability.open_scene import NAME as OPEN_SCENE
@@ -205,6 +206,8 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         outcome = "not run yet" if kind == UNKNOWN else WORDS[Outcome(kind)]
         where = place_sentence(self.info, values_at(self.info, place))
         spoken = f"{title}, {where}: {outcome}"
+        if severity:
+            spoken += f", severity {number_text(severity, 3)}"
         self._maps.canvas.setAccessibleDescription(spoken)
         announce(self._maps.canvas, spoken)
 

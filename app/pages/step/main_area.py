@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QStackedWidget, QTabBar, QToolButton, QWidget
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
+from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, flat_button, row_layout
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.grid.buffer import GridBuffer
@@ -164,6 +165,7 @@ class MainArea(QWidget):
         self._choices.setHidden(name == "compare")
         if name in {view[0] for view in self._views.widgets}:
             self._views.show(name)
+        announce(self.view_bar, f"View: {self.view_bar.tabText(index)}")
         self.view_changed.emit(name)
 
     @Slot(int)

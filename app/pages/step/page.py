@@ -23,6 +23,7 @@ from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
 from app.pages.step.view_keys import view_handlers
 from app.session.session import Session
 from app.views.stage_views import StageViews
+from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, flat_button, row_layout
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
@@ -221,6 +222,7 @@ class StepPage(Page):
             self.show_panes([other for other in shown if other != name])
         else:
             self.show_panes([name, *shown])
+        announce(self, f"{name.capitalize()} {'folded away' if name in shown else 'shown'}")
 
     @Slot()
     def _toggle_thumbnails(self) -> None:

@@ -108,6 +108,9 @@ def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow, page: str)
     assert forward[-1] in main
     backward = walk(window, Qt.Key.Key_F6, Qt.KeyboardModifier.ShiftModifier)
     assert backward == forward[::-1]  # one press more has come round
+    window.run_action("page_plan" if page == "compare" else "page_compare")
+    window.run_action(f"page_{page}")
+    assert window.focusWidget() in tab_stops([window.pages.current])
     forward[0].setFocus(Qt.FocusReason.TabFocusReason)
     window.run_action("unpin")
     assert window.focusWidget() in main
