@@ -47,3 +47,19 @@ def test_a_colour_map_comes_without_pyqtgraph() -> None:
     imported = imported_by("from widgets.basics.colormaps import colormap_table; colormap_table('viridis')")
     assert "widgets.basics.colormaps" in imported
     assert "pyqtgraph" not in imported
+
+
+def test_the_window_waits_for_no_typesetter_chart_or_other_page() -> None:
+    code = (
+        "from app.window.main_window import MainWindow; from app.window.appearance import the_application; "
+        "from app.files.open_any import open_any; the_application(); window = MainWindow(open_any('cube').document); "
+        "window.show()"
+    )
+    imported = imported_by(code)
+    assert "app.pages.step.page" in imported
+    pages = ("compare", "stability", "plan")
+    assert not {"ziamath", "pyqtgraph", "PIL", "trimesh"} & imported
+    assert [
+        name for name in sorted(imported) if name.startswith(tuple(f"app.pages.{page}" for page in pages))
+    ] == []
+    assert "core.study.planner" not in imported
