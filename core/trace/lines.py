@@ -47,8 +47,11 @@ def trace_lines(source: TraceSource) -> StageTrace:
     is_steep = columns["is_steep"]
     columns["major"] = np.where(is_steep, pixel[:, 1], pixel[:, 0])
     columns["minor"] = np.where(is_steep, pixel[:, 0], pixel[:, 1])
+    # A listing that has swapped x and y for a steep line goes on with dx along its longer axis.
+    is_unswapped = is_steep & (not line_traits(line).swaps_axes)
     columns["dx"], columns["dy"] = (
-        np.where(is_steep, columns[other], columns[own]) for own, other in (("run", "rise"), ("rise", "run"))
+        np.where(is_unswapped, columns[other], columns[own])
+        for own, other in (("run", "rise"), ("rise", "run"))
     )
 
     method = table.get("line", line)

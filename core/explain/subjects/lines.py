@@ -30,9 +30,20 @@ def line_method(step: StepValues) -> str:
     return step.kind.removesuffix("-start")
 
 
+def is_swapped(step: StepValues) -> bool:
+    """Return whether the listing has swapped x and y for a steep line."""
+    line = line_method(step)
+    is_steep = bool(step.explanation.values.get("is_steep", False))
+    return is_steep and line in table.names("line") and line_traits(line).swaps_axes
+
+
+MAJOR, MINOR = "x", "y"
+"""Symbols, as in the listings, of the longer axis of the line and of the other: of a steep line x and y are swapped."""
+
+
 def axes(step: StepValues) -> tuple[str, str]:
-    """Return the name of the longer axis of the line, and of the other."""
-    return ("y", "x") if step.flag("is_steep") else ("x", "y")
+    """Return in words the longer axis of the line and the other: their symbols, and what they count if swapped."""
+    return ("x (the row)", "y (the column)") if is_swapped(step) else (MAJOR, MINOR)
 
 
 def minor_direction(step: StepValues) -> int:
@@ -54,20 +65,23 @@ def major_direction(step: StepValues) -> int:
 def octant(step: StepValues) -> Said:
     """Where an edge runs, and along which axis it is longer."""
     run, rise, is_steep = step.number("run"), step.number("rise"), step.flag("is_steep")
-    traits, (major, _) = line_traits(line_method(step)), axes(step)
+    traits, major = line_traits(line_method(step)), "y" if is_steep else "x"
     first, second = vector_text(step.vector("window_start")), vector_text(step.vector("window_end"))
     if traits.takes_pixels:
         first, second = (f"pixel {vector_text(step.vector(name))}" for name in ("first_end", "second_end"))
     text = f"Edge {step.whole('edge')} of triangle {step.triangle} runs from {first} to {second}"
     steps = "row by row" if is_steep else "column by column"
     level = "as long in x as in y" if run == rise else f"longer in {major}"
-    end = ", so it has no length on the raster." if run == 0 else f": it is {level}, so it is drawn {steps}."
+    swapped = "x and y are swapped and " if is_swapped(step) else ""
+    end = f": it is {level}, so {swapped}it is drawn {steps}."
+    if run == 0:
+        end = ", so it has no length on the raster."
     wanted = r"\ge" if traits.is_diagonal_steep else ">"
     in_x, in_y = (rise, run) if is_steep else (run, rise)
     return text + end, equation(
-        ("dy", in_y),
+        ("|y_1 - y_0|", in_y),
         (wanted, relation(in_y, in_x)),
-        ("dx", in_x),
+        ("|x_1 - x_0|", in_x),
         *conclusion("row by row", steps),
     )
 
@@ -81,16 +95,16 @@ def lengths(step: StepValues) -> Said:
         f"The line goes {counted(int(run), 'pixel')} along {major} and {spoken(rise)} along {minor}, "
         f"so the decision value D starts at 2 · {spoken(rise)} − {spoken(run)} = {spoken(2 * rise - run)}."
     )
-    across, along = (f"d{minor}", rise), (f"d{major}", run)
+    across, along = (f"d{MINOR}", rise), (f"d{MAJOR}", run)
     return text, equation(("D", 2 * rise - run), "=", "2", r"\cdot", across, "-", along)
 
 
 @explains("raster.bresenham-float-start.slope")
 def error_slope(step: StepValues) -> Said:
     """The slope that is added to the error."""
-    major, minor = axes(step)
+    _, minor = axes(step)
     run, rise, m = (step.number(name) for name in ("run", "rise", "slope"))
-    bars = fraction((f"d{minor}", rise), (f"d{major}", max(run, 1.0)))
+    bars = fraction((f"d{MINOR}", rise), (f"d{MAJOR}", max(run, 1.0)))
     text = f"The slope m is {spoken(rise)} / {spoken(run)} = {spoken(m)}, the change along {minor} with every pixel."
     return text, equation(("m", m), "=", bars)
 
@@ -98,15 +112,16 @@ def error_slope(step: StepValues) -> Said:
 @explains("raster.*.slope")
 def line_slope(step: StepValues) -> Said:
     """The equation of the line."""
-    (major, minor), m, b = axes(step), step.number("slope"), step.number("intercept")
+    m, b = step.number("slope"), step.number("intercept")
+    swapped = ", where x counts rows" if is_swapped(step) else ""
     text = (
         f"With pixel centres at whole numbers the line is "
-        f"{minor} = {spoken(m)} · {major} {'−' if b < 0 else '+'} {spoken(abs(b))}."
+        f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
     )
     u, v = (1, 0) if step.flag("is_steep") else (0, 1)
     first, second = step.vector("first_end"), step.vector("second_end")
-    above = difference((f"{minor}_1", second[v]), (f"{minor}_0", first[v]))
-    below = difference((f"{major}_1", second[u]), (f"{major}_0", first[u]))
+    above = difference((f"{MINOR}_1", second[v]), (f"{MINOR}_0", first[v]))
+    below = difference((f"{MAJOR}_1", second[u]), (f"{MAJOR}_0", first[u]))
     quotient: list[Part] = ["=", fraction(above, below)] if second[u] != first[u] else []
     return text, equation(*beside([("m", m), *quotient], [("b", b)]))
 
@@ -151,8 +166,8 @@ def stepped(step: StepValues) -> Said:
     else:
         text = f"The same pixel along {minor} is still nearest to the line, so {minor} stays {spoken(now)}."
     moved = float(step.flag("has_stepped") * minor_direction(step))
-    before = (rf"{minor}_{{\mathrm{{before}}}}", now - moved)
-    return text, equation((minor, now), "=", before, "+", ("s", moved))
+    before = (rf"{MINOR}_{{\mathrm{{before}}}}", now - moved)
+    return text, equation((MINOR, now), "=", before, "+", ("s", moved))
 
 
 @explains("raster.*.evaluate")
@@ -161,7 +176,7 @@ def evaluated(step: StepValues) -> Said:
     (major, minor), at, value = axes(step), step.number("major"), step.number("decision")
     text = f"At {major} = {spoken(at)} the line has {minor} = {spoken(value)}, with pixel centres at whole numbers."
     terms = [("m", step.number("slope")), ("b", step.number("intercept"))]
-    return text, linear(minor, value, terms, (major, at))
+    return text, linear(MINOR, value, terms, (MAJOR, at))
 
 
 @explains("raster.*.advance")
@@ -174,9 +189,9 @@ def advanced(step: StepValues) -> Said:
         f"The slope {spoken(m)} is {done} for {major} = {spoken(at)}, which makes {minor} = {spoken(value)}."
     )
     if math.isnan(previous):
-        return text, equation((minor, value))
-    before = (rf"{minor}_{{\mathrm{{before}}}}", previous)
-    return text, equation((minor, value), "=", before, "+", ("s", sign), r"\cdot", ("m", m))
+        return text, equation((MINOR, value))
+    before = (rf"{MINOR}_{{\mathrm{{before}}}}", previous)
+    return text, equation((MINOR, value), "=", before, "+", ("s", sign), r"\cdot", ("m", m))
 
 
 @explains("raster.*.round")
@@ -189,15 +204,15 @@ def rounded(step: StepValues) -> Said:
             f"The value {minor} = {spoken(value)} lies exactly between two pixel centres: "
             f"halves round up, to {spoken(nearest)}."
         )
-    symbols = rf"\lfloor {minor} + \frac{{1}}{{2}} \rfloor"
+    symbols = rf"\lfloor {MINOR} + \frac{{1}}{{2}} \rfloor"
     numbers = rf"\lfloor {number_latex(value)} + \frac{{1}}{{2}} \rfloor"
-    return text, equation((rf"{minor}_{{\mathrm{{pixel}}}}", nearest), "=", (symbols, numbers))
+    return text, equation((rf"{MINOR}_{{\mathrm{{pixel}}}}", nearest), "=", (symbols, numbers))
 
 
 @explains("raster.diamond-exit|diamond-exit-start.round")
 def nearest_centre(step: StepValues) -> Said:
     """How far the line passes from the centre of the nearest pixel (diamond exit)."""
-    (_, minor), height, is_steep = axes(step), step.number("decision"), step.flag("is_steep")
+    height, is_steep = step.number("decision"), step.flag("is_steep")
     sides = ("to the left of", "to the right of") if is_steep else ("below", "above")
     passes = f"the line passes {spoken(abs(height))} px {sides[int(height > 0)]} its centre"
     if height == 0:
@@ -208,7 +223,7 @@ def nearest_centre(step: StepValues) -> Said:
         text = (
             f"{step.pixel_name} ties with its neighbour in this {line}, and OpenGL's rule takes it: {passes}."
         )
-    half, away = r"\frac{1}{2}", (rf"{minor} - {minor}_{{\mathrm{{centre}}}}", height)
+    half, away = r"\frac{1}{2}", (rf"{MINOR} - {MINOR}_{{\mathrm{{centre}}}}", height)
     return text, equation(f"-{half}", r"\le", away, r"\le", half)
 
 
@@ -230,7 +245,7 @@ def plotted(step: StepValues) -> Said:
     """The pixel is drawn; its centre lies at t along the segment."""
     start, end = step.vector("window_start"), step.vector("window_end")
     k = 1 if abs(end[1] - start[1]) > abs(end[0] - start[0]) else 0
-    axis, length = "xy"[k], end[k] - start[k]
+    axis, length = "xy"[k ^ is_swapped(step)], end[k] - start[k]
     center = (step.whole("column"), step.whole("row"))[k] + step.number("center")
     along = (center - start[k]) / length if length else 0.0
     intensity, edge = step.number("intensity"), f"edge {step.whole('edge')}"
@@ -299,21 +314,21 @@ DECISIONS = {
     "bresenham-lecture": "D",
     "bresenham-float": "e + m",
     "rectangle": "a",
-    "diamond-exit": "{minor} − {minor} centre",
+    "diamond-exit": f"{MINOR} − {MINOR} centre",
 }
 """Symbol of the number that chooses the pixel; of other methods the line's coordinate along the minor axis."""
 
 
 def decision_name(step: StepValues) -> str:
     """Return the formula's symbol of the number that chooses the pixel."""
-    _, minor = axes(step)
-    return DECISIONS.get(line_method(step), "{minor}").format(minor=minor)
+    return DECISIONS.get(line_method(step), MINOR)
 
 
 def _pixel_label(step: StepValues, word: str, symbol: str) -> str:
-    """Return a coordinate's word, or its symbol where the line method's own coordinates are pixels."""
+    """Return a coordinate's word, or its symbol where it is the line method's own coordinate."""
     line = line_method(step)
-    return symbol if line in table.names("line") and line_traits(line).takes_pixels else word
+    is_own = line in table.names("line") and line_traits(line).takes_pixels
+    return symbol if is_own and not is_swapped(step) else word
 
 
 shows(
@@ -329,8 +344,8 @@ shows(
         "first_end": VariableText("first end", "Start of the line, as the method uses it."),
         "second_end": VariableText("second end", "End of the line, as the method uses it."),
         "is_steep": VariableText("steep", "Whether y is the major axis: one pixel in every row."),
-        "dx": VariableText("dx", "Length along x, without sign.", "run"),
-        "dy": VariableText("dy", "Length along y, without sign.", "run"),
+        "dx": VariableText("dx", "Length along x, without sign; a steep line has x and y swapped.", "run"),
+        "dy": VariableText("dy", "Length along y, without sign; a steep line has x and y swapped.", "run"),
         "slope": VariableText("m", "Slope: change of the minor coordinate with every step."),
         "intercept": VariableText("b", "Intercept: minor coordinate where the major one is 0."),
         "decision": VariableText(decision_name, "The number whose sign or rounding chooses the pixel."),

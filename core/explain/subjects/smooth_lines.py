@@ -4,7 +4,7 @@ from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import Part, beside, difference, equation, fraction
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.lines import axes
+from core.explain.subjects.lines import MAJOR, MINOR, axes
 from core.explain.variable_text import VariableText, shows
 from core.records.words import counted
 
@@ -62,14 +62,14 @@ def along(step: StepValues) -> Said:
 @explains("raster.*.share")
 def share(step: StepValues) -> Said:
     """How much of a column the line spans."""
-    (axis, _), part, at = axes(step), step.number("share"), number_latex(step.number("major"))
+    part, at = step.number("share"), number_latex(step.number("major"))
     word = "row" if step.flag("is_steep") else "column"
     text = f"The line ends in this {word} and spans {spoken(part)} of it, which scales the intensities."
     if part == 1:
         text = f"The line spans the whole {word}."
-    k = "xy".index(axis)
+    k = int(step.flag("is_steep"))
     low, high = sorted((step.vector("first_end")[k], step.vector("second_end")[k]))
-    symbols = rf"\min({axis} + {_HALF}, {axis}_{{\max}}) - \max({axis} - {_HALF}, {axis}_{{\min}})"
+    symbols = rf"\min({MAJOR} + {_HALF}, {MAJOR}_{{\max}}) - \max({MAJOR} - {_HALF}, {MAJOR}_{{\min}})"
     numbers = rf"\min({at} + {_HALF}, {number_latex(high)}) - \max({at} - {_HALF}, {number_latex(low)})"
     return text, equation(("g", part), "=", (symbols, numbers))
 
@@ -91,7 +91,7 @@ def divided(step: StepValues) -> Said:
     )
     shown: Part = ("(1 - f)", f"(1 - {number_latex(part)})") if is_lower else ("f", part)
     line = number_latex(step.number("decision"))
-    of_fraction: Part = (rf"{axis} - \lfloor {axis} \rfloor", rf"{line} - \lfloor {line} \rfloor")
+    of_fraction: Part = (rf"{MINOR} - \lfloor {MINOR} \rfloor", rf"{line} - \lfloor {line} \rfloor")
     made: list[Part] = [("I", intensity), "=", shown, r"\cdot", ("g", of_column)]
     return text, equation(*beside([("f", part), "=", of_fraction], made))
 
@@ -114,7 +114,7 @@ def distance(step: StepValues) -> Said:
         f"The centre of {_name(step)} is {spoken(abs(minor - line))} from the line along {axis}, which gives a "
         f"distance of {spoken(found)} px."
     )
-    apart = (rf"|{axis}_{{\mathrm{{pixel}}}} - {axis}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
+    apart = (rf"|{MINOR}_{{\mathrm{{pixel}}}} - {MINOR}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
     return text, equation(("d", found), "=", apart, r"\cdot", ("c", step.number("cosine")))
 
 

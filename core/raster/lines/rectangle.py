@@ -246,7 +246,7 @@ def _ends_in_pixels(segments: Segments) -> Floats:
     operations=line_rows(
         "rectangle", (OCTANT, Operation("length", "width", ("run", "rise", "length")), *_INSIDE), _INSIDE
     ),
-    traits=LineTraits(ends=_ends_in_pixels),
+    traits=LineTraits(ends=_ends_in_pixels, swaps_axes=False),
 )
 def rectangle(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw the pixels whose centre lies in the rectangle; ``decision`` is the centre's distance across the line.

@@ -52,6 +52,8 @@ class LineTraits:
     """Whether it moves the ends to pixels first."""
     ends: Callable[[Segments], Floats] = _centered_ends
     """Ends (L, 2, 2) that the others take, with pixel centres on whole numbers."""
+    swaps_axes: bool = True
+    """Whether its listing swaps x and y for a line that runs along y."""
     is_diagonal_steep: bool = False
     """Whether a segment that is as long in x as in y runs along y."""
     coefficients: Callable[[Floats], Coefficients] = line_coefficients

@@ -3,7 +3,7 @@
 import pytest
 
 from core import Settings
-from core.explain import formula, sentence
+from core.explain import formula, sentence, variables
 from tests.core.explain.explained_steps import line_trace
 
 
@@ -126,3 +126,23 @@ def test_hand_computed_formulas() -> None:
     assert numbers == r"1.25 & = & 1 & + & 1 & \cdot & 0.25"
     _, _, numbers = said("bresenham-lecture", "raster.bresenham-lecture.test", 1)
     assert numbers == r"0 & = & 0 & \Rightarrow & \text{stay}"
+
+
+def test_a_steep_line_speaks_as_its_listing_that_swaps_x_and_y() -> None:
+    raster = line_trace(Settings(polygon_mode="wireframe", line="bresenham")).stage("raster")
+    found = [raster.explain(position) for position in range(1, raster.steps.count + 1)]
+    steep = [each for each in found if each is not None and each.values["is_steep"]]
+    start = next(each for each in steep if each.key == "raster.bresenham-start.octant")
+    assert sentence(start, 0, None).endswith(
+        "it is longer in y, so x and y are swapped and it is drawn row by row."
+    )
+    lengths = next(each for each in steep if each.key == "raster.bresenham-start.lengths")
+    run, rise = lengths.values["run"], lengths.values["rise"]
+    made = formula(lengths)
+    assert made is not None
+    assert made.symbolic == r"D & = & 2 & \cdot & dy & - & dx"
+    assert made.substituted == rf"{2 * rise - run:.0f} & = & 2 & \cdot & {rise:.0f} & - & {run:.0f}"
+    named = {variable.name: variable.now for variable in variables(lengths)}
+    assert (named["dx"], named["dy"]) == (run, rise)
+    moved = next(each for each in steep if each.key == "raster.bresenham.step" and each.values["has_stepped"])
+    assert f"so y (the column) steps to {moved.values['minor']:.0f}." in sentence(moved, 0, None)
