@@ -15,18 +15,17 @@ class ArrowGroup(QObject):
 
     def __init__(self, buttons: Sequence[QWidget], parent: QWidget, *, is_upright: bool = False) -> None:
         super().__init__(parent)
-        self._buttons: list[QWidget] = []
         keys = (Qt.Key.Key_Up, Qt.Key.Key_Down) if is_upright else (Qt.Key.Key_Left, Qt.Key.Key_Right)
-        self._moves = dict(zip(keys, (-1, 1), strict=True))
+        self._moves: dict[int, int] = dict(zip(keys, (-1, 1), strict=True))
         self._last: QWidget | None = None
-        for button in buttons:
-            self.add(button)
+        self.show_buttons(buttons)
 
-    def add(self, button: QWidget) -> None:
-        """Take another button, after the others."""
-        self._buttons.append(button)
-        button.setProperty(_GROUP, self)
-        button.installEventFilter(self)
+    def show_buttons(self, buttons: Sequence[QWidget]) -> None:
+        """Go through these buttons from now on."""
+        self._buttons = list(buttons)
+        for button in buttons:
+            button.setProperty(_GROUP, self)
+            button.installEventFilter(self)
 
     def stop(self) -> QWidget | None:
         """Return the button that Tab reaches: the one that had the focus last, or the first that can be pressed."""
@@ -39,7 +38,7 @@ class ArrowGroup(QObject):
             self._last = watched
         if not isinstance(event, QKeyEvent) or event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
             return False
-        move = self._moves.get(Qt.Key(event.key()))
+        move = self._moves.get(event.key())
         if move is None or QApplication.mouseButtons() != Qt.MouseButton.NoButton:
             return False
         if event.type() == QEvent.Type.ShortcutOverride:
@@ -48,7 +47,7 @@ class ArrowGroup(QObject):
         if event.type() == QEvent.Type.KeyPress:
             usable = [button for button in self._buttons if _is_usable(button)]
             place = min(max(usable.index(watched) + move, 0), len(usable) - 1) if watched in usable else 0
-            usable[place].setFocus(Qt.FocusReason.TabFocusReason)
+            give_focus(usable[place])
             return True
         return False
 

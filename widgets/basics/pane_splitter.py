@@ -39,15 +39,14 @@ class _Border(QSplitterHandle):
         )
         bounds: Any = self.splitter().getRange(self.splitter().indexOf(self))
         low, high = bounds
-        targets = {
+        targets: dict[int, int] = {
             less: self._place() - KEY_STEP,
             more: self._place() + KEY_STEP,
             Qt.Key.Key_Home: low,
             Qt.Key.Key_End: high,
         }
-        key = Qt.Key(event.key())
-        if key in targets:
-            self.moveSplitter(min(max(targets[key], low), high))
+        if event.key() in targets:
+            self.moveSplitter(min(max(targets[event.key()], low), high))
         else:
             event.ignore()
 

@@ -61,7 +61,7 @@ class SideTabs(QWidget):
         button.clicked.connect(self._choose)
         self._column.insertWidget(len(self.buttons), button)
         self.buttons[name] = button
-        self._arrows.add(button)
+        self._arrows.show_buttons(list(self.buttons.values()))
 
     def show_open(self, name: str) -> None:
         """Mark the tab of the pane that is open; empty: none is."""

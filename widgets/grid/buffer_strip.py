@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.focus_order import ArrowGroup
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -105,6 +106,7 @@ class BufferStrip(QWidget):
         """Make an empty strip."""
         super().__init__(parent)
         self._tiles: dict[str, BufferTile] = {}
+        self._arrows = ArrowGroup((), self)
         self._hidden: frozenset[str] = frozenset()
         self._chosen = ""
         self._hover: tuple[int, int] | None = None
@@ -248,6 +250,7 @@ class BufferStrip(QWidget):
             self._row.addWidget(tile, 1)
             tile.setVisible(name not in self._hidden)
         self._tiles = tiles
+        self._arrows.show_buttons([tile.title for tile in tiles.values()])
         self._bringing.start()
 
     @Slot()

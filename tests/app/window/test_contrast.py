@@ -144,6 +144,7 @@ def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
 def test_the_focus_can_be_seen(window: MainWindow, styled: Theme, page: str) -> None:
     """Whatever takes the keyboard shows by 3:1 that it has it, along a line as long as its shorter side."""
     window.session.set_stage("raster", 0)  # nothing has been done yet: the formula is empty
+    window.page.show_panes(["methods", "inspector", "thumbnails"])
     window.run_action(f"page_{page}")
     unseen = []
     for stop in window.pages.current.findChildren(QWidget):
