@@ -2,8 +2,17 @@
 
 from typing import Any
 
-from PySide6.QtCore import QEvent, QRect, Qt
-from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtCore import QEvent, QPoint, QRect, Qt
+from PySide6.QtGui import (
+    QAccessible,
+    QColor,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QRegion,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QSplitter, QSplitterHandle
 
 from widgets.basics.key_claim import FocusRing
@@ -13,6 +22,8 @@ KEY_STEP = 16
 """Pixels by which an arrow key moves a border."""
 _GRIP = 36
 """Length of the line that shows where to take hold."""
+_REACH = 10
+"""Pixels that the grip reaches over each of the panes: the border alone is too thin to be hit."""
 
 
 class _Border(QSplitterHandle):
@@ -27,8 +38,41 @@ class _Border(QSplitterHandle):
         self.setAccessibleName("Border between panes")
         self.setToolTip("Drag, or use the arrow keys after Tab: move the border")
 
+        is_upright = direction == Qt.Orientation.Horizontal
+        # The splitter lays the handle over both panes by these margins.
+        self.setContentsMargins(*((_REACH, 0, _REACH, 0) if is_upright else (0, _REACH, 0, _REACH)))
+        self._grabbed_at = 0
+
     def _place(self) -> int:
-        return self.x() if self.orientation() == Qt.Orientation.Horizontal else self.y()
+        return _REACH + (self.x() if self.orientation() == Qt.Orientation.Horizontal else self.y())
+
+    def _along(self, point: QPoint) -> int:
+        return point.x() if self.orientation() == Qt.Orientation.Horizontal else point.y()
+
+    def _grip(self) -> QRect:
+        """Return the part in the middle that reaches over both panes: large enough to be hit."""
+        grip = QRect(0, 0, self.width(), _GRIP)
+        if self.orientation() == Qt.Orientation.Vertical:
+            grip = QRect(0, 0, _GRIP, self.height())
+        grip.moveCenter(self.rect().center())
+        return grip
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the panes all but the grip."""
+        # Not Qt's own: that one takes the margins away.
+        del event
+        self.setMask(QRegion(self.contentsRect()) | QRegion(self._grip()))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take hold of the border."""
+        super().mousePressEvent(event)
+        self._grabbed_at = self._along(event.position().toPoint()) - _REACH
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Move the border along, by the place where it was taken."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            there = self.splitter().mapFromGlobal(event.globalPosition().toPoint())
+            self.moveSplitter(self._along(there) - self._grabbed_at)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move the border."""
@@ -61,7 +105,11 @@ class _Border(QSplitterHandle):
         del event
         theme = current_theme()
         with QPainter(self) as painter:
-            painter.fillRect(self.rect(), QColor(theme.window))
+            painter.fillRect(self.contentsRect(), QColor(theme.window))
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.window))
+            painter.drawRoundedRect(self._grip(), 4, 4)
             is_upright = self.orientation() == Qt.Orientation.Horizontal
             room = self.height() if is_upright else self.width()
             length = room if self.underMouse() else min(_GRIP, room)

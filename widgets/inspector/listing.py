@@ -35,7 +35,7 @@ _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
-MOST_ROWS = 14
+MOST_ROWS = 19
 """Rows that the pane is made high for: beyond them a listing is scrolled."""
 HINT = "The algorithm of the stage appears here, with the line of each step marked."
 """What an empty pane is for."""
@@ -198,7 +198,8 @@ class ListingView(QPlainTextEdit):
         for _ in range(lines):
             rows += max(self.blockBoundingRect(block).height(), row) if block.isValid() else row
             block = block.next()
-        return math.ceil(min(rows, MOST_ROWS * row) + 2 * self.document().documentMargin())
+        # Half a row more: Qt scrolls by whole ones.
+        return math.ceil(min(rows, MOST_ROWS * row) + row / 2 + 2 * self.document().documentMargin())
 
     def margin_width(self) -> int:
         """Room for a mark and the largest line number."""

@@ -17,7 +17,7 @@ from widgets.timeline.stage_card import StageCardView
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
 """Least height of the listing, in lines, and the same while presenting: the formula goes before it."""
-DETAIL_LINES = 5
+DETAIL_LINES = 4
 """Least height of variables and history, in lines."""
 
 

@@ -1,7 +1,8 @@
 """The picture comes first: how much of the window the main view has, and what may not move it."""
 
 import pytest
-from PySide6.QtCore import QPoint
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractItemView,
@@ -175,6 +176,9 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 assert all(end.left() >= 0 and end.right() <= widget.width() for end in ends), where
             elif isinstance(widget, ListingView):
                 assert not widget.horizontalScrollBar().maximum(), where
+                lines = [widget.document().findBlockByNumber(number) for number in range(10)]
+                rows = sum(widget.blockBoundingRect(line).height() for line in lines if line.isValid())
+                assert rows <= widget.viewport().height(), (where, rows)
 
 
 LEAST_TARGET = 24
@@ -207,3 +211,17 @@ def test_everything_that_is_clicked_is_large_enough(window: MainWindow) -> None:
             else:
                 continue
             assert all(min(size.width(), size.height()) >= LEAST_TARGET for size in sides), (where, sides)
+
+
+def test_a_border_is_taken_by_a_grip_that_reaches_over_the_panes(window: MainWindow) -> None:
+    columns = window.page.columns
+    border = columns.handle(2)
+    grip = border.mask().boundingRect()
+    assert min(grip.width(), grip.height()) >= LEAST_TARGET
+    before = columns.sizes()
+    start = border.rect().center() - QPoint(10, 0)
+    QTest.mousePress(border, Qt.MouseButton.LeftButton, pos=start)
+    QTest.mouseMove(border, start - QPoint(40, 0))
+    QTest.mouseRelease(border, Qt.MouseButton.LeftButton, pos=start)
+    assert columns.sizes()[2] == before[2] + 40
+    assert columns.sizes()[1] == before[1] - 40
