@@ -69,6 +69,10 @@ class StageViews(QObject):
             raise ValueError(f"view must be one of {', '.join(self._views)}, got {name}")
         self._refresh(name)
 
+    def show_figures(self, is_shown: bool) -> None:
+        """Say what each picture of the 3D scene took, or leave it out."""
+        self._scene.corner().set_wanted(is_shown)
+
     def chosen_orbits(self) -> dict[str, Orbit]:
         """Return from where the views in space are seen that the user has turned, by their names."""
         found = {

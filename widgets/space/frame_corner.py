@@ -53,6 +53,7 @@ class FrameCorner(QAbstractButton):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._is_under_mouse = False
+        self._is_wanted = True
         self._most_width = 0
         self._menu = QMenu(self)
         self._group = QActionGroup(self)
@@ -72,7 +73,12 @@ class FrameCorner(QAbstractButton):
         if text != self.text():
             self.setText(text)
             self._fit()
-            self.setVisible(bool(text))
+            self.setVisible(bool(text) and self._is_wanted)
+
+    def set_wanted(self, is_wanted: bool) -> None:
+        """Show the figures, or leave them out."""
+        self._is_wanted = is_wanted
+        self.setVisible(bool(self.text()) and is_wanted)
 
     def show_details(self, text: str) -> None:
         """Say under the mouse how the last picture was drawn."""

@@ -56,7 +56,8 @@ class MainArea(QWidget):
         session.cursor_changed.connect(self._follow_stage)
 
     def _lay_out(self) -> None:
-        row = row_layout(spacing=4)
+        self._row = QWidget(self)
+        row = row_layout(self._row, spacing=4)
         row.addWidget(self.view_bar, 1)
         self._choices = QWidget(self)
         choices = row_layout(self._choices, spacing=4)
@@ -70,7 +71,7 @@ class MainArea(QWidget):
         self.rows.setChildrenCollapsible(False)
         self.rows.setSizes([430, 150])
         layout = column_layout(self, 4)
-        layout.addLayout(row)
+        layout.addWidget(self._row)
         layout.addWidget(self.rows, 1)
         self.setMinimumWidth(160)
         self.strip.hide()
@@ -89,8 +90,8 @@ class MainArea(QWidget):
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the row of views and buffers, or bring it back."""
-        for widget in (self.view_bar, self.range_button, self.buffer_choice, self.thumbnails_button):
-            widget.setVisible(not is_presenting)
+        self._row.setVisible(not is_presenting)
+        self._views.show_figures(not is_presenting)
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Put the control of the range below its button when it opens."""

@@ -71,6 +71,12 @@ def test_only_what_the_step_needs_is_shown_and_the_rest_comes_by_key(window: Mai
         widget.isVisible()
         for widget in (*rest.values(), window.menuBar(), window.pages.bar, page.side_tabs, page.card)
     )
+    picture = page.main_view().geometry()
+    window.session.set_stage("edges")
+    page.show_view("pixels")
+    page.settle()
+    assert not page.main_area.range_button.isVisible()
+    assert page.main_view().geometry() == picture
     for key, widget in rest.items():
         QTest.keyClick(window, key)
         assert widget.isVisible()
